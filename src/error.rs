@@ -1,0 +1,61 @@
+//! The one error type of the library: every message names the thing, its value and the way out.
+
+use std::path::PathBuf;
+
+/// What can go wrong, apart from bugs.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An argument, axis, datum or option lies outside its domain.
+    #[error("{0}")]
+    Domain(String),
+    /// A recipe does not say what it must, or says what it may not.
+    #[error("recipe: {0}")]
+    Recipe(String),
+    /// A file is not a valid atlas: truncated, inconsistent, hostile or of another version.
+    #[error("{}: {what}", path.display())]
+    Atlas {
+        /// The file that was read.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// The operating system refused to read or write.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A verdict could not be proved at the precision cap.
+    #[error(
+        "node {node} at {coordinates}: {what} is not decided at the cap of {bits} bits; move the node or drop it from the grid"
+    )]
+    Undecided {
+        /// Flat index, or `-` for a single datum.
+        node: String,
+        /// The node's coordinates.
+        coordinates: String,
+        /// The condition in question.
+        what: String,
+        /// The precision reached.
+        bits: usize,
+    },
+    /// No adapter, a lost device, a limit or a validation error on the GPU.
+    #[error("GPU: {0}")]
+    Gpu(String),
+    /// The user asked to stop.
+    #[error("interrupted; nothing was left half-written")]
+    Interrupted,
+}
+
+/// Shorthand for results of this library.
+pub type Result<T, E = Error> = std::result::Result<T, E>;
+
+impl Error {
+    pub(crate) fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Error {
+        let path = path.into();
+        move |source| Error::Io { path, source }
+    }
+}

@@ -1,0 +1,166 @@
+//! What a family is: axes, flags, counts, scalars, a fast filter, the exact truth, a shader.
+//!
+//! Adding one touches `family/<name>.rs`, `shaders/<name>.wgsl`, a recipe, tests, and the list in [`all`].
+
+pub mod cubic;
+
+use crate::error::Result;
+use crate::grid::Grid;
+
+/// The stored verdicts of one node: flags in the low byte, packed counts in the high byte.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Code(pub u16);
+
+impl Code {
+    /// Marks a node whose verdicts are not proved yet. No family uses all flags and all counts, so it cannot be a verdict.
+    pub const UNDECIDED: Code = Code(u16::MAX);
+
+    /// Packs flags and counts.
+    pub const fn new(flags: u8, counts: u8) -> Code {
+        Code((counts as u16) << 8 | flags as u16)
+    }
+
+    /// The `flags` byte of an atlas.
+    pub const fn flags(self) -> u8 {
+        self.0 as u8
+    }
+
+    /// The `solutions` byte of an atlas.
+    pub const fn counts(self) -> u8 {
+        (self.0 >> 8) as u8
+    }
+}
+
+/// One named bit of `flags`; its place in [`Family::flags`] is its bit number.
+#[derive(Debug, Clone, Copy)]
+pub struct Flag {
+    /// The bit's name in files and JSON.
+    pub name: &'static str,
+    /// The condition in one line.
+    pub doc: &'static str,
+    /// A few words for a picture's legend.
+    pub label: &'static str,
+}
+
+/// One number packed in `solutions`.
+#[derive(Debug, Clone, Copy)]
+pub struct Count {
+    /// The number's name in files and JSON.
+    pub name: &'static str,
+    /// What is counted.
+    pub doc: &'static str,
+    /// Lowest bit.
+    pub shift: u32,
+    /// Number of bits.
+    pub bits: u32,
+}
+
+impl Count {
+    /// Takes the number out of a `solutions` byte.
+    pub fn of(&self, solutions: u8) -> u8 {
+        (solutions >> self.shift) & ((1u8 << self.bits) - 1)
+    }
+}
+
+/// One optional f32 field.
+#[derive(Debug, Clone, Copy)]
+pub struct Scalar {
+    /// The field's name.
+    pub name: &'static str,
+    /// What it is, with range and unit.
+    pub doc: &'static str,
+}
+
+/// What a scalar field holds where a node has no value: NaN-free, and below every true value of every scalar.
+pub const NO_VALUE: f32 = f32::MIN;
+
+/// A set of axes that a family accepts, in grid order.
+#[derive(Debug, Clone, Copy)]
+pub struct Chart {
+    /// The chart's name, recorded in the atlas.
+    pub name: &'static str,
+    /// Axis names, slowest first.
+    pub axes: &'static [&'static str],
+    /// What the axes are, with units and conventions.
+    pub doc: &'static str,
+}
+
+/// A kind of curve or criterion with its own mathematics.
+pub trait Family: Sync {
+    /// Its name in recipes and files.
+    fn name(&self) -> &'static str;
+    /// What it answers, in one line.
+    fn title(&self) -> &'static str;
+    /// The axes it accepts.
+    fn charts(&self) -> &'static [Chart];
+    /// Frame, signs and units, for the file's metadata.
+    fn conventions(&self) -> &'static str;
+    /// The flags, bit 0 first.
+    fn flags(&self) -> &'static [Flag];
+    /// The flags that a picture shows, largest region first, each inside the one before (in general).
+    fn nested(&self) -> &'static [&'static str];
+    /// The packed counts.
+    fn counts(&self) -> &'static [Count];
+    /// The optional scalars.
+    fn scalars(&self) -> &'static [Scalar];
+    /// Checks the grid's domain and precomputes what depends on axes alone.
+    ///
+    /// # Errors
+    /// [`crate::Error::Domain`], naming the axis, when the axes are no chart of this family or leave its domain.
+    fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>>;
+}
+
+/// A family on one grid.
+pub trait Table: Sync {
+    /// The f64 step: proves the codes of the nodes from `start` on, or leaves [`Code::UNDECIDED`].
+    fn filter(&self, start: u64, out: &mut [Code]);
+
+    /// The top of the ladder: intervals of growing precision. Returns the code and the bits that were needed.
+    ///
+    /// # Errors
+    /// [`crate::Error::Undecided`] at the precision cap.
+    fn exact(&self, node: u64) -> Result<(Code, usize)>;
+
+    /// The scalars `which` (indices into [`Family::scalars`]) at a node whose code is known, each rounded to nearest f32.
+    ///
+    /// # Errors
+    /// [`crate::Error::Undecided`] at the precision cap.
+    fn scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()>;
+
+    /// The f32 step on the GPU: the assembled shader's family part.
+    #[cfg(feature = "gpu")]
+    fn shader(&self) -> Shader;
+
+    /// The f32 inputs for the nodes `start .. start + len`; the layout is the shader's own business.
+    #[cfg(feature = "gpu")]
+    fn shader_inputs(&self, start: u64, len: u64) -> ShaderInputs;
+}
+
+/// The family's part of a compute shader. It must define `fn evaluate(index: vec4<u32>) -> u32`,
+/// which returns a [`Code`] for the node with these axis indices, and may read `inputs` and `params.offsets`.
+#[cfg(feature = "gpu")]
+pub struct Shader {
+    /// Constants generated from Rust.
+    pub constants: String,
+    /// `(file name, text)` of the fragments, in order.
+    pub fragments: Vec<(&'static str, &'static str)>,
+}
+
+/// What a chunk of nodes reads on the GPU.
+#[cfg(feature = "gpu")]
+pub struct ShaderInputs {
+    /// All tables, one after another.
+    pub words: Vec<f32>,
+    /// Where each table begins, and whatever else the family wants to say.
+    pub offsets: [u32; 4],
+}
+
+/// Every family, in the order in which they are listed to users.
+pub fn all() -> &'static [&'static dyn Family] {
+    &[&cubic::Cubic]
+}
+
+/// The family of a name.
+pub fn by_name(name: &str) -> Option<&'static dyn Family> {
+    all().iter().copied().find(|f| f.name() == name)
+}

@@ -1,0 +1,215 @@
+//! Axes, grids and the flat index: defined once, here.
+
+use crate::error::{Error, Result};
+use crate::num::log_space;
+use serde::{Deserialize, Serialize};
+
+/// Most axes a grid may have; shaders get the shape as one `vec4<u32>`.
+pub const MAX_AXES: usize = 4;
+/// Most values one axis may have: indices fit `u32` with room for carries.
+pub const MAX_COUNT: usize = 1 << 24;
+/// Most nodes of a grid: byte offsets of every field fit 53 bits, so that JSON readers keep them.
+pub const MAX_NODES: u64 = 1 << 48;
+
+/// How the values of an axis are spaced.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Spacing {
+    /// `lo + (hi - lo) i / (count - 1)`, in f64 arithmetic as written in [`Axis::new`].
+    Linear {
+        /// First value.
+        lo: f64,
+        /// Last value.
+        hi: f64,
+        /// Number of values, at least 2.
+        count: usize,
+    },
+    /// `lo (hi / lo)^(i / (count - 1))`, correctly rounded, so that every machine has the same values.
+    Log {
+        /// First value, positive.
+        lo: f64,
+        /// Last value.
+        hi: f64,
+        /// Number of values, at least 2.
+        count: usize,
+    },
+    /// Values given one by one, strictly increasing.
+    Values(Vec<f64>),
+}
+
+/// A named coordinate with its values: finite f64 numbers, strictly increasing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    name: String,
+    spacing: Spacing,
+    values: Vec<f64>,
+}
+
+impl Axis {
+    /// Builds an axis from its spacing.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] when a bound is not finite, the order is not strictly increasing, the axis is empty or has
+    /// more than [`MAX_COUNT`] values, or a logarithmic axis does not start above zero.
+    pub fn new(name: &str, spacing: Spacing) -> Result<Axis> {
+        let fail = |what: String| Err(Error::Domain(format!("axis `{name}` {what}")));
+        let values = match &spacing {
+            Spacing::Linear { lo, hi, count } | Spacing::Log { lo, hi, count } => {
+                let log = matches!(spacing, Spacing::Log { .. });
+                if !(lo.is_finite() && hi.is_finite() && lo < hi) {
+                    return fail(format!("runs from {lo} to {hi}; it must be finite with lo < hi"));
+                }
+                if !(2..=MAX_COUNT).contains(count) {
+                    return fail(format!(
+                        "has count {count}; it must be 2 to {MAX_COUNT} (a single value is written `values = [..]`)"
+                    ));
+                }
+                if log && *lo <= 0.0 {
+                    return fail(format!("is logarithmic from {lo}; it must start above 0"));
+                }
+                if log { log_space(*lo, *hi, *count) } else { lin_space(*lo, *hi, *count) }
+            }
+            Spacing::Values(values) => values.clone(),
+        };
+        if values.is_empty() || values.len() > MAX_COUNT {
+            return fail(format!("has {} values; it must have 1 to {MAX_COUNT}", values.len()));
+        }
+        if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
+            return fail(format!("has the value {bad}; all must be finite"));
+        }
+        if let Some(pair) = values.windows(2).find(|w| w[0] >= w[1]) {
+            return fail(format!(
+                "has {} before {}; values must increase strictly (fewer values, or a wider range)",
+                pair[0], pair[1]
+            ));
+        }
+        Ok(Axis { name: name.to_owned(), spacing, values })
+    }
+
+    /// The axis's name, as in the papers: `phi0`, `kappa1`, ...
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// How its values were asked for.
+    pub fn spacing(&self) -> &Spacing {
+        &self.spacing
+    }
+
+    /// Its values, strictly increasing.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Index of the value nearest to `x`; of two equally near the lower one. `None` when `x` is NaN.
+    ///
+    /// Values outside the range give the end values.
+    pub fn nearest(&self, x: f64) -> Option<usize> {
+        nearest(&self.values, x)
+    }
+}
+
+/// Index of the value nearest to `x` in a non-empty increasing slice; see [`Axis::nearest`].
+pub fn nearest(values: &[f64], x: f64) -> Option<usize> {
+    if x.is_nan() {
+        return None;
+    }
+    let above = values.partition_point(|v| *v < x);
+    if above == 0 || above == values.len() {
+        return Some(above.saturating_sub(usize::from(above > 0)));
+    }
+    Some(if values[above] - x < x - values[above - 1] { above } else { above - 1 })
+}
+
+fn lin_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {
+    let last = (count - 1) as f64;
+    // Written so that both ends are exact and nothing overflows; IEEE + * / give the same bits everywhere.
+    (0..count).map(|i| if i + 1 == count { hi } else { lo + (hi / last - lo / last) * i as f64 }).collect()
+}
+
+/// A product of axes, first axis slowest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    axes: Vec<Axis>,
+}
+
+impl Grid {
+    /// Builds a grid.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for no axes, more than [`MAX_AXES`], two of one name, or more than [`MAX_NODES`] nodes.
+    pub fn new(axes: Vec<Axis>) -> Result<Grid> {
+        if axes.is_empty() || axes.len() > MAX_AXES {
+            return Err(Error::Domain(format!("a grid has {} axes; it must have 1 to {MAX_AXES}", axes.len())));
+        }
+        for (i, axis) in axes.iter().enumerate() {
+            if axes[..i].iter().any(|other| other.name == axis.name) {
+                return Err(Error::Domain(format!("axis `{}` is given twice", axis.name)));
+            }
+        }
+        let nodes = axes.iter().try_fold(1u64, |n, a| n.checked_mul(a.values.len() as u64));
+        match nodes {
+            Some(n) if n <= MAX_NODES => Ok(Grid { axes }),
+            _ => Err(Error::Domain(format!("the grid has more than {MAX_NODES} nodes; split it"))),
+        }
+    }
+
+    /// The axes, slowest first.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The counts of the axes.
+    pub fn shape(&self) -> Vec<usize> {
+        self.axes.iter().map(|a| a.values.len()).collect()
+    }
+
+    /// Number of nodes.
+    #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
+    pub fn len(&self) -> u64 {
+        self.axes.iter().map(|a| a.values.len() as u64).product()
+    }
+
+    /// Flat index of a node; `None` when an index is out of range or their number is wrong.
+    pub fn flat(&self, index: &[usize]) -> Option<u64> {
+        if index.len() != self.axes.len() {
+            return None;
+        }
+        let mut flat = 0;
+        for (i, axis) in index.iter().zip(&self.axes) {
+            if *i >= axis.values.len() {
+                return None;
+            }
+            flat = flat * axis.values.len() as u64 + *i as u64;
+        }
+        Some(flat)
+    }
+
+    /// The indices of a flat index, the inverse of [`Grid::flat`]; entries past the last axis are 0.
+    pub fn index(&self, mut flat: u64) -> [usize; MAX_AXES] {
+        let mut index = [0; MAX_AXES];
+        for (slot, axis) in index.iter_mut().zip(&self.axes).rev() {
+            let n = axis.values.len() as u64;
+            *slot = (flat % n) as usize;
+            flat /= n;
+        }
+        index
+    }
+
+    /// The coordinates of a node; entries past the last axis are 0.
+    pub fn node(&self, flat: u64) -> [f64; MAX_AXES] {
+        let index = self.index(flat);
+        let mut node = [0.0; MAX_AXES];
+        for ((slot, axis), i) in node.iter_mut().zip(&self.axes).zip(index) {
+            *slot = axis.values[i];
+        }
+        node
+    }
+
+    /// A node in words: `phi0 = 0.7, phi1 = 1.4, ...`.
+    pub fn describe(&self, flat: u64) -> String {
+        let node = self.node(flat);
+        let parts: Vec<String> = self.axes.iter().zip(node).map(|(a, x)| format!("{} = {x:?}", a.name)).collect();
+        parts.join(", ")
+    }
+}

@@ -1,0 +1,10 @@
+//! Proved atlases of spiral regions: given two end points, tangents and curvatures, is there a transition curve with
+//! monotone curvature of a given family, and which one?
+
+pub mod error;
+pub mod eval;
+pub mod family;
+pub mod grid;
+pub mod num;
+
+pub use error::{Error, Result};

@@ -1,0 +1,222 @@
+//! Intervals of any precision, on correctly rounded directed arithmetic.
+
+use dashu_float::round::mode::{Down, HalfEven, Up};
+use dashu_float::{Context, FBig, Repr};
+use std::cmp::Ordering;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A closed interval that contains the number it stands for.
+///
+/// Every operation rounds its lower end down and its upper end up at the precision of its operands
+/// (the larger of the two), so the result contains every value the operation takes on the operands.
+#[derive(Debug, Clone)]
+pub struct Interval {
+    lo: Repr<2>,
+    hi: Repr<2>,
+    bits: usize,
+}
+
+fn repr(x: f64) -> Repr<2> {
+    FBig::<HalfEven, 2>::try_from(x).expect("finite numbers only").into_repr()
+}
+
+macro_rules! directed {
+    ($bits:expr, $op:ident, $mode:ty, $($arg:expr),*) => {
+        Context::<$mode>::new($bits).$op($($arg),*).expect("finite operands in range").value().into_repr()
+    };
+}
+
+impl Interval {
+    /// The interval of one finite double, exactly.
+    ///
+    /// # Panics
+    /// When `x` is NaN or infinite.
+    pub fn new(x: f64, bits: usize) -> Interval {
+        Interval { lo: repr(x), hi: repr(x), bits }
+    }
+
+    /// From `lo` to `hi`, both finite.
+    ///
+    /// # Panics
+    /// When an end is not finite or `lo > hi`.
+    pub fn hull(lo: f64, hi: f64, bits: usize) -> Interval {
+        assert!(lo <= hi, "an interval runs upwards: {lo} to {hi}");
+        Interval { lo: repr(lo), hi: repr(hi), bits }
+    }
+
+    /// The precision its results are rounded to, in bits.
+    pub fn bits(&self) -> usize {
+        self.bits
+    }
+
+    /// `(sin x, cos x)` of a finite double.
+    pub fn sin_cos(x: f64, bits: usize) -> (Interval, Interval) {
+        let x = repr(x);
+        let (sin_lo, cos_lo) = Context::<Down>::new(bits).sin_cos(&x, None);
+        let (sin_hi, cos_hi) = Context::<Up>::new(bits).sin_cos(&x, None);
+        let end = |r: dashu_float::FpResult<FBig<Down, 2>>| r.expect("finite argument").value().into_repr();
+        let top = |r: dashu_float::FpResult<FBig<Up, 2>>| r.expect("finite argument").value().into_repr();
+        (Interval { lo: end(sin_lo), hi: top(sin_hi), bits }, Interval { lo: end(cos_lo), hi: top(cos_hi), bits })
+    }
+
+    /// The common sign of all its numbers; `None` when it holds numbers of different signs (zero and others included).
+    pub fn sign(&self) -> Option<Ordering> {
+        let zero = Repr::zero();
+        match (self.lo.cmp(&zero), self.hi.cmp(&zero)) {
+            (Ordering::Greater, _) => Some(Ordering::Greater),
+            (_, Ordering::Less) => Some(Ordering::Less),
+            (Ordering::Equal, Ordering::Equal) => Some(Ordering::Equal),
+            _ => None,
+        }
+    }
+
+    /// How `self` compares with `other`, when that is certain.
+    pub fn compare(&self, other: &Interval) -> Option<Ordering> {
+        (self - other).sign()
+    }
+
+    /// Its square.
+    pub fn square(&self) -> Interval {
+        let product = self * self;
+        if product.lo < Repr::zero() { Interval { lo: Repr::zero(), ..product } } else { product }
+    }
+
+    /// Times a double, exactly rounded outwards.
+    pub fn scale(&self, factor: f64) -> Interval {
+        self * &Interval::new(factor, self.bits)
+    }
+
+    /// Plus a double.
+    pub fn plus(&self, x: f64) -> Interval {
+        self + &Interval::new(x, self.bits)
+    }
+
+    /// The quotient; `None` when the divisor may be zero.
+    pub fn over(&self, divisor: &Interval) -> Option<Interval> {
+        if divisor.sign().is_none_or(Ordering::is_eq) {
+            return None;
+        }
+        let bits = self.bits.max(divisor.bits);
+        let ends = [(&self.lo, &divisor.lo), (&self.lo, &divisor.hi), (&self.hi, &divisor.lo), (&self.hi, &divisor.hi)];
+        let lo = ends.iter().map(|(a, b)| directed!(bits, div, Down, a, b)).min().expect("four ends");
+        let hi = ends.iter().map(|(a, b)| directed!(bits, div, Up, a, b)).max().expect("four ends");
+        Some(Interval { lo, hi, bits })
+    }
+
+    /// The square root; `None` when it may be negative.
+    pub fn sqrt(&self) -> Option<Interval> {
+        if self.lo < Repr::zero() {
+            return None;
+        }
+        let root = |x: &Repr<2>, up: bool| {
+            if x.significand().is_zero() {
+                return Repr::zero();
+            }
+            if up { directed!(self.bits, sqrt, Up, x) } else { directed!(self.bits, sqrt, Down, x) }
+        };
+        Some(Interval { lo: root(&self.lo, false), hi: root(&self.hi, true), bits: self.bits })
+    }
+
+    /// The least interval that contains both.
+    pub fn union(&self, other: &Interval) -> Interval {
+        Interval {
+            lo: self.lo.clone().min(other.lo.clone()),
+            hi: self.hi.clone().max(other.hi.clone()),
+            bits: self.bits.max(other.bits),
+        }
+    }
+
+    /// Whether the two have a number in common.
+    pub fn meets(&self, other: &Interval) -> bool {
+        self.lo <= other.hi && other.lo <= self.hi
+    }
+
+    /// The thin interval at its middle (rounded): a good guess, nothing proved.
+    pub fn middle(&self) -> Interval {
+        let sum = directed!(self.bits + 1, add, HalfEven, &self.lo, &self.hi);
+        let half = repr(0.5);
+        let mid = directed!(self.bits + 1, mul, HalfEven, &sum, &half);
+        Interval { lo: mid.clone(), hi: mid, bits: self.bits }
+    }
+
+    /// The thin interval at its lower end.
+    pub fn lower(&self) -> Interval {
+        Interval { lo: self.lo.clone(), hi: self.lo.clone(), bits: self.bits }
+    }
+
+    /// The thin interval at its upper end.
+    pub fn upper(&self) -> Interval {
+        Interval { lo: self.hi.clone(), hi: self.hi.clone(), bits: self.bits }
+    }
+
+    /// The nearest double of the number it stands for, when that is certain.
+    pub fn to_f64(&self) -> Option<f64> {
+        let (lo, hi) = (self.lo.to_f64().value(), self.hi.to_f64().value());
+        (lo == hi).then_some(lo)
+    }
+
+    /// The nearest single of the number it stands for, when that is certain.
+    pub fn to_f32(&self) -> Option<f32> {
+        let (lo, hi) = (self.lo.to_f32().value(), self.hi.to_f32().value());
+        (lo == hi).then_some(lo)
+    }
+
+    /// The double nearest to its middle: a guess.
+    pub fn approx(&self) -> f64 {
+        self.middle().lo.to_f64().value()
+    }
+}
+
+impl Add for &Interval {
+    type Output = Interval;
+    fn add(self, other: &Interval) -> Interval {
+        let bits = self.bits.max(other.bits);
+        Interval { lo: directed!(bits, add, Down, &self.lo, &other.lo), hi: directed!(bits, add, Up, &self.hi, &other.hi), bits }
+    }
+}
+
+impl Sub for &Interval {
+    type Output = Interval;
+    fn sub(self, other: &Interval) -> Interval {
+        let bits = self.bits.max(other.bits);
+        Interval { lo: directed!(bits, sub, Down, &self.lo, &other.hi), hi: directed!(bits, sub, Up, &self.hi, &other.lo), bits }
+    }
+}
+
+impl Mul for &Interval {
+    type Output = Interval;
+    fn mul(self, other: &Interval) -> Interval {
+        let bits = self.bits.max(other.bits);
+        let zero = Repr::zero();
+        if self.lo >= zero && other.lo >= zero {
+            return Interval {
+                lo: directed!(bits, mul, Down, &self.lo, &other.lo),
+                hi: directed!(bits, mul, Up, &self.hi, &other.hi),
+                bits,
+            };
+        }
+        let ends = [(&self.lo, &other.lo), (&self.lo, &other.hi), (&self.hi, &other.lo), (&self.hi, &other.hi)];
+        let lo = ends.iter().map(|(a, b)| directed!(bits, mul, Down, a, b)).min().expect("four ends");
+        let hi = ends.iter().map(|(a, b)| directed!(bits, mul, Up, a, b)).max().expect("four ends");
+        Interval { lo, hi, bits }
+    }
+}
+
+impl Neg for &Interval {
+    type Output = Interval;
+    fn neg(self) -> Interval {
+        Interval { lo: -self.hi.clone(), hi: -self.lo.clone(), bits: self.bits }
+    }
+}
+
+/// `lo (hi / lo)^(i / last)` rounded once from 192 bits; positive `lo`.
+///
+/// Integer arithmetic throughout, so the same double on every machine; within 1/2 ulp and 2^-100 of the true value.
+pub(super) fn log_interpolate(lo: f64, hi: f64, i: usize, last: usize) -> f64 {
+    let context = Context::<HalfEven>::new(192);
+    let number = |x: f64| FBig::<HalfEven, 2>::from_repr(repr(x), context);
+    let weight = number(i as f64) / number(last as f64);
+    let (a, b) = (number(lo).ln(), number(hi).ln());
+    let ln = &a + (b - &a) * weight;
+    ln.exp().to_f64().value()
+}
