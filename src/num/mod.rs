@@ -1,8 +1,12 @@
 //! What the proofs rest on: intervals of any precision, certified elementary functions, Bernstein sign tests.
 
+pub mod bernstein;
 mod interval;
+mod number;
+pub mod trig;
 
 pub use interval::Interval;
+pub use number::{Lanes, Number};
 
 /// `lo (hi / lo)^(i / (count - 1))`, the ends exact; the same doubles on every machine.
 pub(crate) fn log_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {
