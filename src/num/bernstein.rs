@@ -65,7 +65,8 @@ pub fn positive<N: Certain>(c: &Quintic<N>, error: f64, rounding: f64, depth: u3
     if c.iter().all(|v| v.certain_sign(error) == Some(Ordering::Greater)) {
         return Some(true);
     }
-    if depth == 0 {
+    // Where nothing is certain, halving cannot help; this also keeps the recursion from branching at a tie.
+    if depth == 0 || c.iter().all(|v| v.certain_sign(error).is_none()) {
         return None;
     }
     let (left, right) = halve(c);
@@ -78,5 +79,153 @@ pub fn positive<N: Certain>(c: &Quintic<N>, error: f64, rounding: f64, depth: u3
             Some(false) => Some(false),
             _ => None,
         },
+    }
+}
+
+/// The least value on [0, 1] and where it is taken, for coefficients taken as exact: `(value, t)`.
+///
+/// Branch and bound by halving: a piece is dropped when its lowest coefficient is not below the best value found by more than
+/// 2^-50 of the largest coefficient.
+///
+/// # Accuracy
+/// The value is at most `(5 · 64 + 8) 2^-53` of the largest coefficient from the least value: 5 units for each of up to 64
+/// halvings, 8 units for the tolerance.
+pub fn least(c: &Quintic<f64>) -> (f64, f64) {
+    const DEPTH: u32 = 64;
+    let tolerance = c.iter().fold(0.0f64, |m, v| m.max(v.abs())) * 2f64.powi(-50);
+    let mut best = if c[0] <= c[5] { (c[0], 0.0) } else { (c[5], 1.0) };
+    // Depth first: at most one waiting piece a level.
+    let mut waiting = [(*c, 0.0, 1.0, 0); DEPTH as usize + 2];
+    let mut count = 1;
+    while count > 0 {
+        count -= 1;
+        let (piece, from, width, depth) = waiting[count];
+        let lowest = piece.iter().fold(f64::INFINITY, |m, v| m.min(*v));
+        if depth == DEPTH || lowest >= best.0 - tolerance {
+            continue;
+        }
+        let (left, right) = halve(&piece);
+        let (middle, width) = (from + 0.5 * width, 0.5 * width);
+        if right[0] < best.0 {
+            best = (right[0], middle);
+        }
+        waiting[count] = (left, from, width, depth + 1);
+        waiting[count + 1] = (right, middle, width, depth + 1);
+        count += 2;
+    }
+    best
+}
+
+/// Error of [`least`] for coefficients that may each be off by `error`.
+pub fn least_error(c: &Quintic<f64>, error: f64) -> f64 {
+    let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs())) + error;
+    error + 340.0 * (0.5 * f64::EPSILON) * largest
+}
+
+/// The least value on [0, 1] of a quintic with interval coefficients, as an interval; `None` at too low a precision.
+///
+/// `guess` is where the least value is thought to be taken. Newton's method sharpens it; the value there bounds the least
+/// value from above, and [`positive`] proves that the quintic stays above that value less 2^-(bits/3) of its size.
+pub fn least_interval(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
+    let bits = c[0].bits();
+    let mut t = Interval::new(guess, bits);
+    let mut value = at(c, &t)[0].clone();
+    for _ in 0..bits.ilog2() {
+        let [_, slope, bend] = at(c, &t);
+        let Some(next) = slope.over(&bend).map(|step| (&t - &step).middle()) else { break };
+        let inside = next.sign() == Some(Ordering::Greater) && next.plus(-1.0).sign() == Some(Ordering::Less);
+        if !inside {
+            break;
+        }
+        let here = at(c, &next)[0].clone();
+        if here.compare(&value) == Some(Ordering::Greater) {
+            break;
+        }
+        (t, value) = (next, here);
+    }
+    for end in [&c[0], &c[5]] {
+        if end.compare(&value) == Some(Ordering::Less) {
+            value = end.clone();
+        }
+    }
+    let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.union(&-v).upper());
+    let slack = &size * &Interval::power_of_two(-(bits as isize) / 3, bits);
+    let floor = &value.lower() - &slack;
+    let shifted = c.clone().map(|v| &v - &floor);
+    (positive(&shifted, 0.0, 0.0, bits as u32) == Some(true)).then(|| floor.union(&value))
+}
+
+/// Value, first and second derivative at `t` (de Casteljau).
+fn at(c: &Quintic<Interval>, t: &Interval) -> [Interval; 3] {
+    let mut row: Vec<Interval> = c.to_vec();
+    let (mut slope, mut bend) = (row[0].clone(), row[0].clone());
+    while row.len() > 1 {
+        match row.len() {
+            3 => bend = (&(&row[2] - &row[1]) - &(&row[1] - &row[0])).scale(20.0),
+            2 => slope = (&row[1] - &row[0]).scale(5.0),
+            _ => {}
+        }
+        row = row.windows(2).map(|w| &w[0] + &(t * &(&w[1] - &w[0]))).collect();
+    }
+    [row[0].clone(), slope, bend]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(c: &Quintic<f64>, t: f64) -> f64 {
+        let mut row = c.to_vec();
+        while row.len() > 1 {
+            row = row.windows(2).map(|w| w[0] + t * (w[1] - w[0])).collect();
+        }
+        row[0]
+    }
+
+    /// Bernstein coefficients of `(t - z)² + height` raised to degree 5.
+    fn parabola(z: f64, height: f64) -> Quintic<f64> {
+        let (b0, b1, b2) = (z * z + height, z * z - z + height, (1.0 - z) * (1.0 - z) + height);
+        let raise = |i: f64| ((5.0 - i) * (4.0 - i) * b0 + 2.0 * i * (5.0 - i) * b1 + i * (i - 1.0) * b2) / 20.0;
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(raise)
+    }
+
+    #[test]
+    fn halves_are_the_same_quintic() {
+        let c = [1.0, -2.0, 3.0, 0.5, -1.0, 4.0];
+        let (left, right) = halve(&c);
+        for i in 0..=10 {
+            let t = f64::from(i) / 10.0;
+            assert!((value(&left, t) - value(&c, t / 2.0)).abs() < 1e-14);
+            assert!((value(&right, t) - value(&c, 0.5 + t / 2.0)).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn sign_is_right_or_withheld_close_to_tangency() {
+        for z in [0.0, 1e-3, 0.3, 0.5, 0.7654321, 1.0] {
+            for exponent in 1..15 {
+                let height = 10f64.powi(-exponent);
+                // The tie itself and anything within the error must be withheld; clear cases must be decided.
+                for (height, truth) in [(height, true), (-height, false)] {
+                    let verdict = positive(&parabola(z, height), 1e-15, 1e-15, 24);
+                    assert!(verdict.is_none_or(|v| v == truth), "z {z} height {height}");
+                    assert!(exponent > 12 || verdict == Some(truth), "z {z} height {height} is undecided");
+                }
+            }
+            assert_eq!(positive(&parabola(z, 0.0), 1e-15, 1e-15, 24), None, "a tie at {z}");
+        }
+    }
+
+    #[test]
+    fn least_values_agree_in_doubles_and_intervals() {
+        for z in [0.0, 0.1, 0.5, 0.7654321, 1.0] {
+            for height in [1.0, 1e-6, 0.0, -0.25] {
+                let c = parabola(z, height);
+                let (least, t) = least(&c);
+                assert!((least - height).abs() <= least_error(&c, 1e-15), "{z} {height}: {least}");
+                let exact = least_interval(&c.map(|v| Interval::new(v, 192)), t).expect("enough bits");
+                assert!((exact.approx() - least).abs() <= least_error(&c, 0.0), "{z} {height}");
+            }
+        }
     }
 }

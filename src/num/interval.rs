@@ -1,7 +1,8 @@
 //! Intervals of any precision, on correctly rounded directed arithmetic.
 
 use dashu_float::round::mode::{Down, HalfEven, Up};
-use dashu_float::{Context, FBig, Repr};
+use dashu_float::{ConstCache, Context, FBig, FpResult, Repr};
+use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -35,13 +36,10 @@ impl Interval {
         Interval { lo: repr(x), hi: repr(x), bits }
     }
 
-    /// From `lo` to `hi`, both finite.
-    ///
-    /// # Panics
-    /// When an end is not finite or `lo > hi`.
-    pub fn hull(lo: f64, hi: f64, bits: usize) -> Interval {
-        assert!(lo <= hi, "an interval runs upwards: {lo} to {hi}");
-        Interval { lo: repr(lo), hi: repr(hi), bits }
+    /// 2 to any power, exactly.
+    pub fn power_of_two(exponent: isize, bits: usize) -> Interval {
+        let power = Repr::new(1.into(), exponent);
+        Interval { lo: power.clone(), hi: power, bits }
     }
 
     /// The precision its results are rounded to, in bits.
@@ -51,12 +49,20 @@ impl Interval {
 
     /// `(sin x, cos x)` of a finite double.
     pub fn sin_cos(x: f64, bits: usize) -> (Interval, Interval) {
-        let x = repr(x);
-        let (sin_lo, cos_lo) = Context::<Down>::new(bits).sin_cos(&x, None);
-        let (sin_hi, cos_hi) = Context::<Up>::new(bits).sin_cos(&x, None);
-        let end = |r: dashu_float::FpResult<FBig<Down, 2>>| r.expect("finite argument").value().into_repr();
-        let top = |r: dashu_float::FpResult<FBig<Up, 2>>| r.expect("finite argument").value().into_repr();
-        (Interval { lo: end(sin_lo), hi: top(sin_hi), bits }, Interval { lo: end(cos_lo), hi: top(cos_hi), bits })
+        thread_local!(static CONSTANTS: RefCell<ConstCache> = RefCell::new(ConstCache::new()));
+        let (sin, cos) = CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).sin_cos(&repr(x), Some(cache)));
+        let around = |rounded: FpResult<FBig<HalfEven, 2>>| {
+            let nearest = rounded.expect("finite argument").value().into_repr();
+            Interval { lo: nearest.clone(), hi: nearest, bits }.widened()
+        };
+        (around(sin), around(cos))
+    }
+
+    /// Larger by more than one unit in the last place at both ends: around a correctly rounded number, contains the true one.
+    fn widened(&self) -> Interval {
+        let slack = self * &Interval::power_of_two(1 - self.bits as isize, self.bits);
+        let slack = slack.union(&-&slack);
+        self + &slack
     }
 
     /// The common sign of all its numbers; `None` when it holds numbers of different signs (zero and others included).
@@ -97,10 +103,18 @@ impl Interval {
             return None;
         }
         let bits = self.bits.max(divisor.bits);
-        let ends = [(&self.lo, &divisor.lo), (&self.lo, &divisor.hi), (&self.hi, &divisor.lo), (&self.hi, &divisor.hi)];
-        let lo = ends.iter().map(|(a, b)| directed!(bits, div, Down, a, b)).min().expect("four ends");
-        let hi = ends.iter().map(|(a, b)| directed!(bits, div, Up, a, b)).max().expect("four ends");
-        Some(Interval { lo, hi, bits })
+        if divisor.hi < Repr::zero() {
+            return (-self).over(&-divisor);
+        }
+        let zero = Repr::zero();
+        // By a positive divisor: each end is farthest from or nearest to zero, as its sign says.
+        let low_by = if self.lo < zero { &divisor.lo } else { &divisor.hi };
+        let high_by = if self.hi < zero { &divisor.hi } else { &divisor.lo };
+        Some(Interval {
+            lo: directed!(bits, div, Down, &self.lo, low_by),
+            hi: directed!(bits, div, Up, &self.hi, high_by),
+            bits,
+        })
     }
 
     /// The square root; `None` when it may be negative.

@@ -1,10 +1,15 @@
 //! Cubic Bézier spirals matching G² Hermite data (Habib & Sakai).
 
+mod exact;
+mod filter;
+mod pair;
+mod poly;
 mod solve;
+mod table;
 
 pub use solve::{Datum, Root, Solutions, solve};
 
-use super::{Chart, Count, Family, Flag, Scalar, Table};
+use super::{Chart, Code, Count, Family, Flag, Scalar, Table};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -100,7 +105,7 @@ impl Family for Cubic {
     fn scalars(&self) -> &'static [Scalar] {
         SCALARS
     }
-    fn table<'g>(&self, _grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
-        Err(crate::Error::Domain("not yet".into()))
+    fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
+        Ok(Box::new(table::CubicTable::new(grid)?))
     }
 }

@@ -1,0 +1,331 @@
+//! The top of the ladder: the truth of one datum in intervals of growing precision.
+
+use super::poly::side;
+use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
+use crate::error::{Error, Result};
+use crate::num::bernstein::{Quintic, positive};
+use crate::num::{Interval, Number};
+use std::cmp::Ordering::{self, Equal, Greater, Less};
+
+/// Precision of the first try, in bits.
+const FIRST_BITS: usize = 128;
+/// Documented cap: a verdict still open here is an error. Sums of the tiniest and the largest doubles need some 4000 bits.
+pub const MOST_BITS: usize = 16384;
+
+/// A datum in one of the two charts, its numbers taken as exact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExactDatum {
+    /// Start angle.
+    pub phi0: f64,
+    /// End angle.
+    pub phi1: f64,
+    /// κ0, κ1, or the normalised a, k.
+    pub ends: Ends,
+}
+
+/// The two curvature coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ends {
+    /// κ0, κ1.
+    Curvature(f64, f64),
+    /// a, k.
+    Normalised(f64, f64),
+}
+
+/// The constants of a pair of angles, as in [`super::pair::Pair`].
+pub(super) struct Angles {
+    pub p: Interval,
+    pub r: Interval,
+    pub g0: Interval,
+    pub g1: Interval,
+    pub sin0: Interval,
+    pub sin1: Interval,
+    pub sin2_half: Interval,
+}
+
+impl Angles {
+    pub fn new(phi0: f64, phi1: f64, bits: usize) -> Option<Angles> {
+        let ((sin0, cos0), (sin1, cos1)) = (Interval::sin_cos(phi0, bits), Interval::sin_cos(phi1, bits));
+        let (sc, cs) = (&sin0 * &cos1, &cos0 * &sin1);
+        let sum = &sc + &cs;
+        // sin²(δ/2) = (1 - cos δ)/2
+        let cos_difference = &(&cos0 * &cos1) + &(&sin0 * &sin1);
+        Some(Angles {
+            p: sc.over(&sum)?,
+            r: cs.over(&sum)?,
+            g0: sin0.over(&sum)?.square(),
+            g1: sin1.over(&sum)?.square(),
+            sin2_half: cos_difference.scale(-1.0).plus(1.0).scale(0.5),
+            sin0,
+            sin1,
+        })
+    }
+}
+
+/// One root of the two parabolas with everything proved of it.
+#[derive(Debug, Clone)]
+pub(super) struct ExactRoot {
+    pub x: Interval,
+    pub y: Interval,
+    pub theorem: bool,
+    pub spiral: bool,
+    pub quintic: Quintic<Interval>,
+}
+
+/// Everything proved of a datum.
+#[derive(Debug, Clone)]
+pub(super) struct Truth {
+    pub code: Code,
+    pub roots: Vec<ExactRoot>,
+}
+
+/// Proves all verdicts, raising the precision until they are decided; returns the bits that were needed.
+///
+/// # Errors
+/// [`Error::Undecided`] at [`MOST_BITS`].
+pub(super) fn truth(datum: &ExactDatum) -> Result<(Truth, usize)> {
+    climb(datum, "a verdict", |bits| at_precision(datum, bits))
+}
+
+/// Runs `attempt` with doubling precision until it succeeds.
+pub(super) fn climb<T>(datum: &ExactDatum, what: &str, attempt: impl Fn(usize) -> Option<T>) -> Result<(T, usize)> {
+    let mut bits = FIRST_BITS;
+    while bits <= MOST_BITS {
+        if let Some(found) = attempt(bits) {
+            return Ok((found, bits));
+        }
+        bits *= 2;
+    }
+    Err(Error::Undecided { node: "-".into(), coordinates: format!("{datum:?}"), what: what.into(), bits: MOST_BITS })
+}
+
+/// One attempt: `None` when something is undecided at this precision.
+pub(super) fn at_precision(datum: &ExactDatum, bits: usize) -> Option<Truth> {
+    let angles = Angles::new(datum.phi0, datum.phi1, bits)?;
+    let number = |x: f64| Interval::new(x, bits);
+    let (scale0, scale1) = (angles.g1.over(&angles.sin0)?, angles.g0.over(&angles.sin1)?);
+    let (a, k, kappa0, kappa1) = match datum.ends {
+        Ends::Curvature(kappa0, kappa1) => (scale0.scale(kappa0), scale1.scale(kappa1), number(kappa0), number(kappa1)),
+        Ends::Normalised(a, k) => (number(a), number(k), number(a).over(&scale0)?, number(k).over(&scale1)?),
+    };
+    let any = datum.phi0 < datum.phi1 && any_spiral(&angles, &kappa0, &kappa1)?;
+    let (solvable, parabolas) = match a.sign()? == Greater && k.sign()? == Greater {
+        true => isolate(&a, &k)?,
+        false => (false, Vec::new()),
+    };
+    let mut roots = Vec::new();
+    for (x, y) in parabolas {
+        roots.push(judge(&angles, x, y, any)?);
+    }
+    let mut flags = if solvable { SOLVABLE } else { 0 };
+    let mut set = |condition: bool, flag: u8| flags |= if condition { flag } else { 0 };
+    set(any, ANY_SPIRAL);
+    set(solvable && roots.first().is_some_and(|r| r.theorem), THEOREM31);
+    set(roots.iter().any(|r| r.theorem), THEOREM31_ANY);
+    set(roots.iter().any(|r| r.spiral), SPIRAL);
+    let spirals = roots.iter().filter(|r| r.spiral).count();
+    let code = Code::new(flags, (roots.len() | spirals << 2) as u8);
+    Some(Truth { code, roots })
+}
+
+/// `κ0 < sin φ0` and `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1-φ0)/2)`; Q < 0 with φ0 < φ1 and κ0 < κ1 comes to the same.
+fn any_spiral(angles: &Angles, kappa0: &Interval, kappa1: &Interval) -> Option<bool> {
+    let (room0, room1) = (&angles.sin0 - kappa0, kappa1 - &angles.sin1);
+    if room0.sign()? != Greater || room1.sign()? != Greater {
+        return Some(false);
+    }
+    Some((&room0 * &room1).compare(&angles.sin2_half)? == Greater)
+}
+
+/// F and y at x.
+fn residual(a: &Interval, k: &Interval, x: &Interval) -> (Interval, Interval) {
+    let y = (a * &x.square()).scale(-1.0).plus(3.0);
+    ((k * &y.square()).scale(-1.0).plus(3.0).sub(x), y)
+}
+
+/// F' = 4akxy - 1.
+fn slope(a: &Interval, k: &Interval, x: &Interval) -> Interval {
+    let (_, y) = residual(a, k, x);
+    (&(a * k) * &(x * &y)).scale(4.0).plus(-1.0)
+}
+
+/// SOLVABLE, and all roots in the box as intervals around x and y, by increasing x.
+fn isolate(a: &Interval, k: &Interval) -> Option<(bool, Vec<(Interval, Interval)>)> {
+    let bits = a.bits();
+    let ak = a * k;
+    let discriminant = (&ak * &(&ak.scale(768.0) - &(a + k).scale(256.0)).plus(96.0)).plus(-1.0);
+    let third = |v: &Interval| v.scale(3.0).plus(-1.0).sign();
+    let (k_above, a_above) = (third(k)? == Greater, third(a)? == Greater);
+    // Above 1/3 both, one of the two positive roots lies in the box and the other beyond: they differ.
+    let sign = if k_above && a_above { Greater } else { discriminant.sign()? };
+    let solvable = k_above && sign != Less;
+    let (zero, three) = (Interval::new(0.0, bits), Interval::new(3.0, bits));
+    if sign == Equal {
+        return Some((solvable, double_roots(a, k, k_above || a_above)?));
+    }
+    let brackets = match (k_above || a_above, sign) {
+        (true, Less) => Vec::new(),
+        (false, Less) => vec![(zero, three)],
+        _ => {
+            // The turning points of F part its positive roots; F' rises to 1/√a and falls after.
+            let bend = Interval::new(1.0, bits).over(&a.sqrt()?)?.middle();
+            let last = Interval::new(3.0, bits).over(a)?.sqrt()?.middle();
+            let turn = |from: &Interval, to: &Interval| bracketed(from, to, |x| (slope(a, k, x), curvature(a, k, x)));
+            let (low, high) = (turn(&zero, &bend)?, turn(&bend, &last)?);
+            let (left, middle, right) = ((zero, low.clone()), (low, high.clone()), (high, three));
+            match (k_above, a_above) {
+                (true, true) => vec![middle],
+                (true, false) => vec![middle, right],
+                (false, true) => vec![left, middle],
+                (false, false) => vec![left, middle, right],
+            }
+        }
+    };
+    let mut roots: Vec<(Interval, Interval)> = Vec::new();
+    for (from, to) in brackets {
+        let root = enclose(a, k, &bracketed(&from, &to, |x| (residual(a, k, x).0, slope(a, k, x)))?)?;
+        if let Some((before, _)) = roots.last() {
+            if before.compare(&root.0)? != Less {
+                return None;
+            }
+        }
+        roots.push(root);
+    }
+    Some((solvable, roots))
+}
+
+/// F'' = 12ak(1 - ax²).
+fn curvature(a: &Interval, k: &Interval, x: &Interval) -> Interval {
+    &(a * k).scale(12.0) * &(a * &x.square()).scale(-1.0).plus(1.0)
+}
+
+/// A guess at the zero of `f` between two thin intervals: Newton's method kept inside the bracket.
+///
+/// `None` when F has no certain, opposite signs at the ends.
+fn bracketed(from: &Interval, to: &Interval, f: impl Fn(&Interval) -> (Interval, Interval)) -> Option<Interval> {
+    let (mut low, mut high) = (from.clone(), to.clone());
+    let side = f(&low).0.sign()?;
+    if side == Equal || f(&high).0.sign()? != side.reverse() {
+        return None;
+    }
+    let bits = low.bits();
+    let tiny = Interval::power_of_two(-(bits as isize), bits);
+    let mut x = (&low + &high).scale(0.5).middle();
+    for _ in 0..4 * bits {
+        let (value, slope) = f(&x);
+        let Some(sign) = value.sign() else { break };
+        if sign == Equal {
+            break;
+        }
+        if sign == side { low = x.clone() } else { high = x.clone() }
+        let newton = value.over(&slope).map(|step| (&x - &step).middle());
+        let inside = |n: &Interval| n.compare(&low) == Some(Greater) && n.compare(&high) == Some(Less);
+        let next = newton.filter(inside).unwrap_or_else(|| (&low + &high).scale(0.5).middle());
+        let step = &next - &x;
+        x = next;
+        let limit = &x * &tiny;
+        if step.compare(&limit) != Some(Greater) && (-&step).compare(&limit) != Some(Greater) {
+            break;
+        }
+    }
+    Some(x)
+}
+
+/// Proves a root around a guess: opposite certain signs of F at `x - δ` and `x + δ`, with the least δ that works.
+fn enclose(a: &Interval, k: &Interval, guess: &Interval) -> Option<(Interval, Interval)> {
+    let bits = guess.bits();
+    let mut exponent = -(bits as isize) + 12;
+    while exponent < -(bits as isize) / 4 {
+        let delta = guess * &Interval::power_of_two(exponent, bits);
+        let (low, high) = ((guess - &delta).lower(), (guess + &delta).upper());
+        let ((f_low, _), (f_high, y_high)) = (residual(a, k, &low), residual(a, k, &high));
+        if let (Some(l), Some(h)) = (f_low.sign(), f_high.sign()) {
+            if l != Equal && h == l.reverse() {
+                let inside = low.sign()? == Greater && y_high.sign()? == Greater;
+                let x = low.union(&high);
+                let y = residual(a, k, &x).1;
+                return inside.then_some((x, y));
+            }
+        }
+        exponent += 10 + (bits / 64) as isize;
+    }
+    None
+}
+
+/// The roots where the discriminant is exactly 0: a double root, and a simple one where neither a nor k exceeds 1/3.
+///
+/// At a double root F = F' = 0, that is `a x² - 4a x + 1 = 0`: `x = 2 ± √(4 - 1/a)`. The four roots of F sum to 0 and
+/// multiply to `(9k - 3)/(k a²)`, which gives the other positive one.
+fn double_roots(a: &Interval, k: &Interval, alone: bool) -> Option<Vec<(Interval, Interval)>> {
+    let bits = a.bits();
+    let offset = Interval::new(1.0, bits).over(a)?.scale(-1.0).plus(4.0);
+    let offset = if offset.sign()? == Equal { offset } else { offset.sqrt()? };
+    let candidates = [offset.scale(-1.0).plus(2.0), offset.plus(2.0)];
+    // The wrong sign is no root: F must not contain 0 there.
+    let mut real = candidates.into_iter().filter(|x| residual(a, k, x).0.sign().is_none_or(Ordering::is_eq));
+    let x = real.next()?;
+    if real.next().is_some() && offset.sign()? != Equal {
+        return None;
+    }
+    let with_y = |x: Interval| {
+        let y = residual(a, k, &x).1;
+        (x.sign()? == Greater && y.sign()? == Greater).then_some((x, y))
+    };
+    if alone || offset.sign()? == Equal {
+        return Some(vec![with_y(x)?]);
+    }
+    let product = k.scale(9.0).plus(-3.0).over(&(&(k * &a.square()) * &x.square()))?;
+    let other = &(&x.square() - &product).sqrt()? - &x;
+    let mut both = vec![with_y(x)?, with_y(other)?];
+    match both[0].0.compare(&both[1].0)? {
+        Greater => both.swap(0, 1),
+        Equal => return None,
+        Less => {}
+    }
+    Some(both)
+}
+
+/// Decides Theorem 3.1 and monotone curvature at one root; `any` is whether any spiral exists at all.
+fn judge(angles: &Angles, x: Interval, y: Interval, any: bool) -> Option<ExactRoot> {
+    let start = side(&x, &y, &angles.p, &angles.g0, &angles.r);
+    let end = side(&y, &x, &angles.r, &angles.g1, &angles.p).map(|v| -&v);
+    let x_or_y = [(&start, &y), (&end, &x)];
+    let quintic = [
+        (&y.square() * &start[0]).scale(5.0),
+        &y * &start[1],
+        &y * &start[2],
+        &x * &end[2],
+        &x * &end[1],
+        (&x.square() * &end[0]).scale(5.0),
+    ];
+    let theorem = any && three_valued(x_or_y.iter().map(|(b, w)| half_theorem(b, w)))?;
+    let spiral = theorem || any && positive(&quintic, 0.0, 0.0, x.bits() as u32)?;
+    Some(ExactRoot { x, y, theorem, spiral, quintic })
+}
+
+/// Whether all hold: `Some(false)` as soon as one certainly does not.
+fn three_valued(conditions: impl Iterator<Item = Option<bool>>) -> Option<bool> {
+    let mut all = Some(true);
+    for condition in conditions {
+        match condition {
+            Some(false) => return Some(false),
+            None => all = None,
+            Some(true) => {}
+        }
+    }
+    all
+}
+
+/// One half of Theorem 3.1; see `filter::half_theorem`. Exact zeros count as holding, as in the paper.
+fn half_theorem(b: &[Interval; 3], w: &Interval) -> Option<bool> {
+    let not_negative = |v: &Interval| v.sign().map(|s| s != Less);
+    let root = || {
+        let over = &(&(&b[0] * &b[2]) * w).scale(8.0) - &b[1].square();
+        match (not_negative(&b[1]), not_negative(&over)) {
+            (Some(true), _) | (_, Some(true)) => Some(true),
+            (Some(false), Some(false)) => Some(false),
+            _ => None,
+        }
+    };
+    three_valued([not_negative(&b[0]), not_negative(&b[2]), root()].into_iter())
+}

@@ -1,0 +1,103 @@
+//! What depends on the two tangent angles alone.
+
+use crate::num::trig::{cos, sin, sin_of_sum};
+use std::f64::consts::PI;
+
+/// Relative error of every constant of a [`Pair`], in units of 2^-53.
+///
+/// The worst is `curve0 = (sin φ1 / S)² / sin φ0`: two sines of 10 units and a division, twice, then a sine of 10
+/// and two roundings: 2 · 21 + 1 + 10 + 1 = 54. A product with a curvature adds 1.
+pub const PAIR_ERROR: f64 = 64.0;
+
+/// The constants of a pair of tangent angles; see [`super::poly`] for p, r, g0, g1.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair {
+    /// sin φ0 cos φ1 / S; negative beyond φ1 = π/2.
+    pub p: f64,
+    /// cos φ0 sin φ1 / S.
+    pub r: f64,
+    /// (sin φ0 / S)².
+    pub g0: f64,
+    /// (sin φ1 / S)².
+    pub g1: f64,
+    /// a / κ0 = g1 / sin φ0.
+    pub curve0: f64,
+    /// k / κ1 = g0 / sin φ1.
+    pub curve1: f64,
+    /// sin φ0.
+    pub sin0: f64,
+    /// sin φ1.
+    pub sin1: f64,
+    /// sin²((φ1 - φ0)/2); 0 unless φ0 < φ1.
+    pub sin2_half: f64,
+    /// φ0 < φ1: without it no spiral of increasing curvature exists.
+    pub rising: bool,
+}
+
+/// Smallest sine a pair may have for the f64 step: with it no constant leaves 2^±200.
+const LEAST_SINE: f64 = 1.0 / ((1u64 << 50) as f64);
+
+impl Pair {
+    /// The constants of `0 < φ0`, `0 < φ1`, `φ0 + φ1 < π`, or `None` where a sine is under 2^-50 or the sum so close to π
+    /// that it rounds to π: such pairs are left to intervals.
+    pub fn new(phi0: f64, phi1: f64) -> Option<Pair> {
+        if phi0 + phi1 >= PI {
+            return None;
+        }
+        let (sin0, sin1, sum) = (sin(phi0), sin(phi1), sin_of_sum(phi0, phi1));
+        if !(sin0 >= LEAST_SINE && sin1 >= LEAST_SINE && sum >= LEAST_SINE) {
+            return None;
+        }
+        let square = |x: f64| x * x;
+        let (g0, g1) = (square(sin0 / sum), square(sin1 / sum));
+        let rising = phi0 < phi1;
+        Some(Pair {
+            p: sin0 * cos(phi1) / sum,
+            r: cos(phi0) * sin1 / sum,
+            g0,
+            g1,
+            curve0: g1 / sin0,
+            curve1: g0 / sin1,
+            sin0,
+            sin1,
+            // The difference of two doubles is off by at most one rounding, relative; halving is exact.
+            sin2_half: if rising { square(sin(0.5 * (phi1 - phi0))) } else { 0.0 },
+            rising,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Interval;
+
+    #[test]
+    fn constants_keep_their_bound() {
+        let mut worst: f64 = 0.0;
+        let mut compared = 0;
+        let angles = [1e-12, 1e-3, 0.1, 0.3, 0.7, 0.7000000001, 0.8, 0.9, 1.4, 1.5, 1.570796, std::f64::consts::FRAC_PI_2, 1.6, 2.2, 3.0, 3.14];
+        for phi0 in angles {
+            for phi1 in angles {
+                let Some(pair) = Pair::new(phi0, phi1) else { continue };
+                let truth = super::super::exact::Angles::new(phi0, phi1, 320).expect("enough bits");
+                let values = [pair.p, pair.r, pair.g0, pair.g1, pair.sin0, pair.sin1];
+                let truths = [&truth.p, &truth.r, &truth.g0, &truth.g1, &truth.sin0, &truth.sin1];
+                for (value, truth) in values.into_iter().zip(truths) {
+                    worst = worst.max(units(value, truth));
+                }
+                if pair.rising {
+                    worst = worst.max(units(pair.sin2_half, &truth.sin2_half));
+                }
+                worst = worst.max(units(pair.curve0, &truth.g1.over(&truth.sin0).expect("positive")));
+                worst = worst.max(units(pair.curve1, &truth.g0.over(&truth.sin1).expect("positive")));
+                compared += 1;
+            }
+        }
+        assert!(compared > 100 && worst > 1.0 && worst <= PAIR_ERROR, "{compared} pairs, worst {worst} units");
+    }
+
+    fn units(value: f64, truth: &Interval) -> f64 {
+        truth.plus(-value).over(truth).expect("not zero").approx().abs() * 2f64.powi(53)
+    }
+}
