@@ -36,7 +36,7 @@ pub fn direction_of(vector: [f64; 2]) -> Result<f64> {
     let [x, y] = vector;
     if !(x.is_finite() && y.is_finite()) || (x == 0.0 && y == 0.0) {
         return Err(Error::Domain(format!(
-            "direction vector ({x}, {y}) has no direction; it must be finite and not zero (or give an angle)"
+            "direction vector ({x:?}, {y:?}) has no direction; it must be finite and not zero (or give an angle)"
         )));
     }
     Ok(y.atan2(x))
@@ -64,16 +64,16 @@ impl Ends {
     fn half_chord(&self) -> Result<(Vector, f64)> {
         let ([ax, ay], [bx, by]) = (self.start, self.end);
         if self.start == self.end {
-            return Err(Error::Domain(format!("start and end are both ({ax}, {ay}); a transition needs two different points")));
+            return Err(Error::Domain(format!(
+                "start and end are both ({ax:?}, {ay:?}); a transition needs two different points"
+            )));
         }
-        let full = sub(self.end, self.start);
-        // The rounded difference of neighbours is exact; only beyond 8.9e307 must the halves be taken first.
-        let half =
-            if full.iter().all(|d| d.is_finite()) { scale(full, 0.5) } else { sub(scale(self.end, 0.5), scale(self.start, 0.5)) };
+        // Halved after the difference, which is exact for neighbours.
+        let half = scale(sub(self.end, self.start), 0.5);
         let size = length(half);
         if !size.is_normal() {
             return Err(Error::Domain(format!(
-                "half the chord from ({ax}, {ay}) to ({bx}, {by}) is {size:e} long; it must be 2.3e-308 to 1.7e308 (change the unit of length)"
+                "half the chord from ({ax:?}, {ay:?}) to ({bx:?}, {by:?}) is {size:?} long; it must be 2.3e-308 to 1.7e308 (change the unit of length)"
             )));
         }
         Ok((half, size))
@@ -221,7 +221,7 @@ fn by_chord(name: &str, curvature: f64, half_chord: f64) -> Result<f64> {
     let product = curvature * half_chord;
     if curvature != 0.0 && !product.is_normal() {
         return Err(Error::Domain(format!(
-            "{name} curvature {curvature:e} times half the chord, {half_chord:e}, is {product:e}; it must be 0 or 2.3e-308 to 1.7e308 in magnitude"
+            "{name} curvature {curvature:?} times half the chord, {half_chord:?}, is {product:?}; it must be 0 or 2.3e-308 to 1.7e308 in magnitude"
         )));
     }
     Ok(product)

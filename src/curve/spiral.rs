@@ -115,7 +115,7 @@ impl Answer {
 
 fn index(roots: &[Root], chosen: &Root) -> Result<usize> {
     roots.iter().position(|root| root == chosen).ok_or_else(|| {
-        Error::Domain(format!("the chosen root ({}, {}) is not among the {} roots", chosen.f0, chosen.f1, roots.len()))
+        Error::Domain(format!("the chosen root ({:?}, {:?}) is not among the {} roots", chosen.f0, chosen.f1, roots.len()))
     })
 }
 
@@ -127,7 +127,7 @@ impl Solution {
         let mut all = control_points.p.iter().chain(&local_control_points.p);
         if let Some([x, y]) = all.find(|p| !(p[0].is_finite() && p[1].is_finite())) {
             return Err(Error::Domain(format!(
-                "a control point of the root ({f0}, {f1}) is ({x}, {y}), outside the range of doubles (change the unit of length)"
+                "a control point of the root ({f0:?}, {f1:?}) is ({x:?}, {y:?}), outside the range of doubles (change the unit of length)"
             )));
         }
         // A proved spiral has none; rounding must not say otherwise.
@@ -152,9 +152,9 @@ impl fmt::Display for Answer {
         match (&self.outcome, self.chosen()) {
             (Outcome::Why(why), _) => writeln!(f, "no cubic spiral: {why}")?,
             (_, Some(Solution { f0, f1, margin, control_points, .. })) => {
-                writeln!(f, "cubic spiral (f0, f1) = ({f0}, {f1}), margin {margin}; control points")?;
+                writeln!(f, "cubic spiral (f0, f1) = ({f0:?}, {f1:?}), margin {margin:?}; control points")?;
                 for [x, y] in control_points.p {
-                    writeln!(f, "  ({x}, {y})")?;
+                    writeln!(f, "  ({x:?}, {y:?})")?;
                 }
             }
             (Outcome::Chosen(_), None) => writeln!(f, "no such solution")?,
@@ -162,7 +162,7 @@ impl fmt::Display for Answer {
         let Datum { phi0, phi1, kappa0, kappa1 } = self.datum;
         write!(
             f,
-            "normalised: phi0 = {phi0}, phi1 = {phi1}, kappa0 = {kappa0}, kappa1 = {kappa1}; half chord {}",
+            "normalised: phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = {kappa0:?}, kappa1 = {kappa1:?}; half chord {:?}",
             self.placement.unit()
         )?;
         f.write_str(if self.placement.mirrored { ", mirrored" } else { "" })?;

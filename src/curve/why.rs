@@ -190,11 +190,11 @@ impl fmt::Display for Why {
         match self {
             Why::NotConvex { start_angle, end_angle } => write!(
                 f,
-                "no C-shaped curve: against the chord the start direction is {start_angle} rad and the end direction \
-                 {end_angle} rad (positive to the left); they must lie on opposite sides of it"
+                "no C-shaped curve: against the chord the start direction is {start_angle:?} rad and the end direction \
+                 {end_angle:?} rad (positive to the left); they must lie on opposite sides of it"
             ),
             Why::TurnsTooFar { turning } => {
-                write!(f, "phi0 + phi1 = {turning} must be below pi = {PI}: the end tangents must meet")
+                write!(f, "phi0 + phi1 = {turning:?} must be below pi = {PI:?}: the end tangents must meet")
             }
             Why::Straight { which } => write!(
                 f,
@@ -203,27 +203,29 @@ impl fmt::Display for Why {
             ),
             Why::Inflection { which, curvature, turn } => write!(
                 f,
-                "the {which} curvature {curvature} is {}, but the directions turn {turn}: the curve would have an inflection",
+                "the {which} curvature {curvature:?} is {}, but the directions turn {turn}: the curve would have an inflection",
                 if *curvature > 0.0 { "to the left" } else { "to the right" }
             ),
             Why::EqualCurvatures { kappa } => {
                 write!(
                     f,
-                    "kappa0 = kappa1 = {kappa}: curvature that is monotone between equal ends is a circle's, not a spiral's"
+                    "kappa0 = kappa1 = {kappa:?}: curvature that is monotone between equal ends is a circle's, not a spiral's"
                 )
             }
-            Why::AnglesOrder { phi0, phi1 } => write!(f, "phi0 >= phi1: {phi0} >= {phi1}, so no spiral of increasing curvature"),
+            Why::AnglesOrder { phi0, phi1 } => {
+                write!(f, "phi0 >= phi1: {phi0:?} >= {phi1:?}, so no spiral of increasing curvature")
+            }
             Why::StartTooSharp { kappa0, bound } => {
-                write!(f, "kappa0 = {kappa0} must be below sin(phi0) = {bound}: no spiral starts so sharply")
+                write!(f, "kappa0 = {kappa0:?} must be below sin(phi0) = {bound:?}: no spiral starts so sharply")
             }
             Why::NotNested { kappa1, bound } => write!(
                 f,
-                "Kneser/Kurnosenko bound: kappa1 = {kappa1} must exceed {bound} = sin(phi1) + sin^2((phi1-phi0)/2)/(sin(phi0)-kappa0)"
+                "Kneser/Kurnosenko bound: kappa1 = {kappa1:?} must exceed {bound:?} = sin(phi1) + sin^2((phi1-phi0)/2)/(sin(phi0)-kappa0)"
             ),
             Why::NoRoot { a, k, discriminant } => write!(
                 f,
-                "no root (f0, f1) in (0, 3)^2 of 3 - f1 = a f0^2, 3 - f0 = k f1^2 with a = {a}, k = {k}: discriminant D = \
-                 {discriminant:e} of (A.4); (A.9) asks D >= 0 and k > 1/3"
+                "no root (f0, f1) in (0, 3)^2 of 3 - f1 = a f0^2, 3 - f0 = k f1^2 with a = {a:?}, k = {k:?}: discriminant D = \
+                 {discriminant:?} of (A.4); (A.9) asks D >= 0 and k > 1/3"
             ),
             Why::NotMonotone { roots } => {
                 for (i, root) in roots.iter().enumerate() {
@@ -239,13 +241,13 @@ impl fmt::Display for Why {
 impl fmt::Display for Waver {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Waver { f0, f1, margin, extrema } = self;
-        write!(f, "root ({f0}, {f1}) loses monotone curvature: margin {margin}, ")?;
+        write!(f, "root ({f0:?}, {f1:?}) loses monotone curvature: margin {margin:?}, ")?;
         match extrema.as_slice() {
             [] => f.write_str("curvature extremum too faint to place in double precision"),
-            [t] => write!(f, "curvature extremum at t = {t}"),
+            [t] => write!(f, "curvature extremum at t = {t:?}"),
             [first, rest @ ..] => {
-                write!(f, "curvature extrema at t = {first}")?;
-                rest.iter().try_for_each(|t| write!(f, ", {t}"))
+                write!(f, "curvature extrema at t = {first:?}")?;
+                rest.iter().try_for_each(|t| write!(f, ", {t:?}"))
             }
         }
     }

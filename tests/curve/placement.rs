@@ -1,77 +1,10 @@
-//! Curves, their placement in the user's plane, and the reasons why there is none.
+//! Normalisation and the way back.
 
+use super::{EPS, answer, length, minus};
 use proptest::prelude::*;
-use spiral_atlas::curve::{
-    Answer, CubicBezier, EndCircle, Ends, Figure, Outcome, Placement, Turn, Which, Why, arc_length, direction_of,
-    least_end_curvature,
-};
-use spiral_atlas::family::cubic::{Datum, Root};
-use std::f64::consts::{FRAC_PI_2, PI};
-
-const EPS: f64 = f64::EPSILON;
-/// Section 4 of the paper: φ0, φ1, κ0, κ1.
-const EXAMPLES: [[f64; 4]; 3] = [[0.7, 1.4, 0.4, 4.0], [0.1, 1.5, 0.035, 100.0], [0.8, 0.9, 0.6, 0.874]];
-
-fn datum([phi0, phi1, kappa0, kappa1]: [f64; 4]) -> Datum {
-    Datum { phi0, phi1, kappa0, kappa1 }
-}
-
-/// Roots (f0, f1) of `3 - y = a x²`, `3 - x = k y²` by scan and bisection: the simplest thing that can work, in doubles.
-fn roots(d: &Datum) -> Vec<Root> {
-    let half = |sin: f64| sin / (d.phi0 + d.phi1).sin();
-    let a = d.kappa0 * half(d.phi1.sin()).powi(2) / d.phi0.sin();
-    let k = d.kappa1 * half(d.phi0.sin()).powi(2) / d.phi1.sin();
-    let value = |x: f64| 3.0 - x - k * (3.0 - a * x * x).powi(2);
-    let mut found = Vec::new();
-    for i in 0..4000 {
-        let (mut lo, mut hi) = (3.0 * f64::from(i) / 4000.0, 3.0 * f64::from(i + 1) / 4000.0);
-        if (value(lo) > 0.0) == (value(hi) > 0.0) {
-            continue;
-        }
-        while lo < 0.5 * (lo + hi) && 0.5 * (lo + hi) < hi {
-            let middle = 0.5 * (lo + hi);
-            if (value(middle) > 0.0) == (value(lo) > 0.0) { lo = middle } else { hi = middle }
-        }
-        let (f0, f1) = (lo, 3.0 - a * lo * lo);
-        if 0.0 < f1 && f1 < 3.0 {
-            let spiral = CubicBezier::from_ratios(d.phi0, d.phi1, f0, f1).curvature_extrema().is_empty();
-            found.push(Root { f0, f1, theorem31: spiral, spiral, margin: if spiral { 0.1 } else { -0.1 } });
-        }
-    }
-    found
-}
-
-fn ends_of([phi0, phi1, kappa0, kappa1]: [f64; 4]) -> Ends {
-    Ends {
-        start: [-1.0, 0.0],
-        end: [1.0, 0.0],
-        start_direction: -phi0,
-        end_direction: phi1,
-        start_curvature: kappa0,
-        end_curvature: kappa1,
-    }
-}
-
-fn answer(ends: &Ends) -> Answer {
-    let (d, _) = Placement::normalise(ends).unwrap();
-    let roots = roots(&d);
-    Answer::from_roots(ends, &roots, roots.iter().find(|r| r.spiral)).unwrap()
-}
-
-fn why(ends: &Ends) -> Why {
-    match answer(ends).outcome {
-        Outcome::Why(why) => why,
-        Outcome::Chosen(i) => panic!("solution {i} was chosen for {ends:?}"),
-    }
-}
-
-fn length([x, y]: [f64; 2]) -> f64 {
-    x.hypot(y)
-}
-
-fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
+use spiral_atlas::curve::{CubicBezier, Ends, Placement};
+use spiral_atlas::family::cubic::Datum;
+use std::f64::consts::PI;
 
 /// `a - b` as an angle in [-π, π].
 fn angle(a: f64, b: f64) -> f64 {
@@ -172,9 +105,8 @@ fn round_trip(shape: Shape, motion: &Motion, spoil: fn(&mut Ends), twist: fn(&mu
     let far = 1.0 + length(motion.shift);
     let angles = [0, 1].map(|i| round[i].0 + (24.0 + 4.0 * far) * EPS);
     let sum = phi0 + phi1;
-    let d_errors =
-        |near: f64, far: f64, i: usize| (angles[0] + angles[1]) / sum.tan().abs() + angles[1 - i] / far.tan().abs() + near * 0.0;
-    let d = [d_errors(phi0, phi1, 0), d_errors(phi1, phi0, 1)];
+    let d_errors = |far: f64, i: usize| (angles[0] + angles[1]) / sum.tan().abs() + angles[1 - i] / far.tan().abs();
+    let d = [d_errors(phi1, 0), d_errors(phi0, 1)];
     // (3.4) itself: three sines of relative error below EPS (1 + x |cot x|), squared; 3 - f within EPS.
     let formula = 8.0 * EPS * (1.0 + sum / sum.tan().abs());
     let curvature = [0, 1].map(|i| round[i].1 + formula + 4.0 * far * EPS);
@@ -241,6 +173,8 @@ proptest! {
         let motion = Motion { size: 100.0, shift: [1e5, -5e4], ..motion };
         let (ends, _) = motion.ends(&CubicBezier::from_ratios(shape[0], shape[1], shape[2], shape[3]));
         let all = answer(&ends);
+        // The curve itself is among them, but for double roots that the scan steps over.
+        prop_assume!(!all.solutions.is_empty());
         for s in &all.solutions {
             let p = &s.local_control_points.p;
             let round = rounding(p);
@@ -268,18 +202,6 @@ proptest! {
                 prop_assert!(error <= round[i].1 + root[i] + angles, "{} > {} {} {}", error, round[i].1, root[i], angles);
             }
         }
-    }
-
-    /// The formula is `Q < 0` with `κ0 < κ1`, also where φ1 passes π/2.
-    #[test]
-    fn the_bound_is_the_invariant(phi0 in 0.01..1.5f64, more in 0.01..1.5f64, share in 0.0..2.0f64, kappa1 in 0.0..10.0f64) {
-        let (phi1, kappa0) = (phi0 + more, share * phi0.sin());
-        prop_assume!(phi0 + phi1 < PI - 0.01);
-        let q = (kappa0 - phi0.sin()) * (kappa1 - phi1.sin()) + (0.5 * more).sin().powi(2);
-        // Rounding of Q is below 8 EPS times its terms, at most 1 · 10 and 1.
-        prop_assume!(q.abs() > 100.0 * EPS && (kappa0 - kappa1).abs() > 100.0 * EPS);
-        let any = least_end_curvature(phi0, phi1, kappa0).is_some_and(|bound| kappa1 > bound);
-        prop_assert_eq!(any, q < 0.0 && kappa0 < kappa1);
     }
 }
 
