@@ -1,0 +1,68 @@
+//! Arc length by adaptive Gauss-Legendre quadrature of the speed.
+
+/// Positive nodes and weights of the 16-point Gauss-Legendre rule on [-1, 1].
+const RULE: [(f64, f64); 8] = [
+    (0.9894009349916499, 0.027152459411754095),
+    (0.9445750230732326, 0.06225352393864789),
+    (0.8656312023878318, 0.09515851168249279),
+    (0.755404408355003, 0.12462897125553388),
+    (0.6178762444026438, 0.14959598881657674),
+    (0.45801677765722737, 0.16915651939500254),
+    (0.2816035507792589, 0.1826034150449236),
+    (0.09501250983763744, 0.1894506104550685),
+];
+
+/// A half may differ from its whole by this share of the total length. Near rounding noise, and far above the error of
+/// the halves that are then taken: halving divides the error of a rule of degree 31 by up to 2^32.
+const TOLERANCE: f64 = 1e-15;
+
+/// Halvings at most: a cusp, where the speed has a kink, halves its error four times faster than its interval.
+const DEPTH: u32 = 40;
+
+/// Integral of a speed over `[from, to]`; negative when `to < from`.
+///
+/// # Accuracy
+/// 1e-14 relative for the speed of a polynomial curve, cusps included: the interval is halved until the 16-point
+/// Gauss-Legendre rule on both halves agrees with the rule on the whole to 1e-15 of the total. All weights and speeds are
+/// positive, so sums do not cancel.
+///
+/// # Source
+/// Gander & Gautschi, Adaptive quadrature revisited (2000), for the stopping rule relative to the whole integral.
+pub fn arc_length(speed: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+    let whole = gauss(&speed, from, to);
+    refine(&speed, from, to, whole, TOLERANCE * whole.abs(), DEPTH)
+}
+
+fn refine(speed: &impl Fn(f64) -> f64, from: f64, to: f64, whole: f64, tolerance: f64, depth: u32) -> f64 {
+    let middle = 0.5 * (from + to);
+    let (left, right) = (gauss(speed, from, middle), gauss(speed, middle, to));
+    // Written so that NaN stops at once.
+    let differs = (left + right - whole).abs() > tolerance;
+    if depth == 0 || !differs {
+        return left + right;
+    }
+    refine(speed, from, middle, left, tolerance, depth - 1) + refine(speed, middle, to, right, tolerance, depth - 1)
+}
+
+fn gauss(speed: &impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let pair = |(x, w): &(f64, f64)| w * (speed(middle - half * x) + speed(middle + half * x));
+    half * RULE.iter().map(pair).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rule_is_exact_to_degree_31_and_not_beyond() {
+        for degree in 0..32 {
+            let (got, want) = (gauss(&|x| x.powi(degree), 0.0, 1.0), 1.0 / f64::from(degree + 1));
+            // 16 terms of relative error below degree + 3 ulp each.
+            assert!((got - want).abs() < 40.0 * f64::EPSILON * want, "degree {degree}: {got} {want}");
+        }
+        // The remainder of x^32 over [-1, 1] is 2^33 16!^4 / (33 32!^2).
+        let (got, want) = (gauss(&|x| x.powi(32), -1.0, 1.0), 2.0 / 33.0);
+        assert!((want - got - 7.2e-10).abs() < 1e-11, "{got} {want}");
+    }
+}

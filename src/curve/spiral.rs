@@ -1,0 +1,171 @@
+//! The transition spiral between two given ends: Habib & Sakai, section 3.2, for data anywhere in the plane.
+
+use super::CubicBezier;
+use super::placement::{Ends, Placement};
+use super::why::Why;
+use crate::error::{Error, Result};
+use crate::family::cubic::{Datum, Root, solve};
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// All that is known of two ends.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Answer {
+    /// What was asked.
+    pub ends: Ends,
+    /// The normalised data.
+    #[serde(with = "DatumFields")]
+    pub datum: Datum,
+    /// How the normalised frame lies in the user's.
+    pub placement: Placement,
+    /// Every cubic that matches the ends, spirals or not, by increasing f0.
+    pub solutions: Vec<Solution>,
+    /// The chosen one, or why there is none.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// Whether there is a cubic spiral.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// Index, into [`Answer::solutions`], of the spiral with the largest margin (of equal ones that with the smaller f0).
+    Chosen(usize),
+    /// There is none.
+    #[serde(serialize_with = "with_text")]
+    Why(Why),
+}
+
+/// One cubic that matches the ends: a root (f0, f1) and its curve.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Solution {
+    /// `|P'| / d` at the normalised start (the user's end, when reversed), in (0, 3).
+    pub f0: f64,
+    /// The same at the normalised end.
+    pub f1: f64,
+    /// Whether Theorem 3.1 accepts it.
+    pub theorem31: bool,
+    /// Whether its curvature is monotone: necessary and sufficient.
+    pub spiral: bool,
+    /// Scale-free distance from losing it; see [`Root::margin`].
+    pub margin: f64,
+    /// The curve in the user's units, axes and direction of travel; it starts and ends exactly where asked.
+    pub control_points: CubicBezier,
+    /// The same relative to the start point: what to differentiate when the coordinates are far from the origin.
+    pub local_control_points: CubicBezier,
+    /// Parameters of its curvature extrema; empty on a spiral.
+    pub extrema: Vec<f64>,
+}
+
+#[derive(Serialize)]
+#[serde(remote = "Datum")]
+struct DatumFields {
+    phi0: f64,
+    phi1: f64,
+    kappa0: f64,
+    kappa1: f64,
+}
+
+/// Finds the cubic spiral between two ends, or says why there is none.
+///
+/// # Accuracy
+/// Existence is proved for the normalised doubles in [`Answer::datum`], which differ from the exact normal form of the user's
+/// data by rounding; see [`Placement::normalise`]. The curve's end points are the user's, exactly; end directions and curvatures of
+/// [`Solution::local_control_points`] are the user's to about 1e-14 over the length of the end's tangent in half chords.
+///
+/// # Errors
+/// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control point leaves the range of doubles. That
+/// no spiral exists is no error but [`Outcome::Why`].
+pub fn spiral(ends: &Ends) -> Result<Answer> {
+    let (datum, placement) = Placement::normalise(ends)?;
+    if let Some(why) = Why::no_convex_arc(&datum, &placement) {
+        return Ok(Answer { ends: *ends, datum, placement, solutions: Vec::new(), outcome: Outcome::Why(why) });
+    }
+    let solved = solve(&datum)?;
+    Answer::from_roots(ends, solved.roots(), solved.chosen())
+}
+
+impl Answer {
+    /// The answer when the roots are known already, from [`solve`] or an atlas; `chosen` is one of them.
+    ///
+    /// # Errors
+    /// Those of [`Placement::normalise`], and [`Error::Domain`] when a control point leaves the range of doubles or `chosen` is not
+    /// among the roots.
+    pub fn from_roots(ends: &Ends, roots: &[Root], chosen: Option<&Root>) -> Result<Answer> {
+        let (datum, placement) = Placement::normalise(ends)?;
+        let solutions = roots.iter().map(|root| Solution::new(&datum, &placement, root)).collect::<Result<Vec<_>>>()?;
+        let outcome = match chosen {
+            Some(root) => Outcome::Chosen(index(roots, root)?),
+            None => {
+                let arc = Why::no_convex_arc(&datum, &placement);
+                Outcome::Why(arc.unwrap_or_else(|| Why::no_spiral(ends, &datum, &placement, &solutions)))
+            }
+        };
+        Ok(Answer { ends: *ends, datum, placement, solutions, outcome })
+    }
+
+    /// The chosen spiral, if there is one.
+    pub fn chosen(&self) -> Option<&Solution> {
+        match self.outcome {
+            Outcome::Chosen(i) => self.solutions.get(i),
+            Outcome::Why(_) => None,
+        }
+    }
+}
+
+fn index(roots: &[Root], chosen: &Root) -> Result<usize> {
+    roots.iter().position(|root| root == chosen).ok_or_else(|| {
+        Error::Domain(format!("the chosen root ({:?}, {:?}) is not among the {} roots", chosen.f0, chosen.f1, roots.len()))
+    })
+}
+
+impl Solution {
+    fn new(datum: &Datum, placement: &Placement, root: &Root) -> Result<Solution> {
+        let Root { f0, f1, theorem31, spiral, margin } = *root;
+        let control_points = placement.place(datum, f0, f1);
+        let local_control_points = placement.place_local(datum, f0, f1);
+        let mut all = control_points.p.iter().chain(&local_control_points.p);
+        if let Some([x, y]) = all.find(|p| !(p[0].is_finite() && p[1].is_finite())) {
+            return Err(Error::Domain(format!(
+                "a control point of the root ({f0:?}, {f1:?}) is ({x:?}, {y:?}), outside the range of doubles (change the unit of length)"
+            )));
+        }
+        // A proved spiral has none; rounding must not say otherwise.
+        let extrema = if spiral { Vec::new() } else { local_control_points.curvature_extrema() };
+        Ok(Solution { f0, f1, theorem31, spiral, margin, control_points, local_control_points, extrema })
+    }
+}
+
+/// The reason's numbers and, as `text`, its words.
+fn with_text<S: Serializer>(why: &Why, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Told<'a> {
+        text: String,
+        #[serde(flatten)]
+        why: &'a Why,
+    }
+    Told { text: why.to_string(), why }.serialize(serializer)
+}
+
+impl fmt::Display for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.outcome, self.chosen()) {
+            (Outcome::Why(why), _) => writeln!(f, "no cubic spiral: {why}")?,
+            (_, Some(Solution { f0, f1, margin, control_points, .. })) => {
+                writeln!(f, "cubic spiral (f0, f1) = ({f0:?}, {f1:?}), margin {margin:?}; control points")?;
+                for [x, y] in control_points.p {
+                    writeln!(f, "  ({x:?}, {y:?})")?;
+                }
+            }
+            (Outcome::Chosen(_), None) => writeln!(f, "no such solution")?,
+        }
+        let Datum { phi0, phi1, kappa0, kappa1 } = self.datum;
+        write!(
+            f,
+            "normalised: phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = {kappa0:?}, kappa1 = {kappa1:?}; half chord {:?}",
+            self.placement.unit()
+        )?;
+        f.write_str(if self.placement.mirrored { ", mirrored" } else { "" })?;
+        f.write_str(if self.placement.reversed { ", reversed (phi0, kappa0, f0 belong to the end)" } else { "" })
+    }
+}
