@@ -138,15 +138,19 @@ fn any_spiral(angles: &Angles, kappa0: &Interval, kappa1: &Interval) -> Option<b
 }
 
 /// F and y at x.
-fn residual(a: &Interval, k: &Interval, x: &Interval) -> (Interval, Interval) {
-    let y = (a * &x.square()).scale(-1.0).plus(3.0);
-    ((k * &y.square()).scale(-1.0).plus(3.0).sub(x), y)
+fn residual<N: Number>(a: &N, k: &N, x: &N) -> (N, N) {
+    let y = a.mul(&x.mul(x)).times(-1.0).plus(3.0);
+    (k.mul(&y.mul(&y)).times(-1.0).plus(3.0).sub(x), y)
 }
 
 /// F' = 4akxy - 1.
-fn slope(a: &Interval, k: &Interval, x: &Interval) -> Interval {
-    let (_, y) = residual(a, k, x);
-    (&(a * k) * &(x * &y)).scale(4.0).plus(-1.0)
+fn slope<N: Number>(a: &N, k: &N, x: &N) -> N {
+    a.mul(k).mul(&x.mul(&residual(a, k, x).1)).times(4.0).plus(-1.0)
+}
+
+/// F'' = 12ak(1 - ax²).
+fn curvature<N: Number>(a: &N, k: &N, x: &N) -> N {
+    a.mul(k).times(12.0).mul(&a.mul(&x.mul(x)).times(-1.0).plus(1.0))
 }
 
 /// SOLVABLE, and all roots in the box as intervals around x and y, by increasing x.
@@ -163,27 +167,22 @@ fn isolate(a: &Interval, k: &Interval) -> Option<(bool, Vec<(Interval, Interval)
     if sign == Equal {
         return Some((solvable, double_roots(a, k, k_above || a_above)?));
     }
-    let brackets = match (k_above || a_above, sign) {
-        (true, Less) => Vec::new(),
-        (false, Less) => vec![(zero, three)],
-        _ => {
-            // The turning points of F part its positive roots; F' rises to 1/√a and falls after.
-            let bend = Interval::new(1.0, bits).over(&a.sqrt()?)?.middle();
-            let last = Interval::new(3.0, bits).over(a)?.sqrt()?.middle();
-            let turn = |from: &Interval, to: &Interval| bracketed(from, to, |x| (slope(a, k, x), curvature(a, k, x)));
-            let (low, high) = (turn(&zero, &bend)?, turn(&bend, &last)?);
-            let (left, middle, right) = ((zero, low.clone()), (low, high.clone()), (high, three));
-            match (k_above, a_above) {
-                (true, true) => vec![middle],
-                (true, false) => vec![middle, right],
-                (false, true) => vec![left, middle],
-                (false, false) => vec![left, middle, right],
-            }
-        }
+    // F < 0 or F > 0 at 0 as k or 1/3 is the larger, at `last` (y = 0) as 1/3 or a is, and F(3) < 0 unless a = 1/3.
+    let last = || Some(Interval::new(3.0, bits).over(a)?.sqrt()?.middle());
+    // The turning points of F part its roots; F' rises up to 1/√a and falls after.
+    let bend = || Some(Interval::new(1.0, bits).over(&a.sqrt()?)?.middle());
+    let turn = |from: Interval, to: Interval| bracketed(&from, &to, &Derivative { a, k });
+    let brackets = match (k_above, a_above, sign) {
+        (true, true, _) => vec![zero, last()?],
+        (false, false, Less) => vec![zero, three],
+        (_, _, Less) => return Some((solvable, Vec::new())),
+        (true, false, _) => vec![zero, turn(bend()?, last()?)?, three],
+        (false, true, _) => vec![zero.clone(), turn(zero, bend()?)?, last()?],
+        (false, false, _) => vec![zero.clone(), turn(zero, bend()?)?, turn(bend()?, last()?)?, three],
     };
     let mut roots: Vec<(Interval, Interval)> = Vec::new();
-    for (from, to) in brackets {
-        let root = enclose(a, k, &bracketed(&from, &to, |x| (residual(a, k, x).0, slope(a, k, x)))?)?;
+    for ends in brackets.windows(2) {
+        let root = enclose(a, k, &bracketed(&ends[0], &ends[1], &Residual { a, k })?)?;
         if let Some((before, _)) = roots.last() {
             if before.compare(&root.0)? != Less {
                 return None;
@@ -194,41 +193,76 @@ fn isolate(a: &Interval, k: &Interval) -> Option<(bool, Vec<(Interval, Interval)
     Some((solvable, roots))
 }
 
-/// F'' = 12ak(1 - ax²).
-fn curvature(a: &Interval, k: &Interval, x: &Interval) -> Interval {
-    &(a * k).scale(12.0) * &(a * &x.square()).scale(-1.0).plus(1.0)
+/// A function with its derivative, in intervals and, for guesses, in doubles.
+trait Curve {
+    fn at(&self, x: &Interval) -> (Interval, Interval);
+    fn guess(&self, x: f64) -> f64;
 }
 
-/// A guess at the zero of `f` between two thin intervals: Newton's method kept inside the bracket.
+struct Residual<'i> {
+    a: &'i Interval,
+    k: &'i Interval,
+}
+
+impl Curve for Residual<'_> {
+    fn at(&self, x: &Interval) -> (Interval, Interval) {
+        (residual(self.a, self.k, x).0, slope(self.a, self.k, x))
+    }
+    fn guess(&self, x: f64) -> f64 {
+        residual(&self.a.approx(), &self.k.approx(), &x).0
+    }
+}
+
+struct Derivative<'i> {
+    a: &'i Interval,
+    k: &'i Interval,
+}
+
+impl Curve for Derivative<'_> {
+    fn at(&self, x: &Interval) -> (Interval, Interval) {
+        (slope(self.a, self.k, x), curvature(self.a, self.k, x))
+    }
+    fn guess(&self, x: f64) -> f64 {
+        slope(&self.a.approx(), &self.k.approx(), &x)
+    }
+}
+
+/// A guess at the zero of `f` between two thin intervals: bisection in doubles, then Newton's method kept inside the bracket.
 ///
-/// `None` when F has no certain, opposite signs at the ends.
-fn bracketed(from: &Interval, to: &Interval, f: impl Fn(&Interval) -> (Interval, Interval)) -> Option<Interval> {
+/// `None` when f has no certain, opposite signs at the ends.
+fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Interval> {
     let (mut low, mut high) = (from.clone(), to.clone());
-    let side = f(&low).0.sign()?;
-    if side == Equal || f(&high).0.sign()? != side.reverse() {
+    let side = f.at(&low).0.sign()?;
+    if side == Equal || f.at(&high).0.sign()? != side.reverse() {
         return None;
     }
     let bits = low.bits();
+    let inside = |x: &Interval, low: &Interval, high: &Interval| x.compare(low) == Some(Greater) && x.compare(high) == Some(Less);
+    let middle = |low: &Interval, high: &Interval| (low + high).scale(0.5).middle();
+    let guess = Interval::new(bisect(low.approx(), high.approx(), side, f), bits);
+    let mut x = if inside(&guess, &low, &high) { guess } else { middle(&low, &high) };
     let tiny = Interval::power_of_two(-(bits as isize), bits);
-    let mut x = (&low + &high).scale(0.5).middle();
     for _ in 0..4 * bits {
-        let (value, slope) = f(&x);
-        let Some(sign) = value.sign() else { break };
-        if sign == Equal {
-            break;
-        }
+        let (value, slope) = f.at(&x);
+        let Some(sign) = value.sign().filter(|s| *s != Equal) else { break };
         if sign == side { low = x.clone() } else { high = x.clone() }
         let newton = value.over(&slope).map(|step| (&x - &step).middle());
-        let inside = |n: &Interval| n.compare(&low) == Some(Greater) && n.compare(&high) == Some(Less);
-        let next = newton.filter(inside).unwrap_or_else(|| (&low + &high).scale(0.5).middle());
-        let step = &next - &x;
+        let next = newton.filter(|n| inside(n, &low, &high)).unwrap_or_else(|| middle(&low, &high));
+        let (step, limit) = (&next - &x, &x * &tiny);
         x = next;
-        let limit = &x * &tiny;
         if step.compare(&limit) != Some(Greater) && (-&step).compare(&limit) != Some(Greater) {
             break;
         }
     }
     Some(x)
+}
+
+fn bisect(mut low: f64, mut high: f64, side: Ordering, f: &impl Curve) -> f64 {
+    for _ in 0..54 {
+        let middle = 0.5 * (low + high);
+        if f.guess(middle).partial_cmp(&0.0) == Some(side) { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
 }
 
 /// Proves a root around a guess: opposite certain signs of F at `x - δ` and `x + δ`, with the least δ that works.
