@@ -1,8 +1,11 @@
 //! The engine against a CPU twin of a shader that hashes everything it is given, on every adapter there is.
 #![cfg(feature = "gpu")]
 
+mod adapters;
+
+use adapters::labels;
 use spiral_atlas::error::{Error, Result};
-use spiral_atlas::eval::gpu::{Engine, RunStats, Settings, adapters, select};
+use spiral_atlas::eval::gpu::{Engine, RunStats, Settings, adapters as all_adapters, select};
 use spiral_atlas::family::{Code, Shader, ShaderInputs, Table};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 use std::ops::Range;
@@ -127,18 +130,6 @@ fn run(engine: &mut Engine, range: Range<u64>) -> (Seen, RunStats) {
         .unwrap();
     assert_eq!(stats.nodes, seen.codes.len() as u64);
     (seen, stats)
-}
-
-/// The labels of all adapters that can compute. There must be one: a GPU test that is skipped proves nothing.
-fn labels() -> Vec<String> {
-    let all = adapters();
-    let usable: Vec<String> = all.iter().filter(|a| a.unusable.is_none()).map(|a| a.label()).collect();
-    assert!(
-        !usable.is_empty(),
-        "no GPU adapter, so nothing can be tested ({all:?}); install software Vulkan: \
-         apt-get install -y --no-install-recommends libvulkan1 mesa-vulkan-drivers"
-    );
-    usable
 }
 
 fn settings(words_per_thread: u32, chunk_nodes: u64, groups_per_dimension: u32) -> Settings {
@@ -300,7 +291,7 @@ fn auto_never_takes_a_software_adapter() {
     match select(None) {
         Ok(facts) => assert!(["discrete", "integrated"].contains(&facts.kind), "{facts:?}"),
         Err(e) => {
-            assert!(adapters().iter().all(|a| !["discrete", "integrated"].contains(&a.kind)));
+            assert!(all_adapters().iter().all(|a| !["discrete", "integrated"].contains(&a.kind)));
             assert!(e.to_string().contains("--adapter"), "{e}");
         }
     }
@@ -312,6 +303,13 @@ fn a_wrong_shader_is_an_error_at_its_own_line() {
     let table = Hash { shader: "\n\nfn evaluate(index: vec4<u32>) -> u32 {\n    return jndex.x;\n}\n", ..Hash::new(&grid) };
     let error = Engine::new(Some(&labels()[0]), &table, &grid, &Settings::default()).err().expect("the shader is wrong");
     assert!(error.to_string().contains("hash.wgsl:4:"), "{error}");
+}
+
+/// Seconds of CPU time of this process: what a software adapter costs, however busy the machine is.
+fn cpu_seconds() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+    fields.get(11..13).map_or(f64::NAN, |ticks| ticks.iter().map(|t| t.parse::<f64>().unwrap_or(f64::NAN)).sum::<f64>() / 100.0)
 }
 
 /// By hand: `cargo test --release --test gpu_engine -- --ignored --nocapture measure`.
@@ -337,18 +335,21 @@ fn evaluate(index: vec4<u32>) -> u32 {
             for words in [1, 2, 4, 8, 16, 32] {
                 let table = Hash { shader, ..Hash::new(&grid) };
                 let mut engine = Engine::new(Some(&label), &table, &grid, &settings(words, 1 << 23, 65535)).unwrap();
-                let mut best = (f64::INFINITY, RunStats::default());
-                for _ in 0..3 {
-                    let begin = std::time::Instant::now();
-                    let stats = engine.run(0..grid.len(), &AtomicBool::new(false), |_, _| Ok(())).unwrap();
-                    let seconds = begin.elapsed().as_secs_f64();
-                    if seconds < best.0 {
-                        best = (seconds, stats);
-                    }
+                let (begin, cpu) = (std::time::Instant::now(), cpu_seconds());
+                let runs = 3;
+                let mut stats = RunStats::default();
+                for _ in 0..runs {
+                    stats = engine.run(0..grid.len(), &AtomicBool::new(false), |_, _| Ok(())).unwrap();
                 }
                 let rate = |seconds: f64| grid.len() as f64 / seconds / 1e6;
-                let device = best.1.device_seconds.map_or(f64::NAN, rate);
-                println!("{label} {kind} {words:2} words: {:6.1} Mnodes/s, device {device:6.1}, {:?}", rate(best.0), best.1);
+                let wall = rate(begin.elapsed().as_secs_f64() / f64::from(runs));
+                let cpu = rate((cpu_seconds() - cpu) / f64::from(runs));
+                let device = stats.device_seconds.map_or(f64::NAN, rate);
+                println!(
+                    "{label} {kind} {words:2} words: Mnodes a second {wall:6.1} of wall, {device:6.1} of device, {cpu:6.1} of CPU \
+                     (largest chunk {})",
+                    stats.largest_chunk
+                );
             }
         }
     }

@@ -10,6 +10,8 @@ mod assemble;
 mod pace;
 mod program;
 mod slot;
+#[cfg(test)]
+mod tests;
 
 pub use adapter::{AdapterFacts, adapters, select};
 pub use assemble::{Assembled, SourceMap, assemble, validate};
