@@ -7,7 +7,7 @@ use adapters::labels;
 use spiral_atlas::error::{Error, Result};
 use spiral_atlas::eval::gpu::{Engine, RunStats, Settings, adapters as all_adapters, select};
 use spiral_atlas::family::{Code, Shader, ShaderInputs, Table};
-use spiral_atlas::grid::{Axis, Grid, Spacing};
+use spiral_atlas::grid::{Axis, Grid, MAX_COUNT, Spacing};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -181,6 +181,22 @@ fn ten_million_nodes_in_chunks_of_growing_size() {
         assert!(stats.chunks > 2 && stats.largest_chunk > 1 << 16, "{label}: {stats:?}");
         assert_eq!(stats.device_seconds.is_some(), engine.adapter().timestamps, "{label}");
         assert!(stats.device_seconds.is_none_or(|s| s > 0.0 && s < 600.0), "{label}: {stats:?}");
+    }
+}
+
+/// The longest axis there may be, where carries and the largest indices meet.
+#[test]
+fn the_longest_axis_carries() {
+    let long = Axis::new("v", Spacing::Linear { lo: 0.0, hi: 1.0, count: MAX_COUNT }).unwrap();
+    let grid = Grid::new(vec![grid(&[5]).axes()[0].clone(), long]).unwrap();
+    let table = Hash::new(&grid);
+    let row = MAX_COUNT as u64;
+    for label in labels() {
+        let mut engine = Engine::new(Some(&label), &table, &grid, &Settings::default()).unwrap();
+        for range in [4 * row - 5001..4 * row + 3001, 5 * row - 777..5 * row] {
+            let (seen, _) = run(&mut engine, range.clone());
+            assert_eq!(seen.differences(&table), [0; 0], "{label}, {range:?}");
+        }
     }
 }
 
