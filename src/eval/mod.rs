@@ -1,5 +1,8 @@
 //! From a grid to fields: evaluators, the ladder, and the agreement report.
 
+#[cfg(feature = "gpu")]
+pub mod gpu;
+
 /// The fields of a run of nodes, in flat order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chunk {
