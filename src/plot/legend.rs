@@ -1,0 +1,167 @@
+//! Heading above a figure and legend below it.
+
+use super::axes::Style;
+use super::canvas::{Canvas, Color, GREY, INK, Pen, Point, Rect, WHITE};
+
+/// The sign of a legend's entry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Key {
+    /// A filled region.
+    Fill(Color),
+    /// A line hatched on one side.
+    Hatched(Color),
+    /// A line; the second number is its width in em.
+    Line(Color, f64),
+    /// The star of marks.
+    Star,
+}
+
+/// One entry of a legend.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Entry {
+    pub key: Key,
+    pub text: String,
+}
+
+const ROW: f64 = 1.6;
+const KEY: f64 = 2.6;
+
+/// A legend laid out in columns.
+pub(super) struct Legend<'a> {
+    entries: &'a [Entry],
+    columns: usize,
+    column_width: f64,
+}
+
+impl Legend<'_> {
+    /// As many columns as fit in `width`, evenly filled.
+    pub fn new<'a>(canvas: &Canvas, entries: &'a [Entry], style: Style, width: i32) -> Legend<'a> {
+        let widest = entries.iter().map(|e| canvas.text_width(style.em, &e.text)).fold(0.0, f64::max);
+        let needed = widest + style.em * (KEY + 1.5);
+        let most = (f64::from(width) / needed).floor().max(1.0) as usize;
+        let rows = entries.len().div_ceil(most).max(1);
+        let columns = entries.len().div_ceil(rows).max(1);
+        Legend { entries, columns, column_width: needed.min(f64::from(width)) }
+    }
+
+    fn rows(&self) -> usize {
+        self.entries.len().div_ceil(self.columns)
+    }
+
+    pub fn height(&self, style: Style) -> i32 {
+        style.px(ROW * self.rows() as f64)
+    }
+
+    /// Draws it with its top left corner at `corner`.
+    pub fn draw(&self, canvas: &mut Canvas, style: Style, corner: (i32, i32)) {
+        for (i, entry) in self.entries.iter().enumerate() {
+            let (column, row) = (i / self.rows(), i % self.rows());
+            let x = f64::from(corner.0) + column as f64 * self.column_width;
+            let y = f64::from(corner.1) + (row as f64 + 0.5) * ROW * style.em;
+            let key = Rect {
+                left: x.round() as i32,
+                right: (x + style.em * 1.9).round() as i32,
+                top: (y - style.em * 0.45).round() as i32,
+                bottom: (y + style.em * 0.55).round() as i32,
+            };
+            draw_key(canvas, style, key, entry.key);
+            let text = canvas.fit(style.em, &entry.text, self.column_width - style.em * KEY);
+            canvas.text([x + style.em * KEY, y], Pen::new(style.em, 0.0), &text);
+        }
+    }
+}
+
+fn draw_key(canvas: &mut Canvas, style: Style, rect: Rect, key: Key) {
+    match key {
+        Key::Fill(color) => {
+            canvas.fill(rect, color);
+            canvas.frame(rect, GREY);
+        }
+        Key::Hatched(color) => {
+            let hatch = Hatch::new(style);
+            for y in rect.top..rect.bottom {
+                for x in rect.left..rect.right {
+                    let cover = if y < rect.top + hatch.line { 1.0 } else { hatch.stripe(x, y) };
+                    canvas.blend(x, y, color, cover);
+                }
+            }
+        }
+        Key::Line(color, width) => {
+            canvas.line(&[rect.at(0.0, 0.5), rect.at(1.0, 0.5)], width * style.em, color, rect.grown(2));
+        }
+        Key::Star => star(canvas, rect.at(0.5, 0.5), style.em * 0.6),
+    }
+}
+
+/// The lines that show a region's inner side: on a slice and, alike, in its legend.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hatch {
+    /// Width of the line around the region.
+    pub line: i32,
+    /// How far the stripes reach inwards.
+    pub band: i32,
+    period: f64,
+    half: f64,
+}
+
+impl Hatch {
+    pub fn new(style: Style) -> Hatch {
+        let line = style.px(0.13).max(1);
+        Hatch { line, band: style.px(0.7).max(3), period: style.em * 0.5, half: style.em * 0.04 + 0.1 }
+    }
+
+    /// How much of this pixel the stripes cover.
+    pub fn stripe(&self, x: i32, y: i32) -> f64 {
+        // Distance from the nearest of the lines x + y = multiple of the period.
+        let off = f64::from(x + y).rem_euclid(self.period);
+        let distance = off.min(self.period - off) / std::f64::consts::SQRT_2;
+        (self.half + 0.5 - distance).clamp(0.0, 1.0)
+    }
+}
+
+/// The sign of a mark: a black star with a white rim, seen on every colour.
+pub(super) fn star(canvas: &mut Canvas, at: Point, radius: f64) {
+    // A rim of even width all round: the outline is drawn as a line before the star is filled.
+    let corner = |i: usize| {
+        let length = if i.is_multiple_of(2) { radius } else { radius * 0.42 };
+        let (sin, cos) = (std::f64::consts::PI * i as f64 / 5.0).sin_cos();
+        [at[0] + length * sin, at[1] - length * cos]
+    };
+    let corners: Vec<Point> = (0..10).map(corner).collect();
+    let closed: Vec<Point> = corners.iter().chain(&corners[..1]).copied().collect();
+    canvas.line(&closed, radius * 0.6, WHITE, canvas.rect());
+    canvas.polygon(&corners, INK);
+}
+
+/// Heading and small print at the top of a figure.
+pub(super) struct Heading<'a> {
+    title: &'a str,
+    note: Vec<String>,
+}
+
+impl Heading<'_> {
+    pub fn new<'a>(canvas: &Canvas, title: &'a str, note: &str, style: Style, width: i32) -> Heading<'a> {
+        Heading { title, note: canvas.wrap(style.em * 0.95, note, width.into()) }
+    }
+
+    pub fn height(&self, style: Style) -> i32 {
+        let title = if self.title.is_empty() { 0.0 } else { 1.8 };
+        style.px(title + 1.35 * self.note.len() as f64)
+    }
+
+    /// Draws it into the top of `rect`.
+    pub fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect) {
+        let (x, mut y) = (f64::from(rect.left), f64::from(rect.top));
+        if !self.title.is_empty() {
+            let em = style.em * 1.25;
+            let title = canvas.fit(em, self.title, rect.width().into());
+            canvas.text([x, y + em * 0.6], Pen::new(em, 0.0), &title);
+            y += style.em * 1.8;
+        }
+        for line in &self.note {
+            let pen = Pen { color: GREY, ..Pen::new(style.em * 0.95, 0.0) };
+            canvas.text([x, y + style.em * 0.6], pen, line);
+            y += style.em * 1.35;
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! One slice: coloured cells, outlines, marks.
+
+use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
+use super::canvas::{Canvas, Color, GREY, Pen, Rect, WHITE};
+use super::legend::{Entry, Hatch, Heading, Key, Legend, star};
+use super::scale::Cells;
+use super::{Region, Slice, grouped, region_colors};
+use crate::error::{Error, Result};
+
+/// Colours of outlines, in turn: they stand out from all region colours, and have a white rim on the dark ones.
+const OUTLINES: [Color; 3] = [[190, 30, 30], [0, 0, 0], [120, 60, 160]];
+
+/// Least side of a plot in pixels.
+pub(super) const LEAST_SIDE: i32 = 24;
+
+/// Draws a slice of `size` (width, height) pixels: each node fills the cell of what is nearer to it than to its
+/// neighbours, in the axis's own spacing. A pixel shows the node of its centre.
+///
+/// # Errors
+/// [`Error::Domain`] when an axis is empty, not increasing or not finite, a mask has not one entry for each node, a
+/// mark is not finite, or the size is 0, too large, or too small for a plot beside its labels.
+pub fn slice_png(slice: &Slice, size: (u32, u32)) -> Result<Vec<u8>> {
+    let mut canvas = Canvas::new(size)?;
+    let panel = Panel::new(slice)?;
+    let em = (f64::from(size.0) * f64::from(size.1)).sqrt() / 58.0;
+    let style = Style { em: em.max(10.0), slack: em };
+    let sheet = canvas.rect().grown(-style.px(1.2));
+    let heading = Heading::new(&canvas, &slice.title, &slice.note, style, sheet.width());
+    let entries = entries(&[slice], false);
+    let legend = Legend::new(&canvas, &entries, style, sheet.width());
+    let label = style.px(1.6);
+    let mut rect = Rect {
+        top: sheet.top + heading.height(style) + style.px(0.3),
+        bottom: sheet.bottom - legend.height(style) - style.px(0.6) - label - style.below(),
+        ..sheet
+    };
+    let left = width_left(&canvas, &panel.y.scale, style, rect.height());
+    rect.left += left + label;
+    check_room(&canvas, rect)?;
+    heading.draw(&mut canvas, style, sheet);
+    panel.draw(&mut canvas, style, rect, true);
+    draw_below(&mut canvas, &panel.x.scale, style, rect, true);
+    draw_left(&mut canvas, &panel.y.scale, style, rect, true);
+    label_below(&mut canvas, style, rect, style.below(), &slice.x.label);
+    label_left(&mut canvas, style, rect, left, &slice.y.label);
+    legend.draw(&mut canvas, style, (rect.left, sheet.bottom - legend.height(style)));
+    canvas.into_png()
+}
+
+/// Says so when labels leave no room for a plot.
+pub(super) fn check_room(canvas: &Canvas, rect: Rect) -> Result<()> {
+    let sheet = canvas.rect();
+    if rect.width() >= LEAST_SIDE && rect.height() >= LEAST_SIDE {
+        return Ok(());
+    }
+    let (w, h) = (rect.width().max(0), rect.height().max(0));
+    Err(Error::Domain(format!(
+        "a picture of {} x {} pixels leaves {w} x {h} for a plot beside its labels; it needs {LEAST_SIDE} x {LEAST_SIDE}: \
+         ask for a larger picture",
+        sheet.width(),
+        sheet.height()
+    )))
+}
+
+/// A checked slice, ready to be drawn into any rectangle.
+pub(super) struct Panel<'a> {
+    slice: &'a Slice,
+    pub x: Cells,
+    pub y: Cells,
+}
+
+impl Panel<'_> {
+    pub fn new(slice: &Slice) -> Result<Panel<'_>> {
+        let (x, y) = (Cells::new(&slice.x)?, Cells::new(&slice.y)?);
+        let (columns, rows) = (slice.x.values.len(), slice.y.values.len());
+        for region in slice.regions.iter().chain(&slice.outlines) {
+            // As u128, because a product of lengths of two slices fits.
+            if region.mask.len() as u128 != columns as u128 * rows as u128 {
+                return Err(Error::Domain(format!(
+                    "region `{}` has {} nodes; the axes `{}` and `{}` have {columns} x {rows}",
+                    region.label,
+                    region.mask.len(),
+                    slice.x.name,
+                    slice.y.name
+                )));
+            }
+        }
+        if let Some(mark) = slice.marks.iter().find(|m| !(m.x.is_finite() && m.y.is_finite())) {
+            let (label, x, y) = (&mark.label, mark.x, mark.y);
+            return Err(Error::Domain(format!("mark `{label}` is at ({x}, {y}); both must be finite")));
+        }
+        Ok(Panel { slice, x, y })
+    }
+
+    /// Draws all but axes; labels of marks only where asked.
+    pub fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect, mark_labels: bool) {
+        let pixels = Pixels::new(self, rect);
+        self.draw_regions(canvas, &pixels);
+        for (region, color) in self.slice.outlines.iter().zip(OUTLINES.into_iter().cycle()) {
+            pixels.draw_outline(canvas, Hatch::new(style), region, color);
+        }
+        canvas.frame(rect, GREY);
+        self.draw_marks(canvas, style, rect, mark_labels);
+    }
+
+    fn draw_regions(&self, canvas: &mut Canvas, pixels: &Pixels) {
+        let colors = region_colors(self.slice.regions.len());
+        let regions: Vec<_> = self.slice.regions.iter().zip(colors).collect();
+        for y in pixels.rect.top..pixels.rect.bottom {
+            for x in pixels.rect.left..pixels.rect.right {
+                let node = pixels.node(x, y);
+                let top = regions.iter().rev().find(|(region, _)| region.mask[node]);
+                canvas.blend(x, y, top.map_or(WHITE, |(_, color)| *color), 1.0);
+            }
+        }
+    }
+
+    fn draw_marks(&self, canvas: &mut Canvas, style: Style, rect: Rect, labels: bool) {
+        for mark in &self.slice.marks {
+            let (x, y) = (self.x.scale.fraction(mark.x), self.y.scale.fraction(mark.y));
+            if !((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y)) {
+                continue;
+            }
+            let at = rect.at(x, y);
+            let radius = style.em * 0.62;
+            star(canvas, at, radius);
+            if labels && !mark.label.is_empty() {
+                // To the right of the star, or to the left where there is more room.
+                let (side, anchor) = if x < 0.6 { (1.0, 0.0) } else { (-1.0, 1.0) };
+                let room = f64::from(rect.width()) * if x < 0.6 { 1.0 - x } else { x };
+                let label = canvas.fit(style.em, &mark.label, room - 3.0 * radius);
+                let level = at[1].clamp(f64::from(rect.top) + style.em, f64::from(rect.bottom) - style.em);
+                let start = [at[0] + side * radius * 2.2, level];
+                let width = canvas.text_width(style.em, &label);
+                canvas.shade(plate(start[0] - anchor * width, level, width, style.em).meet(&rect), WHITE, 0.88);
+                canvas.text(start, Pen::new(style.em, anchor), &label);
+            }
+        }
+    }
+}
+
+/// A little more than a text covers, so that it is legible on colours.
+fn plate(left: f64, level: f64, width: f64, em: f64) -> Rect {
+    Rect {
+        left: (left - em * 0.3).round() as i32,
+        right: (left + width + em * 0.3).round() as i32,
+        top: (level - em * 0.7).round() as i32,
+        bottom: (level + em * 0.75).round() as i32,
+    }
+}
+
+/// Which node each pixel of a rectangle shows.
+struct Pixels {
+    rect: Rect,
+    /// Node of each pixel column, left to right.
+    columns: Vec<usize>,
+    /// First node of the grid row of each pixel row, top to bottom.
+    rows: Vec<usize>,
+}
+
+impl Pixels {
+    fn new(panel: &Panel, rect: Rect) -> Pixels {
+        let count = panel.slice.x.values.len();
+        let columns = panel.x.of_pixels(rect.width() as usize);
+        let rows = panel.y.of_pixels(rect.height() as usize).into_iter().rev().map(|j| j * count).collect();
+        Pixels { rect, columns, rows }
+    }
+
+    /// The node at a pixel of the sheet; outside the rectangle, that of the nearest pixel inside.
+    fn node(&self, x: i32, y: i32) -> usize {
+        let x = (x - self.rect.left).clamp(0, self.columns.len() as i32 - 1);
+        let y = (y - self.rect.top).clamp(0, self.rows.len() as i32 - 1);
+        self.rows[y as usize] + self.columns[x as usize]
+    }
+
+    /// A line along the inside of a region's boundary, stripes further in, a white rim on both sides of the line.
+    fn draw_outline(&self, canvas: &mut Canvas, hatch: Hatch, region: &Region, color: Color) {
+        let inside = |x: i32, y: i32| region.mask[self.node(x, y)];
+        let (line, rim) = (hatch.line, (hatch.line / 2).max(1));
+        for y in self.rect.top..self.rect.bottom {
+            for x in self.rect.left..self.rect.right {
+                // Whether the other side of the boundary is met at a distance, in one of eight directions.
+                let here = inside(x, y);
+                let crosses = |by: i32| {
+                    let slant = (f64::from(by) * std::f64::consts::FRAC_1_SQRT_2).ceil() as i32;
+                    let straight = [(by, 0), (-by, 0), (0, by), (0, -by)];
+                    let slanted = [(slant, slant), (slant, -slant), (-slant, slant), (-slant, -slant)];
+                    straight.iter().chain(&slanted).any(|(dx, dy)| inside(x + dx, y + dy) != here)
+                };
+                if here && crosses(line) {
+                    canvas.blend(x, y, color, 1.0);
+                } else if crosses(if here { line + rim } else { rim }) {
+                    canvas.blend(x, y, WHITE, 0.8);
+                } else if here && crosses(hatch.band) {
+                    canvas.blend(x, y, color, hatch.stripe(x, y));
+                }
+            }
+        }
+    }
+}
+
+/// The legend of slices that have the same regions: nodes are counted over all of them.
+pub(super) fn entries(slices: &[&Slice], stars: bool) -> Vec<Entry> {
+    let Some(first) = slices.first() else { return Vec::new() };
+    let nodes: usize = slices.iter().map(|s| s.x.values.len() * s.y.values.len()).sum();
+    let text = |label: &str, pick: &dyn Fn(&Slice) -> usize| {
+        let count: usize = slices.iter().map(|s| pick(s)).sum();
+        let share = 100.0 * count as f64 / nodes as f64;
+        let share = if count > 0 && share < 0.05 { "< 0.1".into() } else { format!("{share:.1}") };
+        let s = if count == 1 { "" } else { "s" };
+        format!("{label}: {} node{s} ({share} %)", grouped(count))
+    };
+    let count = |region: &Region| region.mask.iter().filter(|inside| **inside).count();
+    let colors = region_colors(first.regions.len());
+    let mut entries: Vec<Entry> = Vec::new();
+    for (i, (region, color)) in first.regions.iter().zip(colors).enumerate() {
+        let text = text(&region.label, &|s| s.regions.get(i).map_or(0, count));
+        entries.push(Entry { key: Key::Fill(color), text });
+    }
+    for (i, (region, color)) in first.outlines.iter().zip(OUTLINES.into_iter().cycle()).enumerate() {
+        let text = text(&region.label, &|s| s.outlines.get(i).map_or(0, count));
+        entries.push(Entry { key: Key::Hatched(color), text });
+    }
+    for mark in slices.iter().flat_map(|s| &s.marks).filter(|m| stars && !m.label.is_empty()) {
+        let entry = Entry { key: Key::Star, text: mark.label.clone() };
+        if !entries.contains(&entry) {
+            entries.push(entry);
+        }
+    }
+    entries
+}
