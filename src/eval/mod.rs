@@ -2,6 +2,11 @@
 
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod pipeline;
+mod report;
+
+pub use pipeline::{Backend, Job, evaluate};
+pub use report::{DeviceReport, Report};
 
 /// The fields of a run of nodes, in flat order.
 #[derive(Debug, Clone, PartialEq)]

@@ -110,11 +110,7 @@ impl Interval {
         // By a positive divisor: each end is farthest from or nearest to zero, as its sign says.
         let low_by = if self.lo < zero { &divisor.lo } else { &divisor.hi };
         let high_by = if self.hi < zero { &divisor.hi } else { &divisor.lo };
-        Some(Interval {
-            lo: directed!(bits, div, Down, &self.lo, low_by),
-            hi: directed!(bits, div, Up, &self.hi, high_by),
-            bits,
-        })
+        Some(Interval { lo: directed!(bits, div, Down, &self.lo, low_by), hi: directed!(bits, div, Up, &self.hi, high_by), bits })
     }
 
     /// The square root; `None` when it may be negative.

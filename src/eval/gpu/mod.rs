@@ -80,7 +80,7 @@ impl Settings {
 }
 
 /// What a run did.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct RunStats {
     /// Nodes evaluated.
     pub nodes: u64,

@@ -245,7 +245,11 @@ fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Interval>
     for _ in 0..4 * bits {
         let (value, slope) = f.at(&x);
         let Some(sign) = value.sign().filter(|s| *s != Equal) else { break };
-        if sign == side { low = x.clone() } else { high = x.clone() }
+        if sign == side {
+            low = x.clone()
+        } else {
+            high = x.clone()
+        }
         let newton = value.over(&slope).map(|step| (&x - &step).middle());
         let next = newton.filter(|n| inside(n, &low, &high)).unwrap_or_else(|| middle(&low, &high));
         let (step, limit) = (&next - &x, &x * &tiny);

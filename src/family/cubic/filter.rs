@@ -375,7 +375,12 @@ pub fn classify<S: Simd>(simd: S, prepared: &Prepared, d: &Data<S>) -> Planes {
 
 /// [`classify`], showing each root to `seen`; with `ALL` also those of data that no spiral fits.
 #[inline(always)]
-pub(super) fn visit<S: Simd, const ALL: bool>(simd: S, prepared: &Prepared, d: &Data<S>, mut seen: impl FnMut(Found<'_, S>)) -> Planes {
+pub(super) fn visit<S: Simd, const ALL: bool>(
+    simd: S,
+    prepared: &Prepared,
+    d: &Data<S>,
+    mut seen: impl FnMut(Found<'_, S>),
+) -> Planes {
     let all = if S::f64s::LEN == 64 { u64::MAX } else { (1 << S::f64s::LEN) - 1 };
     let case = cases(simd, d.a, d.k);
     let (any, no) = if prepared.pair.rising { any_spiral(simd, &prepared.pair, d) } else { (0, all) };

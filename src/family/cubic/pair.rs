@@ -76,7 +76,24 @@ mod tests {
     fn constants_keep_their_bound() {
         let mut worst: f64 = 0.0;
         let mut compared = 0;
-        let angles = [1e-12, 1e-3, 0.1, 0.3, 0.7, 0.7000000001, 0.8, 0.9, 1.4, 1.5, 1.570796, std::f64::consts::FRAC_PI_2, 1.6, 2.2, 3.0, 3.14];
+        let angles = [
+            1e-12,
+            1e-3,
+            0.1,
+            0.3,
+            0.7,
+            0.7000000001,
+            0.8,
+            0.9,
+            1.4,
+            1.5,
+            1.570796,
+            std::f64::consts::FRAC_PI_2,
+            1.6,
+            2.2,
+            3.0,
+            3.14,
+        ];
         for phi0 in angles {
             for phi1 in angles {
                 let Some(pair) = Pair::new(phi0, phi1) else { continue };

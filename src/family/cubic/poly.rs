@@ -59,7 +59,8 @@ impl Bounds {
     pub fn new(p: f64, g: f64, r: f64, gamma: f64) -> Bounds {
         let (p, r) = (p.abs(), r.abs());
         Bounds {
-            rounding: [18.0 * p + 62.0 * g, 420.0 * p + 563.0 * g + 108.0 * r, 628.0 * p + 774.0 * g + 30.0 * r].map(|b| b * gamma),
+            rounding: [18.0 * p + 62.0 * g, 420.0 * p + 563.0 * g + 108.0 * r, 628.0 * p + 774.0 * g + 30.0 * r]
+                .map(|b| b * gamma),
             slope: [12.0 * p + 25.0 * g, 294.0 * p + 339.0 * g + 108.0 * r, 95.0 * p + 135.0 * g + 57.0 * r],
         }
     }
@@ -116,8 +117,18 @@ mod tests {
                 }
             }
             for b in 0..3 {
-                assert!(slope[b] <= bounds.slope[b] * 1.000_001, "B{b}, coefficient {which}: slope {} over {}", slope[b], bounds.slope[b]);
-                assert!(slope[b] >= bounds.slope[b] * 0.5, "B{b}, coefficient {which}: bound {} is far from {}", bounds.slope[b], slope[b]);
+                assert!(
+                    slope[b] <= bounds.slope[b] * 1.000_001,
+                    "B{b}, coefficient {which}: slope {} over {}",
+                    slope[b],
+                    bounds.slope[b]
+                );
+                assert!(
+                    slope[b] >= bounds.slope[b] * 0.5,
+                    "B{b}, coefficient {which}: bound {} is far from {}",
+                    bounds.slope[b],
+                    slope[b]
+                );
             }
         }
     }
