@@ -1,6 +1,7 @@
 //! Proved atlases of spiral regions: given two end points, tangents and curvatures, is there a transition curve with
 //! monotone curvature of a given family, and which one?
 
+pub mod atlas;
 pub mod error;
 pub mod eval;
 pub mod family;
