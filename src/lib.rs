@@ -2,6 +2,7 @@
 //! monotone curvature of a given family, and which one?
 
 pub mod curve;
+pub mod atlas;
 pub mod error;
 pub mod eval;
 pub mod family;
