@@ -14,7 +14,6 @@ pub struct Answer {
     /// What was asked.
     pub ends: Ends,
     /// The normalised data.
-    #[serde(with = "DatumFields")]
     pub datum: Datum,
     /// How the normalised frame lies in the user's.
     pub placement: Placement,
@@ -55,15 +54,6 @@ pub struct Solution {
     pub local_control_points: CubicBezier,
     /// Parameters of its curvature extrema; empty on a spiral.
     pub extrema: Vec<f64>,
-}
-
-#[derive(Serialize)]
-#[serde(remote = "Datum")]
-struct DatumFields {
-    phi0: f64,
-    phi1: f64,
-    kappa0: f64,
-    kappa1: f64,
 }
 
 /// Finds the cubic spiral between two ends, or says why there is none.

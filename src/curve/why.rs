@@ -163,10 +163,7 @@ fn bends(ends: &Ends, placement: &Placement) -> Option<Why> {
 
 /// The paper's discriminant in the angle-free coordinates: `c0 = (9 - 3/k)/a²`, `c1 = 1/(k a²)`, `c2 = 6/a`, (A.3) to (A.5).
 fn no_root(datum: &Datum) -> Why {
-    let (sin0, sin1) = (datum.phi0.sin(), datum.phi1.sin());
-    let sum = (datum.phi0 + datum.phi1).sin();
-    let a = datum.kappa0 * (sin1 / sum).powi(2) / sin0;
-    let k = datum.kappa1 * (sin0 / sum).powi(2) / sin1;
+    let (a, k) = datum.normalised();
     let (c0, c1, c2) = ((9.0 - 3.0 / k) / (a * a), 1.0 / (k * a * a), 6.0 / a);
     let lambda = 12.0 * c0 + c2 * c2;
     let mu = 27.0 * c1 * c1 + 72.0 * c0 * c2 - 2.0 * c2.powi(3);

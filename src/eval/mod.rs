@@ -1,5 +1,6 @@
 //! From a grid to fields: evaluators, the ladder, and the agreement report.
 
+pub mod agree;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod pipeline;

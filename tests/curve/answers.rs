@@ -297,7 +297,6 @@ fn answers_are_told_in_json() {
 
 /// With the proved solver in place of this file's own.
 #[test]
-#[ignore = "family::cubic::solve is a stub on this branch"]
 fn the_proved_solver_gives_the_same_curves() {
     for (data, [f0, f1]) in EXAMPLES {
         for ends in [ends_of(data), mirrored(&ends_of(data)), backwards(&ends_of(data))] {

@@ -224,7 +224,7 @@ mod tests {
             for number in [0, 1, 126, 1_000_003] {
                 let digits = digits(&shape, number);
                 let flat = digits.iter().zip(shape).fold(0u64, |flat, (d, n)| flat * u64::from(n) + u64::from(*d));
-                assert_eq!(flat, number.into(), "{shape:?}");
+                assert_eq!(flat, u64::from(number), "{shape:?}");
                 assert!((1..4).all(|i| digits[i] < shape[i]));
             }
         }

@@ -12,7 +12,7 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::cmp::Ordering;
 
 /// G² Hermite data in the normalised frame: end points (-1, 0) and (1, 0).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Datum {
     /// Start tangent angle below the chord, radians, positive.
     pub phi0: f64,
@@ -22,6 +22,18 @@ pub struct Datum {
     pub kappa0: f64,
     /// End curvature times half the chord.
     pub kappa1: f64,
+}
+
+impl Datum {
+    /// The angle-free coordinates `(a, k)` of the `normalised` chart: `a = κ0 d0²/(4 sin φ0)`, `k = κ1 d1²/(4 sin φ1)`.
+    ///
+    /// # Accuracy
+    /// A few ulp of doubles while `φ0 + φ1` keeps away from π; verdicts use the interval form instead.
+    pub fn normalised(&self) -> (f64, f64) {
+        let (sin0, sin1) = (self.phi0.sin(), self.phi1.sin());
+        let sum = (self.phi0 + self.phi1).sin();
+        (self.kappa0 * (sin1 / sum).powi(2) / sin0, self.kappa1 * (sin0 / sum).powi(2) / sin1)
+    }
 }
 
 /// One root of the two curvature equations and what is proved of its curve.
@@ -63,6 +75,11 @@ impl Solutions {
     /// The spiral with the largest margin; of equal ones that with the smaller f0.
     pub fn chosen(&self) -> Option<&Root> {
         self.chosen.map(|i| &self.roots[i])
+    }
+
+    /// Where in [`Solutions::roots`] the chosen one is.
+    pub fn chosen_index(&self) -> Option<usize> {
+        self.chosen
     }
 }
 
