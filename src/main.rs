@@ -1,1 +1,7 @@
-fn main() {}
+//! The program `spiral-atlas`.
+
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::main()
+}

@@ -1,0 +1,104 @@
+//! `info`: what an atlas says about itself.
+
+use super::Outcome;
+use super::output::{self, Object, grouped};
+use spiral_atlas::Result;
+use spiral_atlas::atlas::{About, Atlas};
+use spiral_atlas::grid::{Axis, Spacing};
+use std::path::PathBuf;
+
+/// Tell what an atlas holds: grid, fields, legend, hashes, recipe.
+///
+/// The hashes are those that the file states; `verify` tells whether they are true.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  spiral-atlas info out/quickstart.atlas.safetensors")]
+pub struct Args {
+    /// The atlas.
+    atlas: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Outcome> {
+    let atlas = Atlas::open(&args.atlas)?;
+    if args.json {
+        output::print_json(&json(&atlas))?
+    } else {
+        output::print(&text(&atlas))?
+    }
+    Ok(Outcome::Fine)
+}
+
+fn spacing(axis: &Axis) -> &'static str {
+    match axis.spacing() {
+        Spacing::Linear { .. } => "linear",
+        Spacing::Log { .. } => "log",
+        Spacing::Values(_) => "values",
+    }
+}
+
+fn json(atlas: &Atlas) -> serde_json::Value {
+    let About { generator, name, family, chart, chart_doc, conventions, flags, counts, scalars, recipe } = atlas.about();
+    let axis = |a: &Axis| {
+        let values = a.values();
+        serde_json::json!({
+            "name": a.name(), "spacing": spacing(a), "count": values.len(), "first": values[0], "last": values[values.len() - 1],
+        })
+    };
+    let axes: Vec<_> = atlas.grid().axes().iter().map(axis).collect();
+    let hashes = Object(atlas.hashes().map(|(name, hash)| (name, hash.to_hex().to_string())).collect());
+    serde_json::json!({
+        "file": atlas.path(), "name": name, "id": atlas.id().to_hex().as_str(), "generator": generator,
+        "family": family, "chart": chart, "chart_doc": chart_doc, "conventions": conventions,
+        "nodes": atlas.grid().len(), "axes": axes, "flags": flags, "counts": counts, "scalars": scalars,
+        "blake3": hashes, "recipe": recipe,
+    })
+}
+
+fn text(atlas: &Atlas) -> String {
+    let about = atlas.about();
+    let mut text = format!("{}\n", atlas.path().display());
+    for (key, value) in [
+        ("name", &about.name),
+        ("id", &atlas.id().to_hex().to_string()),
+        ("generator", &about.generator),
+        ("family", &about.family),
+        ("conventions", &about.conventions),
+    ] {
+        text += &format!("  {key:<12} {value}\n");
+    }
+    text += &format!("grid of {} nodes, first axis slowest; chart `{}`\n", grouped(atlas.grid().len()), about.chart);
+    for axis in atlas.grid().axes() {
+        let values = axis.values();
+        let (count, first, last) = (values.len(), values[0], values[values.len() - 1]);
+        text += &format!("  {:<12} {:<6} {count:>6} values from {first:?} to {last:?}\n", axis.name(), spacing(axis));
+    }
+    text += &format!("  {}\n", about.chart_doc);
+    text += "flags (u8)\n";
+    for (bit, flag) in about.flags.iter().enumerate() {
+        text += &format!("  bit {bit} {:<14} {}\n", flag.name, flag.doc);
+    }
+    text += "solutions (u8)\n";
+    for count in &about.counts {
+        let last = count.shift + count.bits - 1;
+        text += &format!("  bits {}-{last} {:<11} {}\n", count.shift, count.name, count.doc);
+    }
+    if !about.scalars.is_empty() {
+        text += "scalars (f32)\n";
+    }
+    for scalar in &about.scalars {
+        text += &format!("  {:<20} {}\n", scalar.name, scalar.doc);
+    }
+    text += "BLAKE3 of each tensor, as stated (`verify` checks them)\n";
+    for (name, hash) in atlas.hashes() {
+        text += &format!("  {name:<12} {hash}\n");
+    }
+    text += "recipe\n";
+    for line in about.recipe.lines() {
+        text += format!("  {line}").trim_end();
+        text += "\n";
+    }
+    text
+}

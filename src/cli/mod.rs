@@ -1,0 +1,99 @@
+//! The commands: arguments in, text, JSON and files out. No mathematics here.
+//!
+//! Exit codes: 0 fine, 1 failure or a difference found, 2 wrong usage, 130 interrupted. Reports go to standard output,
+//! progress and errors to standard error.
+
+mod adapters;
+mod backend;
+mod curve;
+mod generate;
+mod info;
+mod output;
+mod pictures;
+mod points;
+mod query;
+mod render;
+mod verify;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use spiral_atlas::{Error, Result};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Proved atlases of spiral regions: is there a transition curve with monotone curvature between two ends, and which one?
+///
+/// Angles are radians, or degrees when written like 40deg.
+#[derive(Parser)]
+#[command(name = "spiral-atlas", version, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Generate(generate::Args),
+    Verify(verify::Args),
+    Render(render::Args),
+    Info(info::Args),
+    Adapters(adapters::Args),
+    Query(query::Args),
+    Curve(curve::Args),
+    /// Print shell completions.
+    #[command(after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+}
+
+/// How a command ended that did not fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Fine,
+    /// It did its work, and what it found is not as it should be; it has said so itself.
+    Bad,
+}
+
+/// Runs the program with the process's arguments.
+pub fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Generate(args) => generate::run(&args),
+        Command::Verify(args) => verify::run(&args),
+        Command::Render(args) => render::run(&args),
+        Command::Info(args) => info::run(&args),
+        Command::Adapters(args) => adapters::run(&args),
+        Command::Query(args) => query::run(&args),
+        Command::Curve(args) => curve::run(&args),
+        Command::Completions { shell } => completions(shell),
+    };
+    match done {
+        Ok(Outcome::Fine) => ExitCode::SUCCESS,
+        Ok(Outcome::Bad) => ExitCode::FAILURE,
+        Err(error) => {
+            output::complain(&error.to_string());
+            ExitCode::from(if matches!(error, Error::Interrupted) { 130 } else { 1 })
+        }
+    }
+}
+
+fn completions(shell: clap_complete::Shell) -> Result<Outcome> {
+    let mut text = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "spiral-atlas", &mut text);
+    output::print(&String::from_utf8_lossy(&text)).map(|()| Outcome::Fine)
+}
+
+/// Ends the program as for arguments that clap itself refuses.
+fn refuse(what: &str) -> ! {
+    Cli::command().error(clap::error::ErrorKind::ArgumentConflict, what).exit()
+}
+
+/// A flag that Ctrl-C (and a polite request to end) sets; long work looks at it and cleans up after itself.
+fn stop_flag() -> Result<Arc<AtomicBool>> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let set = flag.clone();
+    ctrlc::set_handler(move || set.store(true, std::sync::atomic::Ordering::Relaxed))
+        .map_err(|e| Error::Domain(format!("Ctrl-C cannot be watched: {e}")))?;
+    Ok(flag)
+}

@@ -1,0 +1,123 @@
+//! What all commands do to print: text, JSON, errors, progress, numbers.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::ser::{Serialize, Serializer};
+use spiral_atlas::{Error, Result};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Prints to standard output. That nobody reads on is no failure.
+pub fn print(text: &str) -> Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(stdout_error(e)),
+        _ => Ok(()),
+    }
+}
+
+/// The failure of standard output.
+pub fn stdout_error(source: io::Error) -> Error {
+    Error::Io { path: "(standard output)".into(), source }
+}
+
+/// Prints a value as JSON with indents.
+pub fn print_json(value: &impl Serialize) -> Result<()> {
+    print(&(to_json(value)? + "\n"))
+}
+
+/// A value as JSON with indents.
+pub fn to_json(value: &impl Serialize) -> Result<String> {
+    serde_json::to_string_pretty(value).map_err(json_error)
+}
+
+/// The failure of writing JSON; none is known.
+pub fn json_error(e: serde_json::Error) -> Error {
+    Error::Domain(format!("a report cannot be written as JSON: {e}"))
+}
+
+/// Tells an error. When even standard error is closed, the exit code must do.
+pub fn complain(what: &str) {
+    let _ = writeln!(io::stderr(), "error: {what}");
+}
+
+/// A bar on standard error for a number of nodes; silent when that is no terminal.
+pub fn progress(what: String, nodes: u64) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(nodes), ProgressDrawTarget::stderr());
+    let style = ProgressStyle::with_template("{msg} {wide_bar} {human_pos}/{human_len} nodes, {eta} left");
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())).with_message(what)
+}
+
+/// A number with its digits in groups of three.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let breaks = |i: usize| i > 0 && (digits.len() - i).is_multiple_of(3);
+    digits.chars().enumerate().flat_map(|(i, c)| breaks(i).then_some(',').into_iter().chain([c])).collect()
+}
+
+/// Bytes in the largest unit that leaves a number above 1.
+pub fn bytes(number: u64) -> String {
+    match number {
+        0..1024 => format!("{number} B"),
+        1024..0x10_0000 => format!("{:.1} KiB", number as f64 / 1024.0),
+        0x10_0000..0x4000_0000 => format!("{:.1} MiB", number as f64 / 1_048_576.0),
+        _ => format!("{:.2} GiB", number as f64 / 1_073_741_824.0),
+    }
+}
+
+/// A JSON object whose keys keep their order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Object<K, V>(pub Vec<(K, V)>);
+
+impl<K: Serialize, V: Serialize> Serialize for Object<K, V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(k, v)| (k, v)))
+    }
+}
+
+/// A file that was written, with what tells it from others.
+#[derive(Debug, Clone, serde::Serialize)]
+pub struct Product {
+    /// Where it is.
+    pub path: PathBuf,
+    /// Its length.
+    pub bytes: u64,
+    /// BLAKE3 of its bytes, as `b3sum` has it.
+    pub blake3: String,
+}
+
+impl Product {
+    /// Reads the file once.
+    pub fn of(path: &Path) -> Result<Product> {
+        let io = |source| Error::Io { path: path.to_owned(), source };
+        let mut hasher = blake3::Hasher::new();
+        hasher.update_reader(std::fs::File::open(path).map_err(io)?).map_err(io)?;
+        Ok(Product { path: path.to_owned(), bytes: hasher.count(), blake3: hasher.finalize().to_hex().to_string() })
+    }
+
+    /// A line of a summary.
+    pub fn line(&self) -> String {
+        format!("  {}  {}\n    BLAKE3 {}\n", self.path.display(), bytes(self.bytes), self.blake3)
+    }
+}
+
+/// Creates a folder with its parents, unless it is there.
+pub fn make_folder(path: &Path) -> Result<()> {
+    std::fs::create_dir_all(path).map_err(|source| Error::Io { path: path.to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_readable() {
+        assert_eq!([0, 999, 1000, 1234567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
+        assert_eq!([12, 2048, 5 << 20, 3 << 29].map(bytes), ["12 B", "2.0 KiB", "5.0 MiB", "1.50 GiB"]);
+    }
+
+    #[test]
+    fn objects_keep_their_order() {
+        let json = serde_json::to_string(&Object(vec![("b", 1), ("a", 2)])).unwrap();
+        assert_eq!(json, r#"{"b":1,"a":2}"#);
+    }
+}

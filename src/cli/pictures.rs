@@ -1,0 +1,171 @@
+//! Pictures of an atlas: from a plan of its recipe to the plain data that [`spiral_atlas::plot`] draws.
+
+use super::output::grouped;
+use spiral_atlas::atlas::Atlas;
+use spiral_atlas::family::{Family, Flag};
+use spiral_atlas::grid::{Axis, Spacing};
+use spiral_atlas::plot::{self, AxisView, Mark, Multiples, Region, Slice};
+use spiral_atlas::recipe::{PictureKind, PicturePlan, Recipe};
+use spiral_atlas::{Error, Result, family};
+use std::path::{Path, PathBuf};
+
+const SLICE: (u32, u32) = (1000, 860);
+const MULTIPLES: (u32, u32) = (1500, 1350);
+/// Each panel of slices side by side.
+const PANEL: (u32, u32) = (620, 700);
+
+/// The plans of an atlas: those of the recipe in its metadata or, where that has none, its default slice.
+///
+/// # Errors
+/// [`Error::Domain`] when the atlas has a single axis.
+pub fn plans(atlas: &Atlas) -> Result<Vec<PicturePlan>> {
+    let recipe = Recipe::parse(atlas.recipe_text()).ok();
+    let planned = recipe.and_then(|r| r.atlases.into_iter().find(|a| a.name == atlas.about().name && a.grid == *atlas.grid()));
+    match planned.map(|a| a.pictures) {
+        Some(pictures) if !pictures.is_empty() => Ok(pictures),
+        _ => default_slice(atlas).map(|plan| vec![plan]),
+    }
+}
+
+/// The last two axes, at the middle of the others.
+fn default_slice(atlas: &Atlas) -> Result<PicturePlan> {
+    let counts = atlas.grid().shape();
+    let Some(x) = counts.len().checked_sub(2) else {
+        return Err(Error::Domain("an atlas of one axis has no slices; pictures need two axes".into()));
+    };
+    let at = counts[..x].iter().enumerate().map(|(axis, count)| (axis, vec![count / 2])).collect();
+    Ok(PicturePlan { kind: PictureKind::Slice, x, y: x + 1, at, marks: Vec::new() })
+}
+
+/// The files of an atlas's pictures: `NAME.png`, or `NAME-1.png`, `NAME-2.png`, ... for several.
+pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
+    match count {
+        1 => vec![folder.join(format!("{name}.png"))],
+        _ => (1..=count).map(|i| folder.join(format!("{name}-{i}.png"))).collect(),
+    }
+}
+
+/// Draws one picture of an atlas.
+///
+/// # Errors
+/// Those of [`plot`], and [`Error::Domain`] for a family that this program does not have.
+pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
+    match plan.kind {
+        PictureKind::Slice => plot::slice_png(&slice(atlas, plan)?, SLICE),
+        PictureKind::Multiples => plot::multiples_png(&multiples(atlas, plan)?, MULTIPLES),
+    }
+}
+
+/// Draws slices of several atlases of one family side by side.
+///
+/// # Errors
+/// As [`draw`].
+pub fn side_by_side(title: &str, slices: Vec<Slice>) -> Result<Vec<u8>> {
+    let count = slices.len() as u32;
+    let columns = vec![String::new(); slices.len()];
+    let figure = Multiples { title: title.into(), note: String::new(), columns, rows: vec![String::new()], panels: slices };
+    plot::multiples_png(&figure, (PANEL.0.saturating_mul(count), PANEL.1))
+}
+
+/// The slice of a plan: the first node of each axis that is not drawn.
+///
+/// # Errors
+/// [`Error::Domain`] for a family that this program does not have.
+pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
+    let fixed: Vec<(usize, usize)> = plan.at.iter().filter_map(|(axis, nodes)| Some((*axis, *nodes.first()?))).collect();
+    let axes = atlas.grid().axes();
+    let places: Vec<String> = fixed.iter().map(|(axis, node)| place(&axes[*axis], *node)).collect();
+    let title = format!("{}: {}", atlas.about().name, places.join(", "));
+    let mut slice = panel(atlas, plan, &fixed)?;
+    slice.title = title.trim_end_matches([':', ' ']).to_owned();
+    let (x, y) = (slice.x.values.len() as u64, slice.y.values.len() as u64);
+    slice.note = format!("{} × {} = {} nodes, each proved", grouped(x), grouped(y), grouped(x * y));
+    slice.marks = plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect();
+    Ok(slice)
+}
+
+/// Panels over the other axes: the last one to the right, the one before upwards.
+fn multiples(atlas: &Atlas, plan: &PicturePlan) -> Result<Multiples> {
+    let (axes, empty) = (atlas.grid().axes(), (0, vec![0]));
+    let (rows, columns) = match plan.at.as_slice() {
+        [rows, columns] => (Some(rows), Some(columns)),
+        [columns] => (None, Some(columns)),
+        _ => (None, None),
+    };
+    let captions = |of: Option<&(usize, Vec<usize>)>| match of {
+        Some((axis, nodes)) => nodes.iter().map(|node| place(&axes[*axis], *node)).collect(),
+        None => vec![String::new()],
+    };
+    let nodes = |of: Option<&(usize, Vec<usize>)>| of.unwrap_or(&empty).1.clone();
+    let mut panels = Vec::new();
+    for row in nodes(rows).into_iter().rev() {
+        for column in nodes(columns) {
+            let at = |of: Option<&(usize, Vec<usize>)>, node| of.map(|(axis, _)| (*axis, node));
+            let fixed: Vec<(usize, usize)> = at(rows, row).into_iter().chain(at(columns, column)).collect();
+            panels.push(panel(atlas, plan, &fixed)?);
+        }
+    }
+    let (name, total) = (&atlas.about().name, panels.iter().map(|p| p.x.values.len() * p.y.values.len()).sum::<usize>());
+    let mut rows: Vec<String> = captions(rows);
+    rows.reverse();
+    let note = format!("{} panels, {} nodes, each proved", panels.len(), grouped(total as u64));
+    Ok(Multiples { title: name.clone(), note, columns: captions(columns), rows, panels })
+}
+
+/// A plane of the atlas through fixed nodes of the other axes.
+fn panel(atlas: &Atlas, plan: &PicturePlan, fixed: &[(usize, usize)]) -> Result<Slice> {
+    let family = of(atlas)?;
+    let (grid, flags) = (atlas.grid(), family.flags());
+    let (x, y) = (&grid.axes()[plan.x], &grid.axes()[plan.y]);
+    let mut index = vec![0; grid.axes().len()];
+    for (axis, node) in fixed {
+        index[*axis] = *node;
+    }
+    let mut plane = Vec::with_capacity(x.values().len() * y.values().len());
+    for j in 0..y.values().len() {
+        for i in 0..x.values().len() {
+            (index[plan.x], index[plan.y]) = (i, j);
+            let entry = atlas.at(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
+            plane.push(entry.flags);
+        }
+    }
+    let region = |(bit, flag): (usize, &Flag)| Region {
+        label: flag.label.to_owned(),
+        mask: plane.iter().map(|byte| byte >> bit & 1 == 1).collect(),
+    };
+    let place = |name: &&str| flags.iter().enumerate().find(|(_, f)| f.name == *name);
+    let nested = family.nested();
+    let outlines = flags.iter().enumerate().filter(|(_, f)| !nested.contains(&f.name));
+    Ok(Slice {
+        title: String::new(),
+        x: view(x),
+        y: view(y),
+        regions: nested.iter().filter_map(place).map(region).collect(),
+        outlines: outlines.map(region).collect(),
+        marks: Vec::new(),
+        note: String::new(),
+    })
+}
+
+/// The family of an atlas.
+///
+/// # Errors
+/// [`Error::Atlas`] for one that this program does not have.
+pub fn of(atlas: &Atlas) -> Result<&'static dyn Family> {
+    family::by_name(atlas.family_name()).ok_or_else(|| {
+        let known: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
+        let what = format!("its family is `{}`; this program has `{}`", atlas.family_name(), known.join("`, `"));
+        Error::Atlas { path: atlas.path().to_owned(), what }
+    })
+}
+
+fn view(axis: &Axis) -> AxisView {
+    let log = matches!(axis.spacing(), Spacing::Log { .. });
+    AxisView { name: axis.name().into(), label: plot::symbol(axis.name()), values: axis.values().to_vec(), log }
+}
+
+/// `φ₀ = 0.7`, with as many digits as a reader wants.
+fn place(axis: &Axis, node: usize) -> String {
+    let rounded = format!("{:.4}", axis.values()[node]);
+    format!("{} = {}", plot::symbol(axis.name()), rounded.trim_end_matches('0').trim_end_matches('.'))
+}

@@ -1,0 +1,127 @@
+//! `render`: pictures of an atlas, or of a recipe whose atlases are not kept.
+
+use super::backend::BackendArgs;
+use super::output::{self, Product};
+use super::pictures;
+use super::{Outcome, generate};
+use spiral_atlas::atlas::Atlas;
+use spiral_atlas::plot;
+use spiral_atlas::recipe::{PictureKind, PicturePlan, Recipe};
+use spiral_atlas::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// Draw PNG pictures of an atlas, or of a recipe (its atlases are made and not kept).
+///
+/// The pictures are those of the recipe, which every atlas carries with it: NAME.png, or NAME-1.png, NAME-2.png, ...
+/// An atlas without planned pictures gets a slice over its last two axes, at the middle of the others.
+/// Several atlases of a recipe that begin with slices are also drawn side by side, in RECIPE.png.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  spiral-atlas render out/quickstart.atlas.safetensors --out pictures\n  \
+                        spiral-atlas render atlases/habib-sakai-fig2.toml")]
+pub struct Args {
+    /// An atlas (.safetensors) or a recipe (.toml).
+    source: PathBuf,
+    /// Folder for the pictures; created when missing.
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    backend: BackendArgs,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Outcome> {
+    let products = if args.source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+        of_recipe(args)?
+    } else {
+        let atlas = Atlas::open(&args.source)?;
+        let plans = pictures::plans(&atlas)?;
+        output::make_folder(&args.out)?;
+        one(&atlas, &plans, &args.out)?
+    };
+    if args.json {
+        output::print_json(&products)?;
+    } else {
+        output::print(&products.iter().map(Product::line).collect::<String>())?;
+    }
+    Ok(Outcome::Fine)
+}
+
+/// Makes the recipe's atlases in a folder that goes away, and draws them.
+fn of_recipe(args: &Args) -> Result<Vec<Product>> {
+    let (recipe, backend) = (Recipe::read(&args.source)?, args.backend.one()?);
+    check_names(&args.source, &recipe, &args.out)?;
+    let stop = super::stop_flag()?;
+    output::make_folder(&args.out)?;
+    // Beside the pictures: there is room for them, and the system's own folder may be memory.
+    let folder = tempfile::Builder::new().prefix(".spiral-atlas-").tempdir_in(&args.out);
+    let folder = folder.map_err(|source| Error::Io { path: args.out.clone(), source })?;
+    let (mut atlases, mut products) = (Vec::new(), Vec::new());
+    for plan in &recipe.atlases {
+        let path = generate::atlas_path(folder.path(), &plan.name);
+        generate::write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
+        let atlas = Atlas::open(&path)?;
+        products.extend(one(&atlas, &pictures::plans(&atlas)?, &args.out)?);
+        atlases.push(atlas);
+    }
+    products.extend(together(&args.source, &atlases, &args.out)?);
+    Ok(products)
+}
+
+/// Draws an atlas's pictures into a folder.
+pub fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
+    let files = pictures::files(folder, &atlas.about().name, plans.len());
+    let draw = |(plan, file): (&PicturePlan, PathBuf)| {
+        plot::write_file(&file, &pictures::draw(atlas, plan)?)?;
+        Product::of(&file)
+    };
+    plans.iter().zip(files).map(draw).collect()
+}
+
+/// Draws the first slices of several atlases side by side; `None` when there are not several.
+pub fn together(recipe: &Path, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
+    let mut slices = Vec::new();
+    for atlas in atlases {
+        if let Some(plan) = pictures::plans(atlas)?.iter().find(|p| p.kind == PictureKind::Slice) {
+            slices.push(pictures::slice(atlas, plan)?);
+        }
+    }
+    if slices.len() < 2 {
+        return Ok(None);
+    }
+    let (stem, file) = (stem(recipe), together_path(recipe, folder));
+    plot::write_file(&file, &pictures::side_by_side(&stem, slices)?)?;
+    Product::of(&file).map(Some)
+}
+
+/// Makes sure that no two pictures of a recipe have one name.
+///
+/// # Errors
+/// [`Error::Recipe`] that names the file.
+pub fn check_names(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
+    let mut files: Vec<PathBuf> = Vec::new();
+    for plan in &recipe.atlases {
+        files.extend(pictures::files(folder, &plan.name, plan.pictures.len().max(1)));
+    }
+    if recipe.atlases.len() > 1 {
+        files.push(together_path(source, folder));
+    }
+    files.sort();
+    match files.windows(2).find(|pair| pair[0] == pair[1]) {
+        None => Ok(()),
+        Some(pair) => Err(Error::Recipe(format!(
+            "two pictures would be {}; rename an atlas, or the recipe itself (slices side by side bear its name)",
+            pair[0].display()
+        ))),
+    }
+}
+
+fn together_path(recipe: &Path, folder: &Path) -> PathBuf {
+    folder.join(stem(recipe) + ".png")
+}
+
+fn stem(recipe: &Path) -> String {
+    recipe.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}

@@ -1,0 +1,188 @@
+//! `verify`: recompute an atlas with every backend there is, and compare every byte.
+
+use super::backend::{self, BackendArgs};
+use super::output::{self, grouped};
+use super::{Outcome, pictures};
+use spiral_atlas::atlas::Atlas;
+use spiral_atlas::eval::agree::{self, Agreement, Stored};
+use spiral_atlas::eval::{Backend, Job};
+use spiral_atlas::family::Family;
+use spiral_atlas::recipe::Recipe;
+use spiral_atlas::{Error, Result};
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// Recompute an atlas and compare every byte.
+///
+/// By default with the CPU and with every GPU adapter there is, hardware and software. Exits with 1 when anything differs:
+/// a hash, the legend, the recipe, or a value of a node.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  spiral-atlas verify out/quickstart.atlas.safetensors\n  \
+                        spiral-atlas verify out/quickstart.atlas.safetensors --adapter llvmpipe --json")]
+pub struct Args {
+    /// The atlas.
+    atlas: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    backend: BackendArgs,
+}
+
+/// A comparison with what one backend computes.
+#[derive(Debug, Clone, serde::Serialize)]
+pub struct Compared {
+    /// Who recomputed.
+    pub with: String,
+    /// Wall time.
+    pub seconds: f64,
+    /// What was found.
+    #[serde(flatten)]
+    pub agreement: Agreement,
+}
+
+#[derive(serde::Serialize)]
+struct Verified {
+    atlas: PathBuf,
+    id: String,
+    /// What is wrong before any node is looked at; empty is good.
+    faults: Vec<String>,
+    comparisons: Vec<Compared>,
+    good: bool,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Outcome> {
+    let atlas = Atlas::open(&args.atlas)?;
+    let family = pictures::of(&atlas)?;
+    let scalars = scalars(&atlas, family)?;
+    let job = Job { family, grid: atlas.grid(), scalars: &scalars };
+    let (stored, backends) = (stored(&atlas)?, args.backend.all()?);
+    let stop = super::stop_flag()?;
+    let hashes = atlas.check_hashes().err().map(|e| e.to_string());
+    let faults: Vec<String> = [hashes, legend_fault(&atlas, family), recipe_fault(&atlas)].into_iter().flatten().collect();
+    let threads = args.backend.threads();
+    let compare = |b: &Backend| compared(&job, &stored, b, threads, &stop);
+    let comparisons = backends.iter().map(compare).collect::<Result<Vec<_>>>()?;
+    let good = faults.is_empty() && !comparisons.is_empty() && comparisons.iter().all(Compared::holds);
+    let id = atlas.id().to_hex().to_string();
+    let verified = Verified { atlas: args.atlas.clone(), id, faults, comparisons, good };
+    if args.json {
+        output::print_json(&verified)?
+    } else {
+        output::print(&verified.text())?
+    }
+    if !good {
+        output::complain(&format!("{}: verification failed", args.atlas.display()));
+    }
+    Ok(if good { Outcome::Fine } else { Outcome::Bad })
+}
+
+/// The fields of an atlas, in file order.
+pub fn stored(atlas: &Atlas) -> Result<Stored<'_>> {
+    let scalar = |name: &str| atlas.scalar(name).ok_or_else(|| fault(atlas, format!("its scalar `{name}` cannot be read")));
+    let scalars = atlas.scalar_names().map(scalar).collect::<Result<_>>()?;
+    Ok(Stored { flags: atlas.flags(), solutions: atlas.solutions(), scalars })
+}
+
+/// Compares all nodes with what a backend computes.
+pub fn compared(job: &Job, stored: &Stored, backend: &Backend, threads: usize, stop: &AtomicBool) -> Result<Compared> {
+    let with = backend::describe(backend);
+    let bar = output::progress(format!("against {with}"), job.grid.len());
+    let found = agree::compare(job, stored, backend, threads, stop, |nodes| bar.set_position(nodes));
+    bar.finish_and_clear();
+    let (agreement, report) = found?;
+    Ok(Compared { with, seconds: report.seconds, agreement })
+}
+
+/// Compares some nodes with what the top of the ladder computes.
+pub fn sampled(job: &Job, stored: &Stored, count: u64, stop: &AtomicBool) -> Result<Compared> {
+    let bar = output::progress("against intervals".into(), count.min(job.grid.len()));
+    let started = std::time::Instant::now();
+    let agreement = agree::sample(job, stored, count, stop, |nodes| bar.set_position(nodes));
+    bar.finish_and_clear();
+    let with = "intervals of high precision, evenly spread nodes".into();
+    Ok(Compared { with, seconds: started.elapsed().as_secs_f64(), agreement: agreement? })
+}
+
+impl Compared {
+    /// Whether all values agree.
+    pub fn holds(&self) -> bool {
+        self.agreement.holds()
+    }
+
+    /// A line, and one more for each difference.
+    pub fn text(&self) -> String {
+        let Agreement { nodes, values, differences, first } = &self.agreement;
+        let verdict = if *differences == 0 { "all agree".into() } else { format!("{} DIFFER", grouped(*differences)) };
+        let mut text = format!(
+            "against {}: {} values of {} nodes, {verdict} ({:.2} s)\n",
+            self.with,
+            grouped(*values),
+            grouped(*nodes),
+            self.seconds
+        );
+        for difference in first {
+            text += &format!("    {difference}\n");
+        }
+        if *differences > first.len() as u64 {
+            text += &format!("    and {} more\n", grouped(differences - first.len() as u64));
+        }
+        text
+    }
+}
+
+impl Verified {
+    fn text(&self) -> String {
+        let mut text = format!("{}\n  id {}\n", self.atlas.display(), self.id);
+        text += if self.faults.is_empty() { "  hashes, legend and recipe are sound\n" } else { "" };
+        for fault in &self.faults {
+            text += &format!("  FAULT: {fault}\n");
+        }
+        for compared in &self.comparisons {
+            text += &format!("  {}", compared.text());
+        }
+        text
+    }
+}
+
+/// The scalars of an atlas, as indices into the family's.
+fn scalars(atlas: &Atlas, family: &dyn Family) -> Result<Vec<usize>> {
+    let place = |name: &str| {
+        let place = family.scalars().iter().position(|s| s.name == name);
+        place.ok_or_else(|| fault(atlas, format!("its scalar `{name}` is none of the family `{}`", family.name())))
+    };
+    atlas.scalar_names().map(place).collect()
+}
+
+/// Whether the file gives its bytes another meaning than the family does.
+fn legend_fault(atlas: &Atlas, family: &dyn Family) -> Option<String> {
+    let about = atlas.about();
+    let axes: Vec<&str> = atlas.grid().axes().iter().map(|a| a.name()).collect();
+    let chart = family.charts().iter().any(|c| c.name == about.chart && c.doc == about.chart_doc && c.axes == axes);
+    let flags = about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(family.flags().iter().map(|f| (f.name, f.doc)));
+    let counts = about.counts.iter().map(|c| (&c.name[..], &c.doc[..], c.shift, c.bits));
+    let counts = counts.eq(family.counts().iter().map(|c| (c.name, c.doc, c.shift, c.bits)));
+    let known = |s: &spiral_atlas::atlas::Named| family.scalars().iter().any(|k| k.name == s.name && k.doc == s.doc);
+    let scalars = about.scalars.iter().all(known);
+    let conventions = about.conventions == family.conventions();
+    let parts = [("axes", chart), ("flags", flags), ("counts", counts), ("scalars", scalars), ("conventions", conventions)];
+    let wrong: Vec<&str> = parts.iter().filter(|(_, good)| !good).map(|(name, _)| *name).collect();
+    (!wrong.is_empty()).then(|| format!("its legend ({}) is not that of `{}`", wrong.join(", "), family.name()))
+}
+
+/// Whether the recipe in the file would give another grid. A text that is no recipe (of an atlas made by a program) says nothing.
+fn recipe_fault(atlas: &Atlas) -> Option<String> {
+    let recipe = Recipe::parse(atlas.recipe_text()).ok()?;
+    let about = atlas.about();
+    let Some(plan) = recipe.atlases.iter().find(|plan| plan.name == about.name) else {
+        return Some(format!("its recipe has no atlas `{}`", about.name));
+    };
+    let names = recipe.scalars.iter().filter_map(|i| recipe.family.scalars().get(*i)).map(|s| s.name);
+    let same = recipe.family.name() == about.family && plan.grid == *atlas.grid() && names.eq(atlas.scalar_names());
+    (!same).then(|| "its recipe gives another family, grid or other scalars than the file has".into())
+}
+
+fn fault(atlas: &Atlas, what: String) -> Error {
+    Error::Atlas { path: atlas.path().to_owned(), what }
+}
