@@ -7,5 +7,7 @@ pub mod eval;
 pub mod family;
 pub mod grid;
 pub mod num;
+#[cfg(feature = "cli")]
+pub mod recipe;
 
 pub use error::{Error, Result};
