@@ -276,7 +276,7 @@ fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<Vec<usize>,
     let mut nodes: Vec<usize> = Vec::new();
     for point in points {
         let point = point.on(name).map_err(fail)?;
-        let Some(node) = lookup.nearest(axis.values(), point) else {
+        let Some(node) = lookup.nearest(point) else {
             let (first, last) = ends(axis);
             return Err(fail(format!("{name} = {point} lies outside the axis, which runs from {first} to {last}")));
         };
