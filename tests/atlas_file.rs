@@ -141,6 +141,16 @@ fn bytes_do_not_depend_on_chunks_and_tensors_are_aligned() {
     assert_eq!(tensors.tensor("flags").unwrap().shape(), [3, 5, 4, 7]);
 }
 
+/// A file written once and kept: version 1 stays readable, whatever the generator's version. It seeds the fuzzer, too.
+#[test]
+fn a_kept_file_is_still_read() {
+    let atlas = Atlas::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/seeds/atlas/tiny.safetensors")).unwrap();
+    atlas.check_hashes().unwrap();
+    assert_eq!(atlas.id().to_hex().as_str(), "018b6b648f485d1bea5a1f65774cfeb7d7bcd90b497ea0791e6356bd3828cd29");
+    assert_eq!(atlas.nearest(&[0.7, 1.31, 0.4, 1.9]), Some((10, Entry { flags: 10, solutions: 5 })));
+    assert_eq!(atlas.scalar("margin").map(|m| m[10]), Some(10.0 / 32.0));
+}
+
 #[test]
 fn the_writer_refuses_what_does_not_fit() {
     let folder = tempfile::tempdir().unwrap();

@@ -39,7 +39,7 @@ pub use write::{Writer, Written};
 
 use crate::error::{Error, Result};
 use crate::family::Family;
-use crate::grid::{Grid, MAX_AXES};
+use crate::grid::Grid;
 use blake3::Hash;
 use header::{FLAGS, Header, SOLUTIONS};
 use memmap2::{Mmap, MmapMut};
@@ -212,11 +212,13 @@ impl Atlas {
     }
 
     /// The `flags` of every node, in flat order.
+    #[inline]
     pub fn flags(&self) -> &[u8] {
         &self.map[self.flags.clone()]
     }
 
     /// The `solutions` of every node, in flat order.
+    #[inline]
     pub fn solutions(&self) -> &[u8] {
         &self.map[self.solutions.clone()]
     }
@@ -253,7 +255,7 @@ impl Atlas {
     /// The verdicts at a node; `None` when an index is out of range or their number is wrong.
     #[inline]
     pub fn at(&self, index: &[usize]) -> Option<Entry> {
-        self.entry(self.grid().flat(index)?)
+        self.entry(self.flat(index, |lookup, i| (*i < lookup.count()).then_some(*i))?)
     }
 
     /// Flat index and verdicts of the node nearest to a point, along each axis; of two equally near the lower one.
@@ -265,20 +267,22 @@ impl Atlas {
     /// step at that end, or their number is wrong. An axis of a single value accepts that value alone.
     #[inline]
     pub fn nearest(&self, coordinates: &[f64]) -> Option<(u64, Entry)> {
-        let axes = self.grid().axes();
-        if coordinates.len() != axes.len() {
-            return None;
-        }
-        let mut index = [0; MAX_AXES];
-        for (((slot, axis), lookup), x) in index.iter_mut().zip(axes).zip(&self.lookups).zip(coordinates) {
-            *slot = lookup.nearest(axis.values(), *x)?;
-        }
-        let flat = self.grid().flat(&index[..axes.len()])?;
-        Some((flat, self.entry(flat)?))
+        let flat = self.flat(coordinates, |lookup, x| lookup.nearest(*x))?;
+        Some((flat as u64, self.entry(flat)?))
     }
 
-    fn entry(&self, flat: u64) -> Option<Entry> {
-        let node = usize::try_from(flat).ok()?;
+    /// The flat index from one argument for each axis. What [`Grid::flat`] does, without leaving the lookups' memory.
+    #[inline]
+    fn flat<T>(&self, arguments: &[T], index: impl Fn(&Lookup, &T) -> Option<usize>) -> Option<usize> {
+        if arguments.len() != self.lookups.len() {
+            return None;
+        }
+        // The product of the counts is the length of a tensor, so this stays below it.
+        self.lookups.iter().zip(arguments).try_fold(0, |flat, (lookup, x)| Some(flat * lookup.count() + index(lookup, x)?))
+    }
+
+    #[inline]
+    fn entry(&self, node: usize) -> Option<Entry> {
         Some(Entry { flags: *self.flags().get(node)?, solutions: *self.solutions().get(node)? })
     }
 

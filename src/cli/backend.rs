@@ -1,7 +1,7 @@
 //! Which evaluator takes the first step: `--backend`, `--adapter`, `--threads`.
 
-use spiral_atlas::eval::Backend;
 use spiral_atlas::Result;
+use spiral_atlas::eval::Backend;
 use std::num::NonZero;
 
 /// Who evaluates.
