@@ -127,11 +127,11 @@ impl Table for CubicTable<'_> {
 
     #[cfg(feature = "gpu")]
     fn shader(&self) -> crate::family::Shader {
-        crate::family::Shader { constants: String::new(), fragments: Vec::new() }
+        super::shader::shader()
     }
 
     #[cfg(feature = "gpu")]
-    fn shader_inputs(&self, _start: u64, _len: u64) -> crate::family::ShaderInputs {
-        crate::family::ShaderInputs { words: Vec::new(), offsets: [0; 4] }
+    fn shader_inputs(&self, start: u64, len: u64) -> crate::family::ShaderInputs {
+        super::shader::inputs(self.grid, self.normalised, start, len)
     }
 }
