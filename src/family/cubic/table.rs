@@ -91,9 +91,9 @@ impl<'g> CubicTable<'g> {
     }
 }
 
-/// An angle must be positive; the sum is checked by [`check_angles`].
+/// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by [`check_angles`].
 pub(super) fn check_angle(name: &str, angle: f64) -> Result<()> {
-    if angle > 0.0 && angle < PI {
+    if angle > 0.0 && angle <= PI {
         return Ok(());
     }
     Err(Error::Domain(format!("{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)")))
