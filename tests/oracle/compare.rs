@@ -45,25 +45,32 @@ pub fn root_of(r: &RootVerdict) -> Root {
     Root { f0: r.f0, f1: r.f1, theorem31: r.theorem31, spiral: r.spiral, margin: r.margin }
 }
 
-/// Every field in which an answer differs from the verdict. Numbers must be the nearest doubles.
+/// What `solve` promises of f0 and f1, absolute.
+pub const ROOT_ACCURACY: f64 = 1.0 / (1u64 << 34) as f64;
+/// What `solve` promises of the margin, absolute.
+pub const MARGIN_ACCURACY: f64 = 1.0 / (1u64 << 30) as f64;
+
+/// Every field in which an answer differs from the verdict; the numbers may differ by what `solve` allows itself.
 pub fn answer_faults(want: &Verdict, got: &Answer) -> Vec<String> {
     let spirals = got.roots.iter().filter(|r| r.spiral).count() as u8;
     let mut faults = code_faults(want, Code::new(got.flags, got.roots.len() as u8 | spirals << 2));
     for (i, (want, got)) in want.roots.iter().zip(&got.roots).enumerate() {
-        let mut check = |name: &str, want: String, got: String| {
+        for (name, want, got) in [("theorem31", want.theorem31, got.theorem31), ("spiral", want.spiral, got.spiral)] {
             if want != got {
                 faults.push(format!("root {i}: {name} is {got}, must be {want}"));
             }
-        };
-        check("theorem31", want.theorem31.to_string(), got.theorem31.to_string());
-        check("spiral", want.spiral.to_string(), got.spiral.to_string());
-        for (name, want, got) in [("f0", want.f0, got.f0), ("f1", want.f1, got.f1), ("margin", want.margin, got.margin)] {
-            check(name, format!("{want:?}"), format!("{got:?}"));
+        }
+        let numbers = [("f0", want.f0, got.f0, ROOT_ACCURACY), ("f1", want.f1, got.f1, ROOT_ACCURACY)];
+        for (name, want, got, near) in numbers.into_iter().chain([("margin", want.margin, got.margin, MARGIN_ACCURACY)]) {
+            if (want - got).abs().partial_cmp(&near).is_none_or(|order| order.is_gt()) {
+                faults.push(format!("root {i}: {name} is {got:?}, must be {want:?}"));
+            }
         }
     }
-    let (best, chosen) = (want.chosen().map(|r| r.f0), got.chosen.map(|r| r.f0));
-    if best != chosen {
-        faults.push(format!("the chosen f0 is {chosen:?}, must be {best:?}"));
+    let best = want.chosen().and_then(|c| want.roots.iter().position(|r| r == c));
+    let chosen = got.chosen.and_then(|c| got.roots.iter().position(|r| *r == c));
+    if best != chosen || chosen.is_some() != got.chosen.is_some() {
+        faults.push(format!("root {chosen:?} is chosen, must be {best:?}"));
     }
     faults
 }
