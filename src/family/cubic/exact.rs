@@ -5,7 +5,9 @@ use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::error::{Error, Result};
 use crate::num::bernstein::{Quintic, positive};
 use crate::num::{Interval, Number};
+use std::cell::RefCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
+use std::rc::Rc;
 
 /// Precision of the first try, in bits.
 const FIRST_BITS: usize = 128;
@@ -44,6 +46,20 @@ pub(super) struct Angles {
 }
 
 impl Angles {
+    /// [`Angles::new`], kept for the next call: neighbouring nodes share their angles, and the sines cost more than all else.
+    fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
+        thread_local!(static LAST: RefCell<Option<([u64; 2], usize, Rc<Angles>)>> = const { RefCell::new(None) });
+        let key = [phi0.to_bits(), phi1.to_bits()];
+        LAST.with_borrow_mut(|last| match last {
+            Some((k, b, angles)) if *k == key && *b == bits => Some(angles.clone()),
+            _ => {
+                let angles = Rc::new(Angles::new(phi0, phi1, bits)?);
+                *last = Some((key, bits, angles.clone()));
+                Some(angles)
+            }
+        })
+    }
+
     pub fn new(phi0: f64, phi1: f64, bits: usize) -> Option<Angles> {
         let ((sin0, cos0), (sin1, cos1)) = (Interval::sin_cos(phi0, bits), Interval::sin_cos(phi1, bits));
         let (sc, cs) = (&sin0 * &cos1, &cos0 * &sin1);
@@ -101,7 +117,7 @@ pub(super) fn climb<T>(datum: &ExactDatum, what: &str, attempt: impl Fn(usize) -
 
 /// One attempt: `None` when something is undecided at this precision.
 pub(super) fn at_precision(datum: &ExactDatum, bits: usize) -> Option<Truth> {
-    let angles = Angles::new(datum.phi0, datum.phi1, bits)?;
+    let angles = Angles::cached(datum.phi0, datum.phi1, bits)?;
     let number = |x: f64| Interval::new(x, bits);
     let (scale0, scale1) = (angles.g1.over(&angles.sin0)?, angles.g0.over(&angles.sin1)?);
     let (a, k, kappa0, kappa1) = match datum.ends {

@@ -134,7 +134,8 @@ struct Cases {
 
 /// Descartes' rule and the signs of F at 0 and √(3/a) give the count; see DESIGN.md, "Counting roots".
 #[inline(always)]
-fn cases<S: Simd>(simd: S, a: S::f64s, k: S::f64s) -> Cases {
+fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
+    let (a, k) = (d.a, d.k);
     const P: Precision = Precision::F64;
     let one = S::f64s::splat(simd, 1.0);
     let (above, below) = (one + P.third(), one - P.third());
@@ -143,7 +144,8 @@ fn cases<S: Simd>(simd: S, a: S::f64s, k: S::f64s) -> Cases {
     let (least, most) = (S::f64s::splat(simd, 2f64.powi(-200)), S::f64s::splat(simd, 2f64.powi(200)));
     let positive = bits::<S>(a.simd_ge(least) & a.simd_le(most) & k.simd_ge(least) & k.simd_le(most));
     let zero = S::f64s::splat(simd, 0.0);
-    let rootless = bits::<S>(a.simd_le(zero) | k.simd_le(zero));
+    // One of κ and a is the datum, the other derived, which may have underflowed: both must say so.
+    let rootless = bits::<S>((a.simd_le(zero) & d.kappa0.simd_le(zero)) | (k.simd_le(zero) & d.kappa1.simd_le(zero)));
     let (k_above, k_below) = (bits::<S>(k3.simd_gt(above)) & positive, bits::<S>(k3.simd_lt(below)) & positive);
     let (a_above, a_below) = (bits::<S>(a3.simd_gt(above)) & positive, bits::<S>(a3.simd_lt(below)) & positive);
     // 768 a²k² - 256 ak(a+k) + 96 ak - 1 has the sign of the discriminant of F.
@@ -168,13 +170,13 @@ fn cases<S: Simd>(simd: S, a: S::f64s, k: S::f64s) -> Cases {
 /// Whether any spiral exists: `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1-φ0)/2)` with both factors positive (Kurnosenko).
 #[inline(always)]
 fn any_spiral<S: Simd>(simd: S, pair: &Pair, d: &Data<S>) -> (u64, u64) {
-    const E: f64 = (PAIR_ERROR + 6.0) * Precision::F64.unit;
+    let e = Precision::F64.outer();
     let (sin0, sin1) = (S::f64s::splat(simd, pair.sin0), S::f64s::splat(simd, pair.sin1));
     let (room0, room1) = (sin0 - d.kappa0, d.kappa1 - sin1);
-    let (error0, error1) = ((sin0 + d.kappa0.abs()) * E, (sin1 + d.kappa1.abs()) * E);
+    let (error0, error1) = ((sin0 + d.kappa0.abs()) * e, (sin1 + d.kappa1.abs()) * e);
     let product = room0 * room1;
     let over = product - pair.sin2_half;
-    let error = room0.abs() * error1 + room1.abs() * error0 + error0 * error1 + (product.abs() + pair.sin2_half) * E;
+    let error = room0.abs() * error1 + room1.abs() * error0 + error0 * error1 + (product.abs() + pair.sin2_half) * e;
     let zero = S::f64s::splat(simd, 0.0);
     let yes = bits::<S>(over.simd_gt(error) & room0.simd_gt(zero));
     let no = bits::<S>(over.simd_lt(-error) | room0.simd_lt(-error0) | room1.simd_lt(-error1));
@@ -382,7 +384,7 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
     mut seen: impl FnMut(Found<'_, S>),
 ) -> Planes {
     let all = if S::f64s::LEN == 64 { u64::MAX } else { (1 << S::f64s::LEN) - 1 };
-    let case = cases(simd, d.a, d.k);
+    let case = cases(simd, d);
     let (any, no) = if prepared.pair.rising { any_spiral(simd, &prepared.pair, d) } else { (0, all) };
     let two = case.smaller_two | case.larger_two;
     let mut planes = Planes {

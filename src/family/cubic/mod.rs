@@ -4,6 +4,8 @@ mod exact;
 mod filter;
 mod pair;
 mod poly;
+#[cfg(feature = "gpu")]
+mod shader;
 mod solve;
 mod table;
 

@@ -91,9 +91,9 @@ impl<'g> CubicTable<'g> {
     }
 }
 
-/// An angle must be positive; the sum is checked by [`check_angles`].
+/// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by [`check_angles`].
 pub(super) fn check_angle(name: &str, angle: f64) -> Result<()> {
-    if angle > 0.0 && angle < PI {
+    if angle > 0.0 && angle <= PI {
         return Ok(());
     }
     Err(Error::Domain(format!("{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)")))
@@ -127,11 +127,11 @@ impl Table for CubicTable<'_> {
 
     #[cfg(feature = "gpu")]
     fn shader(&self) -> crate::family::Shader {
-        crate::family::Shader { constants: String::new(), fragments: Vec::new() }
+        super::shader::shader()
     }
 
     #[cfg(feature = "gpu")]
-    fn shader_inputs(&self, _start: u64, _len: u64) -> crate::family::ShaderInputs {
-        crate::family::ShaderInputs { words: Vec::new(), offsets: [0; 4] }
+    fn shader_inputs(&self, start: u64, len: u64) -> crate::family::ShaderInputs {
+        super::shader::inputs(self.grid, self.normalised, start, len)
     }
 }

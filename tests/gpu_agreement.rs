@@ -1,0 +1,132 @@
+//! The GPU's fields are the CPU's, byte for byte, on every adapter; and what the f32 step decides is right by itself.
+//!
+//! These tests fail where there is no adapter; `tests/run` installs a software one.
+#![cfg(feature = "gpu")]
+
+use spiral_atlas::eval::gpu::{Engine, Settings};
+use spiral_atlas::eval::{Backend, Chunk, Job, Report, evaluate};
+use spiral_atlas::family::cubic::Cubic;
+use spiral_atlas::family::{Code, Family};
+use spiral_atlas::grid::{Axis, Grid, Spacing};
+use std::sync::atomic::AtomicBool;
+
+mod adapters;
+
+fn lin(name: &str, lo: f64, hi: f64, count: usize) -> Axis {
+    Axis::new(name, Spacing::Linear { lo, hi, count }).unwrap()
+}
+
+fn log(name: &str, lo: f64, hi: f64, count: usize) -> Axis {
+    Axis::new(name, Spacing::Log { lo, hi, count }).unwrap()
+}
+
+/// Grids with four different counts; more than ten million nodes in all.
+fn grids() -> Vec<(&'static str, Grid)> {
+    let grid = |axes: Vec<Axis>| Grid::new(axes).unwrap();
+    vec![
+        (
+            "ordinary angles",
+            grid(vec![
+                lin("phi0", 0.05, 1.1, 41),
+                lin("phi1", 0.1, 1.55, 53),
+                lin("kappa0", 0.01, 0.9, 67),
+                log("kappa1", 0.4, 80.0, 37),
+            ]),
+        ),
+        (
+            "beyond a right angle, signs of curvature, phi0 above phi1",
+            grid(vec![
+                lin("phi0", 0.02, 1.4, 23),
+                lin("phi1", 0.03, 1.7, 29),
+                lin("kappa0", -0.3, 1.3, 43),
+                lin("kappa1", -1.0, 30.0, 61),
+            ]),
+        ),
+        (
+            "tiny angles and huge curvatures",
+            grid(vec![
+                log("phi0", 1e-9, 0.5, 19),
+                log("phi1", 1e-7, 1.57, 37),
+                log("kappa0", 1e-12, 10.0, 47),
+                log("kappa1", 1e-6, 1e12, 59),
+            ]),
+        ),
+        (
+            "normalised, through cusp and fold",
+            grid(vec![lin("phi0", 0.1, 0.9, 5), lin("phi1", 0.7, 1.5, 7), lin("a", 0.01, 0.5, 199), lin("k", 0.005, 1.0, 211)]),
+        ),
+    ]
+}
+
+fn all_chunks(job: &Job, backend: &Backend) -> (Vec<Chunk>, Report) {
+    let mut chunks = Vec::new();
+    let report = evaluate(job, backend, 2, &AtomicBool::new(false), |chunk| {
+        chunks.push(chunk);
+        Ok(())
+    });
+    (chunks, report.unwrap())
+}
+
+/// Number of bytes that differ and number compared.
+fn differences(one: &[Chunk], two: &[Chunk]) -> (usize, usize) {
+    // Field after field, as in a file: the chunks of two backends end at different nodes.
+    let bytes = |chunks: &[Chunk]| -> Vec<u8> {
+        let flags = chunks.iter().flat_map(|c| &c.flags);
+        flags.chain(chunks.iter().flat_map(|c| &c.solutions)).copied().collect()
+    };
+    let (one, two) = (bytes(one), bytes(two));
+    assert_eq!(one.len(), two.len());
+    (one.iter().zip(&two).filter(|(a, b)| a != b).count(), one.len())
+}
+
+#[test]
+fn every_byte_is_the_cpus_on_every_adapter() {
+    let mut nodes = 0;
+    for (name, grid) in grids() {
+        let job = Job { family: &Cubic, grid: &grid, scalars: &[] };
+        let (cpu, report) = all_chunks(&job, &Backend::Cpu);
+        println!("{name}: {} nodes, {} undecided after f64, {} bits", grid.len(), report.undecided_f64, report.most_bits);
+        for adapter in adapters::labels() {
+            let (gpu, report) = all_chunks(&job, &Backend::Gpu(Some(adapter.clone())));
+            let f32 = report.undecided_f32.unwrap();
+            println!("  {adapter}: {f32} undecided after f32, {:.1e} of all", f32 as f64 / grid.len() as f64);
+            let (different, compared) = differences(&cpu, &gpu);
+            assert_eq!(compared as u64, 2 * grid.len());
+            assert_eq!(different, 0, "{name}, {adapter}");
+        }
+        nodes += grid.len();
+        // The comparison notices one flipped bit, and only that.
+        let mut flipped = cpu.clone();
+        let at = flipped.len() / 2;
+        let node = flipped[at].len() / 3;
+        flipped[at].flags[node] ^= 16;
+        assert_eq!(differences(&cpu, &flipped).0, 1);
+    }
+    assert!(nodes >= 10_000_000, "{nodes} nodes");
+}
+
+/// The target for the f32 step, on the grid of the first picture a user makes: at most 1 node in 1000 left open.
+#[test]
+fn few_nodes_climb_from_f32_and_none_is_wrong_before_the_climb() {
+    let grid = &grids()[0].1;
+    let table = Cubic.table(grid).unwrap();
+    let mut truth = vec![Code::UNDECIDED; grid.len() as usize];
+    table.filter(0, &mut truth);
+    for adapter in adapters::labels() {
+        let mut engine = Engine::new(Some(&adapter), &*table, grid, &Settings::default()).unwrap();
+        let (mut open, mut wrong, mut yes) = (0u64, 0u64, 0u64);
+        let stats = engine
+            .run(0..grid.len(), &AtomicBool::new(false), |start, codes| {
+                for (code, truth) in codes.iter().zip(&truth[start as usize..]) {
+                    open += u64::from(*code == Code::UNDECIDED);
+                    wrong += u64::from(*code != Code::UNDECIDED && code != truth);
+                    yes += u64::from(*code != Code::UNDECIDED && code.flags() & 8 != 0);
+                }
+                Ok(())
+            })
+            .unwrap();
+        assert_eq!((stats.nodes, wrong), (grid.len(), 0), "{adapter}");
+        assert!(open > 0 && open * 1000 <= grid.len(), "{adapter}: {open} of {} open", grid.len());
+        assert!(yes * 50 > grid.len(), "{adapter}: only {yes} spirals");
+    }
+}
