@@ -7,6 +7,7 @@ use super::{Outcome, render};
 use spiral_atlas::Result;
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, Report, evaluate};
+use spiral_atlas::family::Family;
 use spiral_atlas::plot::write_file;
 use spiral_atlas::recipe::{AtlasPlan, Recipe};
 use std::path::{Path, PathBuf};
@@ -81,12 +82,12 @@ pub fn run(args: &Args) -> Result<Outcome> {
         let atlas = Atlas::open(&path)?;
         let made = finish(args, &recipe, plan, &atlas, report, &checkers, &stop)?;
         if !args.json {
-            output::print(&made.summary(plan))?;
+            output::print(&made.summary(recipe.family, plan))?;
         }
         all.push(made);
         atlases.push(atlas);
     }
-    let together = render::together(&args.recipe, &atlases, &args.out)?;
+    let together = render::together(&args.recipe, &recipe, &atlases, &args.out)?;
     if args.json {
         output::print_json(&serde_json::json!({ "atlases": all, "together": together }))?;
     } else if let Some(picture) = together {
@@ -158,16 +159,17 @@ fn finish(
 }
 
 impl Made {
-    fn summary(&self, plan: &AtlasPlan) -> String {
+    fn summary(&self, family: &dyn Family, plan: &AtlasPlan) -> String {
         let r = &self.report;
         let axes = plan.grid.axes().iter().map(|a| format!("{} {}", a.name(), grouped(a.values().len() as u64)));
         let axes: Vec<String> = axes.collect();
         let mut text = format!("{}: {} = {} nodes\n", self.atlas, axes.join(" x "), grouped(r.nodes));
         text += &format!("  by {} in {:.2} s, with {} threads\n", who(r), r.seconds, r.threads);
         text += "  nodes with a proved yes\n";
-        for (name, count) in &r.yes {
-            let share = *count as f64 / r.nodes.max(1) as f64 * 100.0;
-            text += &format!("    {name:<14} {:>16}  {share:6.2} %\n", grouped(*count));
+        for flag in family.flags() {
+            let count = r.yes.get(flag.name).copied().unwrap_or(0);
+            let share = count as f64 / r.nodes.max(1) as f64 * 100.0;
+            text += &format!("    {:<14} {:>16}  {share:6.2} %  {}\n", flag.name, grouped(count), flag.label);
         }
         text += "  undecided nodes after each step of the ladder\n";
         let after = |step: &str, count: u64| format!("    {step:<14} {:>16}  {}\n", grouped(count), rate(count, r.nodes));

@@ -6,7 +6,7 @@ use super::pictures;
 use super::{Outcome, generate};
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::plot;
-use spiral_atlas::recipe::{PictureKind, PicturePlan, Recipe};
+use spiral_atlas::recipe::{AtlasPlan, PictureKind, PicturePlan, Recipe};
 use spiral_atlas::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -66,7 +66,7 @@ fn of_recipe(args: &Args) -> Result<Vec<Product>> {
         products.extend(one(&atlas, &pictures::plans(&atlas)?, &args.out)?);
         atlases.push(atlas);
     }
-    products.extend(together(&args.source, &atlases, &args.out)?);
+    products.extend(together(&args.source, &recipe, &atlases, &args.out)?);
     Ok(products)
 }
 
@@ -80,18 +80,18 @@ pub fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Pr
     plans.iter().zip(files).map(draw).collect()
 }
 
-/// Draws the first slices of several atlases side by side; `None` when there are not several.
-pub fn together(recipe: &Path, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
-    let mut slices = Vec::new();
-    for atlas in atlases {
-        if let Some(plan) = pictures::plans(atlas)?.iter().find(|p| p.kind == PictureKind::Slice) {
-            slices.push(pictures::slice(atlas, plan)?);
-        }
-    }
+fn first_slice(pictures: &[PicturePlan]) -> Option<&PicturePlan> {
+    pictures.iter().find(|p| p.kind == PictureKind::Slice)
+}
+
+/// Draws the first planned slices of several atlases side by side; `None` when there are not several.
+pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
+    let planned = atlases.iter().zip(&recipe.atlases).filter_map(|(atlas, plan)| Some((atlas, first_slice(&plan.pictures)?)));
+    let slices = planned.map(|(atlas, plan)| pictures::slice(atlas, plan)).collect::<Result<Vec<_>>>()?;
     if slices.len() < 2 {
         return Ok(None);
     }
-    let (stem, file) = (stem(recipe), together_path(recipe, folder));
+    let (stem, file) = (stem(source), together_path(source, folder));
     plot::write_file(&file, &pictures::side_by_side(&stem, slices)?)?;
     Product::of(&file).map(Some)
 }
@@ -103,9 +103,10 @@ pub fn together(recipe: &Path, atlases: &[Atlas], folder: &Path) -> Result<Optio
 pub fn check_names(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
     let mut files: Vec<PathBuf> = Vec::new();
     for plan in &recipe.atlases {
-        files.extend(pictures::files(folder, &plan.name, plan.pictures.len().max(1)));
+        files.extend(pictures::files(folder, &plan.name, plan.pictures.len()));
     }
-    if recipe.atlases.len() > 1 {
+    let sliced = |plan: &&AtlasPlan| first_slice(&plan.pictures).is_some();
+    if recipe.atlases.iter().filter(sliced).count() > 1 {
         files.push(together_path(source, folder));
     }
     files.sort();
