@@ -124,35 +124,78 @@ pub fn least_error(c: &Quintic<f64>, error: f64) -> f64 {
 
 /// The least value on [0, 1] of a quintic with interval coefficients, as an interval; `None` at too low a precision.
 ///
-/// `guess` is where the least value is thought to be taken. Newton's method sharpens it; the value there bounds the least
-/// value from above, and [`positive`] proves that the quintic stays above that value less 2^-(bits/3) of its size.
+/// `guess` is where the least value is thought to be taken; Newton's method sharpens it to `t`. On a piece around `t` where
+/// second differences prove the quintic convex, it stays above its tangent, hence above `c(t) - |c'(t)|`; elsewhere
+/// [`positive`] proves it higher. A guess at an end is proved by [`positive`] alone, up to 2^-(bits/2) of its size.
 pub fn least_interval(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
     let bits = c[0].bits();
+    let end = if guess < 0.5 { &c[0] } else { &c[5] };
+    let Some(t) = stationary(c, guess) else {
+        let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.union(&-v).upper());
+        let slack = &size * &Interval::power_of_two(-(bits as isize) / 2, bits);
+        let floor = &end.lower() - &slack;
+        return above(c, &floor)?.then(|| floor.union(end));
+    };
+    let [value, slope, _] = at(c, &t);
+    let floor = &value.lower() - &slope.union(&-&slope).upper();
+    let mut reach = 0.0625;
+    while reach > 1e-7 {
+        let (from, to) = (t.plus(-reach), t.plus(reach));
+        let inner = from.sign() == Some(Ordering::Greater);
+        let outer = to.plus(-1.0).sign() == Some(Ordering::Less);
+        let (left, rest) = if inner { split(c, &from) } else { (c.clone(), c.clone()) };
+        let (_, right) = if outer { split(c, &to) } else { (c.clone(), c.clone()) };
+        let width =
+            &(if outer { to } else { Interval::new(1.0, bits) }) - &(if inner { from.clone() } else { Interval::new(0.0, bits) });
+        let scale = if inner { width.over(&(-&from).plus(1.0))? } else { width };
+        let middle = if outer { split(&rest, &scale).0 } else { rest };
+        let convex = middle.windows(3).all(|w| (&(&w[2] - &w[1]) - &(&w[1] - &w[0])).sign() == Some(Ordering::Greater));
+        if convex {
+            let sides = (!inner || above(&left, &floor)?) && (!outer || above(&right, &floor)?);
+            return sides.then(|| floor.union(&value));
+        }
+        reach *= 0.25;
+    }
+    None
+}
+
+/// Whether the quintic stays above `floor` on [0, 1].
+fn above(c: &Quintic<Interval>, floor: &Interval) -> Option<bool> {
+    positive(&c.clone().map(|v| &v - floor), 0.0, 0.0, c[0].bits() as u32)
+}
+
+/// Newton's method for a zero of the derivative, strictly inside; `None` when it leaves [0, 1] or the quintic does not bend upwards.
+fn stationary(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
+    let bits = c[0].bits();
+    if guess <= 0.0 || guess >= 1.0 {
+        return None;
+    }
     let mut t = Interval::new(guess, bits);
-    let mut value = at(c, &t)[0].clone();
     for _ in 0..bits.ilog2() {
         let [_, slope, bend] = at(c, &t);
-        let Some(next) = slope.over(&bend).map(|step| (&t - &step).middle()) else { break };
-        let inside = next.sign() == Some(Ordering::Greater) && next.plus(-1.0).sign() == Some(Ordering::Less);
+        if bend.sign() != Some(Ordering::Greater) {
+            return None;
+        }
+        t = (&t - &slope.over(&bend)?).middle();
+        let inside = t.sign() == Some(Ordering::Greater) && t.plus(-1.0).sign() == Some(Ordering::Less);
         if !inside {
-            break;
-        }
-        let here = at(c, &next)[0].clone();
-        if here.compare(&value) == Some(Ordering::Greater) {
-            break;
-        }
-        (t, value) = (next, here);
-    }
-    for end in [&c[0], &c[5]] {
-        if end.compare(&value) == Some(Ordering::Less) {
-            value = end.clone();
+            return None;
         }
     }
-    let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.union(&-v).upper());
-    let slack = &size * &Interval::power_of_two(-(bits as isize) / 3, bits);
-    let floor = &value.lower() - &slack;
-    let shifted = c.clone().map(|v| &v - &floor);
-    (positive(&shifted, 0.0, 0.0, bits as u32) == Some(true)).then(|| floor.union(&value))
+    Some(t)
+}
+
+/// Splits at `t`: the coefficients on `[0, t]` and on `[t, 1]`.
+fn split(c: &Quintic<Interval>, t: &Interval) -> (Quintic<Interval>, Quintic<Interval>) {
+    let (mut left, mut right) = (c.clone(), c.clone());
+    for step in 1..6 {
+        left[step - 1] = right[0].clone();
+        for i in 0..6 - step {
+            right[i] = &right[i] + &(t * &(&right[i + 1] - &right[i]));
+        }
+    }
+    left[5] = right[0].clone();
+    (left, right)
 }
 
 /// Value, first and second derivative at `t` (de Casteljau).

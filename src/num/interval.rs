@@ -168,7 +168,8 @@ impl Interval {
     /// The nearest single of the number it stands for, when that is certain.
     pub fn to_f32(&self) -> Option<f32> {
         let (lo, hi) = (self.lo.to_f32().value(), self.hi.to_f32().value());
-        (lo == hi).then_some(lo)
+        // One zero: what underflows from either side is stored as +0.
+        (lo == hi).then_some(lo + 0.0)
     }
 
     /// The double nearest to its middle: a guess.

@@ -132,7 +132,8 @@ impl Range {
     /// The nearest f32, when all numbers of the range have the same.
     fn to_f32(self) -> Option<f32> {
         let (low, high) = (self.low as f32, self.high as f32);
-        (low == high).then_some(low)
+        // One zero, whatever the sign of what underflowed.
+        (low == high).then_some(low + 0.0)
     }
 }
 
