@@ -70,7 +70,7 @@ struct ReportFile<'a> {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
     let (recipe, backend) = (Recipe::read(&args.recipe)?, args.backend.one()?);
-    render::check_names(&args.recipe, &recipe, &args.out)?;
+    render::check(&args.recipe, &recipe, &args.out)?;
     // Before the work rather than after: whether the check can be done at all.
     let checkers = if args.check == Check::Full { backend::others(&backend)? } else { Vec::new() };
     let stop = super::stop_flag()?;

@@ -52,7 +52,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 /// Makes the recipe's atlases in a folder that goes away, and draws them.
 fn of_recipe(args: &Args) -> Result<Vec<Product>> {
     let (recipe, backend) = (Recipe::read(&args.source)?, args.backend.one()?);
-    check_names(&args.source, &recipe, &args.out)?;
+    check(&args.source, &recipe, &args.out)?;
     let stop = super::stop_flag()?;
     output::make_folder(&args.out)?;
     // Beside the pictures: there is room for them, and the system's own folder may be memory.
@@ -96,11 +96,14 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
     Product::of(&file).map(Some)
 }
 
-/// Makes sure that no two pictures of a recipe have one name.
+/// Makes sure, before any work, that every grid lies in the family's domain and no two pictures of a recipe have one name.
 ///
 /// # Errors
-/// [`Error::Recipe`] that names the file.
-pub fn check_names(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
+/// Those of [`spiral_atlas::family::Family::table`], and [`Error::Recipe`] that names the file.
+pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
+    for plan in &recipe.atlases {
+        recipe.family.table(&plan.grid)?;
+    }
     let mut files: Vec<PathBuf> = Vec::new();
     for plan in &recipe.atlases {
         files.extend(pictures::files(folder, &plan.name, plan.pictures.len()));

@@ -36,6 +36,9 @@ pub struct Compared {
     pub with: String,
     /// Wall time.
     pub seconds: f64,
+    /// Nodes that a GPU left to the CPU.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undecided_f32: Option<u64>,
     /// What was found.
     #[serde(flatten)]
     pub agreement: Agreement,
@@ -92,7 +95,7 @@ pub fn compared(job: &Job, stored: &Stored, backend: &Backend, threads: usize, s
     let found = agree::compare(job, stored, backend, threads, stop, |nodes| bar.set_position(nodes));
     bar.finish_and_clear();
     let (agreement, report) = found?;
-    Ok(Compared { with, seconds: report.seconds, agreement })
+    Ok(Compared { with, seconds: report.seconds, undecided_f32: report.undecided_f32, agreement })
 }
 
 /// Compares some nodes with what the top of the ladder computes.
@@ -102,7 +105,7 @@ pub fn sampled(job: &Job, stored: &Stored, count: u64, stop: &AtomicBool) -> Res
     let agreement = agree::sample(job, stored, count, stop, |nodes| bar.set_position(nodes));
     bar.finish_and_clear();
     let with = "intervals of high precision, evenly spread nodes".into();
-    Ok(Compared { with, seconds: started.elapsed().as_secs_f64(), agreement: agreement? })
+    Ok(Compared { with, seconds: started.elapsed().as_secs_f64(), undecided_f32: None, agreement: agreement? })
 }
 
 impl Compared {
@@ -115,8 +118,9 @@ impl Compared {
     pub fn text(&self) -> String {
         let Agreement { nodes, values, differences, first } = &self.agreement;
         let verdict = if *differences == 0 { "all agree".into() } else { format!("{} DIFFER", grouped(*differences)) };
+        let left = self.undecided_f32.map(|n| format!(", {} nodes left to the CPU", grouped(n))).unwrap_or_default();
         let mut text = format!(
-            "against {}: {} values of {} nodes, {verdict} ({:.2} s)\n",
+            "against {}: {} values of {} nodes, {verdict} ({:.2} s{left})\n",
             self.with,
             grouped(*values),
             grouped(*nodes),

@@ -77,11 +77,14 @@ impl Agreement {
 
 /// Recomputes a whole grid and compares it with what is stored.
 ///
+/// A GPU that leaves every node to the CPU would agree with anything that the CPU computed, so that is an error.
+///
 /// # Arguments
 /// - `progress`: is told the number of nodes compared so far.
 ///
 /// # Errors
-/// Those of [`evaluate`], and [`Error::Domain`] when a stored field has not one value for each node.
+/// Those of [`evaluate`]; [`Error::Domain`] when a stored field has not one value for each node; [`Error::Gpu`] when the GPU
+/// decided no node itself.
 pub fn compare(
     job: &Job,
     stored: &Stored,
@@ -100,7 +103,14 @@ pub fn compare(
         let compared = comparison.found.nodes;
         return Err(Error::Domain(format!("{compared} of {} nodes were compared; all must be", job.grid.len())));
     }
-    Ok((comparison.finish()?, report))
+    let agreement = comparison.finish()?;
+    if report.undecided_f32 == Some(agreement.nodes) {
+        return Err(Error::Gpu(format!(
+            "none of {} nodes was decided on the GPU, so nothing was compared with it",
+            agreement.nodes
+        )));
+    }
+    Ok((agreement, report))
 }
 
 /// Recomputes about `count` nodes, spread evenly, by the top of the ladder alone.
@@ -138,7 +148,7 @@ fn spread(nodes: u64, count: u64) -> impl Iterator<Item = u64> {
     (0..count).map(move |i| {
         let part = u64::from((i as u32).wrapping_mul(STEP));
         let length = start(i + 1) - start(i);
-        start(i) + (u128::from(length) * u128::from(part) >> 32) as u64
+        start(i) + ((u128::from(length) * u128::from(part)) >> 32) as u64
     })
 }
 
@@ -241,7 +251,7 @@ mod tests {
     use crate::grid::{Axis, Grid, Spacing};
     use std::collections::BTreeSet;
 
-    const NEVER: AtomicBool = AtomicBool::new(false);
+    static NEVER: AtomicBool = AtomicBool::new(false);
 
     fn grid() -> Grid {
         let axis = |name, lo, hi, count| Axis::new(name, Spacing::Linear { lo, hi, count }).unwrap();

@@ -1,0 +1,170 @@
+//! Commands that answer: query, curve, adapters, completions, help.
+
+use super::{Folder, TINY, fine, program, run};
+use std::io::{BufRead, BufReader, Write};
+use std::process::Stdio;
+
+/// Section 4 of the paper: φ0, φ1, κ0, κ1, f0, f1.
+const EXAMPLES: [[f64; 6]; 3] = [
+    [0.7, 1.4, 0.4, 4.0, 1.66010274767, 0.76985066613],
+    [0.1, 1.5, 0.035, 100.0, 2.60727801728, 0.62666697883],
+    [0.8, 0.9, 0.6, 0.874, 1.69966006964, 1.49236264052],
+];
+
+fn query(data: [&str; 4], more: &[&str]) -> super::Said {
+    let names = ["--phi0", "--phi1", "--kappa0", "--kappa1"];
+    let pairs = names.into_iter().zip(data).flat_map(|(name, value)| [name, value]);
+    fine(["query"].into_iter().chain(pairs).chain(more.iter().copied()))
+}
+
+#[test]
+fn the_papers_examples_have_the_papers_answers() {
+    for example in EXAMPLES {
+        let data: Vec<String> = example[..4].iter().map(|v| v.to_string()).collect();
+        let data = [&data[0][..], &data[1], &data[2], &data[3]];
+        let json = query(data, &["--json"]).json();
+        assert!(["SOLVABLE", "THEOREM31", "THEOREM31_ANY", "SPIRAL", "ANY_SPIRAL"].iter().all(|f| json["flags"][*f] == true));
+        let chosen = &json["solutions"][json["chosen"].as_u64().unwrap() as usize];
+        let off = |key: &str, value: f64| (chosen[key].as_f64().unwrap() - value).abs();
+        assert!(off("f0", example[4]) < 1e-10 && off("f1", example[5]) < 1e-10, "{chosen}");
+        assert!(chosen["theorem31"] == true && chosen["spiral"] == true && chosen["margin"].as_f64().unwrap() > 0.0);
+        assert_eq!(chosen["control_points"][3], serde_json::json!([1.0, 0.0]));
+        let text = query(data, &[]).out;
+        assert!(text.contains("chosen: f0 = ") && text.contains("spiral: yes"), "{text}");
+    }
+    let none = query(["0.7", "1.4", "0.4", "1.2"], &["--json"]).json();
+    assert_eq!((&none["chosen"], &none["flags"]["SPIRAL"]), (&serde_json::Value::Null, &false.into()));
+}
+
+#[test]
+fn degrees_and_negative_numbers_are_read() {
+    let json = query(["40deg", "90deg", "-0.4", "4"], &["--json"]).json();
+    assert_eq!(json["phi1"], std::f64::consts::FRAC_PI_2);
+    assert_eq!((&json["kappa0"], &json["flags"]["SOLVABLE"]), (&(-0.4).into(), &false.into()));
+}
+
+#[test]
+fn an_atlas_is_asked_too() {
+    let folder = Folder::new(TINY);
+    folder.generate(&[]);
+    let file = folder.text("out/tiny.atlas.safetensors");
+    let json = query(["0.69", "1.41", "0.41", "4.1"], &["--atlas", &file, "--json"]).json();
+    let told = &json["atlas"];
+    assert_eq!((&told["coordinates"]["phi0"], &told["flags"]["SPIRAL"]), (&0.7.into(), &true.into()), "{told}");
+    assert!(told["scalars"]["f0"].as_f64().is_some_and(|f| f > 1.5) && told["solutions"]["spirals"] == 1, "{told}");
+    // Node 2·3·6·5 counts: phi0 1, phi1 2, kappa0 3, kappa1 2 of 16^(i/4).
+    assert_eq!(told["node"], 90 + 2 * 30 + 3 * 5 + 2);
+    let none = query(["0.7", "1.4", "0.6", "1"], &["--atlas", &file, "--json"]).json();
+    assert_eq!(none["atlas"]["scalars"]["f0"], serde_json::Value::Null);
+    let far = query(["0.7", "1.4", "0.41", "400"], &["--atlas", &file]).out;
+    assert!(far.contains("does not reach there: kappa1 = 400.0 is outside 1.0 to 16.0"), "{far}");
+}
+
+#[test]
+fn atlases_in_normalised_coordinates_are_asked_too() {
+    let recipe =
+        TINY.replace("kappa0 = { linear = [0.1, 0.6]", "a = { linear = [0.1, 1.6]").replace("kappa1 = { log", "k = { log");
+    let folder = Folder::new(&recipe[..recipe.find("[[atlas.picture]]").unwrap()]);
+    folder.generate(&[]);
+    let json = query(["0.7", "1.4", "0.4", "4"], &["--atlas", &folder.text("out/tiny.atlas.safetensors"), "--json"]).json();
+    // a = 0.4 (sin 1.4 / sin 2.1)² / sin 0.7 = 0.809, nearest to 0.7 of 0.1, 0.4, ..; k = 4 (sin 0.7 / sin 2.1)² / sin 1.4 = 2.26, to 2.
+    assert_eq!((&json["atlas"]["coordinates"]["a"], &json["atlas"]["coordinates"]["k"]), (&0.7.into(), &2.0.into()));
+}
+
+#[test]
+fn a_table_is_answered_line_by_line_in_order() {
+    let folder = Folder::new("");
+    let rows = "kappa1, phi0 ,id,phi1,kappa0\r\n4,0.7,a,1.4,0.4\r\n\r\nx,0.7,b,1.4,0.4\n4,0.7\n100,0.1,c,1.5,0.035\n4,7,d,1,1\n\
+                4,40deg,e,80deg,-1\n1e999,0.7,f,1.4,0.4";
+    std::fs::write(folder.at("rows.csv"), rows).unwrap();
+    let said = run(["query", "--points", &folder.text("rows.csv")]);
+    assert_eq!((said.code, &said.err[..]), (Some(1), ""));
+    let lines: Vec<serde_json::Value> = said.out.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+    assert_eq!(lines.len(), 7);
+    assert!(said.out.starts_with(r#"{"phi0":0.7,"phi1":1.4,"kappa0":0.4,"kappa1":4.0,"flags":{"SOLVABLE":true,"#));
+    assert_eq!((&lines[0]["chosen"], &lines[3]["kappa1"], &lines[5]["kappa0"]), (&0.into(), &100.0.into(), &(-1.0).into()));
+    for (at, line, part) in [(1, 4, "kappa1: \"x\""), (2, 5, "2 values"), (4, 7, "phi0 is 7"), (6, 9, "kappa1 is inf")] {
+        assert_eq!(lines[at]["line"], line);
+        assert!(lines[at]["error"].as_str().unwrap().contains(part), "{}", lines[at]);
+    }
+    let good: String = rows.lines().filter(|l| l.contains("id") || l.contains(",a,")).map(|l| format!("{l}\n")).collect();
+    std::fs::write(folder.at("good.csv"), good).unwrap();
+    assert_eq!(fine(["query", "--points", &folder.text("good.csv")]).out.lines().count(), 1);
+}
+
+#[test]
+fn whoever_sends_a_row_gets_its_answer_before_the_next() {
+    let mut child = program().args(["query", "--points", "-"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let (mut input, mut output) = (child.stdin.take().unwrap(), BufReader::new(child.stdout.take().unwrap()));
+    input.write_all(b"phi0,phi1,kappa0,kappa1\n").unwrap();
+    for kappa1 in [3.5, 4.5] {
+        writeln!(input, "0.7,1.4,0.4,{kappa1}").unwrap();
+        let mut line = String::new();
+        output.read_line(&mut line).unwrap();
+        assert!(line.contains(&format!(r#""kappa1":{kappa1}"#)), "{line}");
+    }
+    drop(input);
+    assert!(child.wait().unwrap().success());
+}
+
+#[test]
+fn a_reader_that_leaves_ends_the_stream_quietly() {
+    let folder = Folder::new("");
+    let rows: String = "phi0,phi1,kappa0,kappa1\n".chars().chain("0.7,1.4,0.4,4\n".repeat(20_000).chars()).collect();
+    std::fs::write(folder.at("rows.csv"), rows).unwrap();
+    let mut child = program();
+    child.args(["query", "--points", &folder.text("rows.csv")]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = child.spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    assert!(line.starts_with('{'));
+    let said: super::Said = child.wait_with_output().unwrap().into();
+    assert_eq!((said.code, &said.err[..]), (Some(0), ""));
+}
+
+fn curve(from: &str, to: &str, directions: [&str; 2], curvatures: [&str; 2], more: &[&str]) -> super::Said {
+    let all = ["curve", "--from", from, "--to", to, "--start-direction", directions[0], "--end-direction", directions[1]];
+    let rest = ["--start-curvature", curvatures[0], "--end-curvature", curvatures[1]];
+    run(all.iter().chain(&rest).chain(more))
+}
+
+#[test]
+fn curves_join_real_ends() {
+    let folder = Folder::new("");
+    let figure = folder.text("curve.png");
+    let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "4"], &["--json", "--figure", &figure]).json();
+    assert_eq!(json["datum"]["phi0"], 0.7);
+    let points = json["solutions"][0]["control_points"].as_array().unwrap();
+    assert_eq!((points.len(), &points[0], &points[3]), (4, &serde_json::json!([-1.0, 0.0]), &serde_json::json!([1.0, 0.0])));
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    // The same curve ten times as large, mirrored, with vectors for directions.
+    let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
+    assert!(large.out.contains("no C-shaped curve"), "{}", large.out);
+    let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "-80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
+    assert!(large.out.contains("cubic spiral (f0, f1) = (1.6601") && large.out.contains("mirrored"), "{}", large.out);
+}
+
+#[test]
+fn no_curve_is_an_answer_with_numbers() {
+    let folder = Folder::new("");
+    let said = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "1.2"], &[]);
+    assert!(said.code == Some(0) && said.out.contains("kappa1 = 1.2 must exceed 1.466"), "{}", said.out);
+    let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--json"]).json();
+    assert_eq!(json["why"]["condition"], "inflection");
+    let wavy = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "2.2"], &["--figure", &folder.text("wavy.png")]);
+    assert!(wavy.code == Some(0) && wavy.out.contains("loses monotone curvature"), "{}", wavy.out);
+    assert!(folder.at("wavy.png").exists());
+    let none = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--figure", &folder.text("none.png")]);
+    assert!(none.code == Some(1) && none.err.contains("none.png was not drawn"), "{}", none.err);
+    assert!(!folder.at("none.png").exists());
+}
+
+#[test]
+fn every_command_has_an_example_in_its_help() {
+    for command in ["generate", "verify", "render", "info", "adapters", "query", "curve", "completions"] {
+        let help = fine([command, "--help"]).out;
+        assert!(help.contains("Example") && help.contains(&format!("spiral-atlas {command}")), "{help}");
+    }
+    assert!(fine(["completions", "bash"]).out.contains("generate"));
+    assert!(fine(["adapters", "--json"]).json().is_array());
+}
