@@ -187,7 +187,7 @@ impl Made {
 }
 
 fn rate(count: u64, of: u64) -> String {
-    if count == 0 { "none".into() } else { format!("1 in {}", grouped(of / count)) }
+    of.checked_div(count).map_or("none".into(), |n| format!("1 in {}", grouped(n)))
 }
 
 #[cfg(feature = "gpu")]
