@@ -10,6 +10,7 @@ pub mod grid;
 pub mod num;
 #[cfg(feature = "cli")]
 pub mod plot;
+#[cfg(feature = "cli")]
 pub mod recipe;
 
 pub use error::{Error, Result};
