@@ -56,8 +56,9 @@ impl Axis {
         let values = match &spacing {
             Spacing::Linear { lo, hi, count } | Spacing::Log { lo, hi, count } => {
                 let log = matches!(spacing, Spacing::Log { .. });
-                if !(lo.is_finite() && hi.is_finite() && lo < hi) {
-                    return fail(format!("runs from {lo} to {hi}; it must be finite with lo < hi"));
+                // The width too: from -1e308 to 1e308 no step could be computed.
+                if !((hi - lo).is_finite() && lo < hi) {
+                    return fail(format!("runs from {lo} to {hi}; both and their difference must be finite, with lo < hi"));
                 }
                 if !(2..=MAX_COUNT).contains(count) {
                     return fail(format!(
@@ -123,7 +124,7 @@ pub fn nearest(values: &[f64], x: f64) -> Option<usize> {
 
 fn lin_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     let last = (count - 1) as f64;
-    // Written so that both ends are exact and nothing overflows; IEEE + * / give the same bits everywhere.
+    // IEEE + * / give the same bits everywhere; the ends are exact.
     (0..count).map(|i| if i + 1 == count { hi } else { lo + (hi / last - lo / last) * i as f64 }).collect()
 }
 

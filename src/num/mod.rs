@@ -10,11 +10,5 @@ pub use number::{Lanes, Number};
 
 /// `lo (hi / lo)^(i / (count - 1))`, the ends exact; the same doubles on every machine.
 pub(crate) fn log_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {
-    (0..count)
-        .map(|i| match i {
-            0 => lo,
-            i if i + 1 == count => hi,
-            i => interval::log_interpolate(lo, hi, i, count - 1),
-        })
-        .collect()
+    interval::log_space(lo, hi, count - 1)
 }
