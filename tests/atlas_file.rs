@@ -44,11 +44,11 @@ fn chunk(start: u64, len: u64) -> Chunk {
 fn write(path: &Path, kappa1: Spacing, cuts: &[u64]) -> Result<Written> {
     let grid = grid(kappa1);
     let mut writer = Writer::create(path, &spec(&grid))?;
-    let ends = cuts.iter().copied().chain([grid.len()]);
-    ends.fold(Ok(0), |start: Result<u64>, end| {
-        let start = start?;
-        writer.put(&chunk(start, end - start)).map(|()| end)
-    })?;
+    let mut start = 0;
+    for end in cuts.iter().copied().chain([grid.len()]) {
+        writer.put(&chunk(start, end - start))?;
+        start = end;
+    }
     writer.finish()
 }
 
@@ -301,15 +301,11 @@ fn hostile_headers_are_refused() {
         ("\"blake3.f0\":\"", "\"blake3.f0\":\"g", "hash of `f0`"),
         ("\"blake3.f0\":\"", "\"blake3.g0\":\"", "no hash of `f0`"),
         ("{\"__metadata__\"", " {\"__metadata__\"", "not spelt"),
-        ("habib", "HABIB", "not in"),
     ];
-    let mut refused = 0;
-    for (from, to, what) in cases.iter().filter(|c| c.2 != "not in") {
+    for (from, to, what) in cases {
         let message = complaint(&with_header(from, to));
         assert!(message.contains(what), "{to}: {message}");
-        refused += 1;
     }
-    assert_eq!(refused, cases.len() - 1);
     assert!(Atlas::from_bytes(&with_header("sample", "sample")).is_ok(), "the tests' own editing breaks the file");
 }
 

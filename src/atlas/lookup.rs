@@ -77,7 +77,7 @@ impl Lookup {
         let index = (nearest_integer(guess) as usize).min(self.count() - 1);
         if let [below, here, above] = self.padded[index..index + 3] {
             // With `x <= here` the second holds anyway, else the first; so no branch depends on which half of a step x is in.
-            if (here - x < x - below) & !(above - x < x - here) {
+            if (here - x < x - below) & (x - here <= above - x) {
                 return Some(index);
             }
         }
