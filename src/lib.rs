@@ -1,6 +1,7 @@
 //! Proved atlases of spiral regions: given two end points, tangents and curvatures, is there a transition curve with
 //! monotone curvature of a given family, and which one?
 
+pub mod atlas;
 pub mod curve;
 pub mod error;
 pub mod eval;
@@ -9,5 +10,7 @@ pub mod grid;
 pub mod num;
 #[cfg(feature = "cli")]
 pub mod plot;
+#[cfg(feature = "cli")]
+pub mod recipe;
 
 pub use error::{Error, Result};

@@ -1,0 +1,158 @@
+//! Writing an atlas as a stream.
+
+use super::about::{About, check_name};
+use super::header::{Header, Tensor};
+use super::{Spec, fault};
+use crate::error::{Error, Result};
+use crate::eval::Chunk;
+use blake3::{Hash, Hasher};
+use std::fs::File;
+use std::io::{Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// Bytes of f32 that are converted at a time.
+const BLOCK: usize = 1 << 16;
+
+/// Writes an atlas chunk by chunk, beside its target; the target appears, whole, with [`Writer::finish`].
+///
+/// Memory: the header, the axes, one hash state a tensor and 64 KiB, whatever the size of the atlas.
+/// Dropping a writer that is not finished removes what it wrote, and leaves an earlier file of that name as it was.
+#[derive(Debug)]
+pub struct Writer {
+    target: PathBuf,
+    temporary: NamedTempFile,
+    header: Header,
+    body: u64,
+    hashers: Vec<Hasher>,
+    nodes: u64,
+    next: u64,
+}
+
+/// What [`Writer::finish`] wrote.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Written {
+    /// Length of the file.
+    pub bytes: u64,
+    /// The hash that stands for the whole atlas; see [`super::Atlas::id`].
+    pub id: Hash,
+    /// BLAKE3 of each tensor, in file order.
+    pub hashes: Vec<(String, Hash)>,
+}
+
+impl Writer {
+    /// Opens a temporary file in the folder of `path` and lays the atlas out.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] when the specification is inconsistent (axes that are no chart of the family, a scalar given twice,
+    /// a recipe too long); [`Error::Io`], naming `path`, when the system refuses.
+    pub fn create(path: &Path, spec: &Spec) -> Result<Writer> {
+        let domain = |what| Error::Domain(format!("the atlas `{}`: {what}", spec.name));
+        check_name("atlas", spec.name).map_err(Error::Domain)?;
+        let header = Header::new(About::of(spec).map_err(domain)?, spec.grid.clone()).map_err(domain)?;
+        let head = header.render().map_err(domain)?;
+        let io = || Error::io(path);
+        let temporary = temporary(path).map_err(io())?;
+        let body = head.len() as u64;
+        temporary.as_file().set_len(body + header.body_len() as u64).map_err(io())?;
+        let hashers = vec![Hasher::new(); header.tensors.len()];
+        let mut writer = Writer { target: path.to_owned(), temporary, header, body, hashers, nodes: spec.grid.len(), next: 0 };
+        for (i, axis) in spec.grid.axes().iter().enumerate() {
+            let bytes: Vec<u8> = axis.values().iter().flat_map(|v| v.to_le_bytes()).collect();
+            writer.append(i, 0, &bytes)?;
+        }
+        Ok(writer)
+    }
+
+    /// Writes the next chunk. Chunks come in flat order, without gaps.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a chunk that does not start where the last one ended, leaves the grid, has fields of different
+    /// lengths or values that no atlas may hold; [`Error::Io`], naming the target, for a full disk or the like.
+    pub fn put(&mut self, chunk: &Chunk) -> Result<()> {
+        self.check(chunk).map_err(|what| Error::Domain(format!("chunk at node {}: {what}", chunk.start)))?;
+        let first = self.header.grid.axes().len();
+        for (i, scalar) in chunk.scalars.iter().enumerate() {
+            let mut at = 4 * chunk.start;
+            for part in scalar.chunks(BLOCK / 4) {
+                let bytes: Vec<u8> = part.iter().flat_map(|v| v.to_le_bytes()).collect();
+                self.append(first + i, at, &bytes)?;
+                at += bytes.len() as u64;
+            }
+        }
+        let flags = first + chunk.scalars.len();
+        self.append(flags, chunk.start, &chunk.flags)?;
+        self.append(flags + 1, chunk.start, &chunk.solutions)?;
+        self.next += chunk.len() as u64;
+        Ok(())
+    }
+
+    /// Fills in the hashes, makes sure of the disk, and moves the file to its place, over an earlier one.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] when nodes are missing; [`Error::Io`], naming the target, when the system refuses.
+    pub fn finish(mut self) -> Result<Written> {
+        if self.next != self.nodes {
+            return Err(Error::Domain(format!(
+                "the atlas `{}` has {} of {} nodes; write them all before finishing",
+                self.header.about.name, self.next, self.nodes
+            )));
+        }
+        self.header.hashes = self.hashers.iter().map(Hasher::finalize).collect();
+        let (head, id) = (self.header.render().map_err(Error::Domain)?, self.header.id().map_err(Error::Domain)?);
+        let bytes = self.body + self.header.body_len() as u64;
+        let Writer { target, mut temporary, header, .. } = self;
+        let file = temporary.as_file_mut();
+        file.rewind().and_then(|()| file.write_all(&head)).and_then(|()| file.sync_all()).map_err(Error::io(&target))?;
+        temporary.persist(&target).map_err(|e| e.error).and_then(|_| sync_folder(&target)).map_err(Error::io(&target))?;
+        let hashes = header.tensors.into_iter().map(|t: Tensor| t.name).zip(header.hashes).collect();
+        Ok(Written { bytes, id, hashes })
+    }
+
+    fn check(&self, chunk: &Chunk) -> Result<(), String> {
+        let (len, scalars) = (chunk.len(), self.header.about.scalars.len());
+        if chunk.start != self.next {
+            return Err(format!("node {} comes next", self.next));
+        }
+        if len as u64 > self.nodes - self.next {
+            return Err(format!("it has {len} nodes, {} are left in the grid", self.nodes - self.next));
+        }
+        if chunk.solutions.len() != len || chunk.scalars.iter().any(|s| s.len() != len) {
+            return Err("its fields differ in length".into());
+        }
+        if chunk.scalars.len() != scalars {
+            return Err(format!("it has {} scalars, the atlas {scalars}", chunk.scalars.len()));
+        }
+        let about = &self.header.about;
+        fault::bits("flags", &chunk.flags, about.flag_bits())?;
+        fault::bits("solutions", &chunk.solutions, about.count_bits())?;
+        chunk.scalars.iter().zip(&about.scalars).try_for_each(|(values, s)| fault::finite(&s.name, values))
+    }
+
+    /// Writes and hashes the next bytes of a tensor; `at` counts from the tensor's start.
+    fn append(&mut self, tensor: usize, at: u64, bytes: &[u8]) -> Result<()> {
+        let start = self.body + self.header.tensors[tensor].info.data_offsets.0 as u64 + at;
+        let file = self.temporary.as_file_mut();
+        file.seek(SeekFrom::Start(start)).and_then(|_| file.write_all(bytes)).map_err(Error::io(&self.target))?;
+        self.hashers[tensor].update(bytes);
+        Ok(())
+    }
+}
+
+/// A file beside the target, with the permissions that an ordinary new file gets.
+fn temporary(target: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".spiral-atlas-").suffix(".part");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder(target))
+}
+
+fn folder(target: &Path) -> &Path {
+    target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Makes the new name durable; only Unix lets a folder be opened for that.
+fn sync_folder(target: &Path) -> std::io::Result<()> {
+    if cfg!(unix) { File::open(folder(target))?.sync_all() } else { Ok(()) }
+}

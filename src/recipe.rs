@@ -1,0 +1,321 @@
+//! Recipes: TOML files that say which family, grids, fields and pictures to generate.
+//!
+//! ```toml
+//! family = "cubic"
+//! fields = ["f0", "f1", "margin"]  # optional; `flags` and `solutions` are always there
+//!
+//! [[atlas]]
+//! name = "quickstart"              # the file's stem
+//! [atlas.axes]                     # their names pick the family's chart, and the chart their order
+//! phi0 = { linear = ["5deg", 1.2], count = 41 }
+//! phi1 = { values = [0.9, 1.4] }
+//! kappa0 = { linear = [0.02, 1.0], count = 37 }
+//! kappa1 = { log = [1.0, 100.0], count = 43 }
+//!
+//! [[atlas.picture]]
+//! kind = "slice"                   # all axes but two fixed, each at the node nearest to `at`
+//! x = "kappa0"
+//! y = "kappa1"
+//! at = { phi0 = 0.7, phi1 = 1.4 }  # an axis of one value may be left out
+//! mark = [{ kappa0 = 0.4, kappa1 = 4.0, label = "example 1" }]
+//!
+//! [[atlas.picture]]
+//! kind = "multiples"               # one panel for each combination of the other axes' nodes
+//! x = "kappa0"
+//! y = "kappa1"
+//! at = { phi0 = [0.3, 0.7] }       # an axis left out is sampled evenly, at most 6 nodes
+//! ```
+//!
+//! Angles may be written `"40deg"` on axes of angles.
+
+mod raw;
+
+pub use raw::parse_angle;
+
+use crate::atlas::Lookup;
+use crate::error::{Error, Result};
+use crate::family::{self, Chart, Family};
+use crate::grid::{Axis, Grid, Spacing};
+use raw::{Fault, Number, Numbers, RawAtlas, RawAxis, RawPicture, unknown};
+use std::collections::BTreeMap;
+use std::path::Path;
+use toml::Spanned;
+
+/// Most panels along an axis when the recipe does not choose them.
+const PANELS: usize = 6;
+
+/// A recipe, read and looked up.
+#[derive(Clone)]
+pub struct Recipe {
+    /// The family.
+    pub family: &'static dyn Family,
+    /// The scalars to store, in the recipe's order: indices into [`Family::scalars`].
+    pub scalars: Vec<usize>,
+    /// The atlases, at least one.
+    pub atlases: Vec<AtlasPlan>,
+    /// The text, with line ends as Unix has them, so that a checkout on any system makes the same atlas.
+    pub text: String,
+}
+
+/// One atlas of a recipe.
+#[derive(Debug, Clone)]
+pub struct AtlasPlan {
+    /// The file's stem: small letters, digits and hyphens.
+    pub name: String,
+    /// What the axes are.
+    pub chart: &'static Chart,
+    /// The nodes. Whether they lie in the family's domain, [`Family::table`] tells.
+    pub grid: Grid,
+    /// The pictures to draw.
+    pub pictures: Vec<PicturePlan>,
+}
+
+/// One picture of an atlas.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PicturePlan {
+    /// A slice, or several side by side.
+    pub kind: PictureKind,
+    /// The horizontal axis, an index into the grid's axes.
+    pub x: usize,
+    /// The vertical axis.
+    pub y: usize,
+    /// The other axes, slowest first, each with the nodes to show, increasing: just one on a slice.
+    pub at: Vec<(usize, Vec<usize>)>,
+    /// Points to mark; on slices only.
+    pub marks: Vec<Mark>,
+}
+
+/// How many slices a picture shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureKind {
+    /// One.
+    Slice,
+    /// One for each combination of the other axes' chosen nodes.
+    Multiples,
+}
+
+/// A point marked on a slice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// Coordinate on the horizontal axis, within the axis.
+    pub x: f64,
+    /// Coordinate on the vertical axis, within the axis.
+    pub y: f64,
+    /// The words beside it.
+    pub label: String,
+}
+
+impl Recipe {
+    /// Reads the text of a recipe.
+    ///
+    /// # Errors
+    /// [`Error::Recipe`] with line and column; an unknown name comes with the nearest known one.
+    pub fn parse(text: &str) -> Result<Recipe> {
+        let text = text.replace("\r\n", "\n");
+        resolve(&text).map_err(|fault| fault.within(&text))
+    }
+
+    /// Reads a recipe from a file.
+    ///
+    /// # Errors
+    /// [`Error::Io`], or [`Error::Recipe`] as [`Recipe::parse`] has it, with the file's name.
+    pub fn read(path: impl AsRef<Path>) -> Result<Recipe> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
+        Recipe::parse(&text).map_err(|e| match e {
+            Error::Recipe(what) => Error::Recipe(format!("{}: {what}", path.display())),
+            other => other,
+        })
+    }
+}
+
+fn resolve(text: &str) -> Result<Recipe, Fault> {
+    let raw = raw::parse(text)?;
+    let name = raw.family.get_ref();
+    let names: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
+    let family = family::by_name(name).ok_or_else(|| Fault::new(raw.family.span(), unknown("family", name, &names)))?;
+    let scalars = scalars(family, &raw.fields)?;
+    let at = raw.atlas.span();
+    let mut atlases: Vec<AtlasPlan> = Vec::new();
+    for atlas in raw.atlas.into_inner() {
+        let at = atlas.name.span();
+        let plan = plan(atlas, family)?;
+        if atlases.iter().any(|other| other.name == plan.name) {
+            return Err(Fault::new(at, format!("two atlases are named `{}`; their files need different names", plan.name)));
+        }
+        atlases.push(plan);
+    }
+    if atlases.is_empty() {
+        return Err(Fault::new(at, "there is no atlas; add an `[[atlas]]`"));
+    }
+    Ok(Recipe { family, scalars, atlases, text: text.to_owned() })
+}
+
+fn scalars(family: &dyn Family, fields: &[Spanned<String>]) -> Result<Vec<usize>, Fault> {
+    let always = ["flags", "solutions"];
+    let known: Vec<&str> = always.into_iter().chain(family.scalars().iter().map(|s| s.name)).collect();
+    let mut places = Vec::new();
+    for field in fields {
+        let name = field.get_ref();
+        let place = known.iter().position(|k| k == name);
+        let place = place.ok_or_else(|| Fault::new(field.span(), unknown("field", name, &known)))?;
+        if places.contains(&place) {
+            return Err(Fault::new(field.span(), format!("the field `{name}` is given twice")));
+        }
+        places.push(place);
+    }
+    Ok(places.iter().filter_map(|place| place.checked_sub(always.len())).collect())
+}
+
+fn plan(raw: RawAtlas, family: &'static dyn Family) -> Result<AtlasPlan, Fault> {
+    let name = raw.name.get_ref();
+    let plain = name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
+    if !plain || !(1..=64).contains(&name.len()) {
+        let what = format!("the atlas name {name:?} is not made of 1 to 64 small letters, digits and hyphens");
+        return Err(Fault::new(raw.name.span(), what));
+    }
+    let chart = chart(family, &raw.axes)?;
+    let mut axes = Vec::new();
+    for name in chart.axes {
+        let Some(axis) = raw.axes.get_ref().iter().find(|(key, _)| key.get_ref() == name).map(|(_, axis)| axis) else { continue };
+        axes.push(spacing(name, axis.get_ref()).and_then(|s| new_axis(name, s)).map_err(|e| Fault::new(axis.span(), e))?);
+    }
+    let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
+    let pictures = raw.picture.iter().map(|p| picture(p, &grid)).collect::<Result<_, _>>()?;
+    Ok(AtlasPlan { name: name.clone(), chart, grid, pictures })
+}
+
+/// The chart that has just these axes.
+fn chart(
+    family: &'static dyn Family,
+    axes: &Spanned<BTreeMap<Spanned<String>, Spanned<RawAxis>>>,
+) -> Result<&'static Chart, Fault> {
+    let mut known: Vec<&str> = family.charts().iter().flat_map(|c| c.axes).copied().collect();
+    known.sort_unstable();
+    known.dedup();
+    let given: Vec<&Spanned<String>> = axes.get_ref().keys().collect();
+    if let Some(key) = given.iter().find(|key| !known.contains(&&key.get_ref()[..])) {
+        return Err(Fault::new(key.span(), unknown("axis", key.get_ref(), &known)));
+    }
+    let fits = |c: &&Chart| c.axes.len() == given.len() && given.iter().all(|key| c.axes.contains(&&key.get_ref()[..]));
+    family.charts().iter().find(fits).ok_or_else(|| {
+        let charts: Vec<String> = family.charts().iter().map(|c| format!("{} ({})", c.axes.join(", "), c.name)).collect();
+        let given: Vec<&str> = given.iter().map(|key| &key.get_ref()[..]).collect();
+        let what = format!("the axes are {}; `{}` takes {}", given.join(", "), family.name(), charts.join(" or "));
+        Fault::new(axes.span(), what)
+    })
+}
+
+fn spacing(name: &str, raw: &RawAxis) -> Result<Spacing, String> {
+    match (raw.linear.as_deref(), raw.log.as_deref(), &raw.values, raw.count) {
+        (Some([lo, hi]), None, None, Some(count)) => Ok(Spacing::Linear { lo: lo.on(name)?, hi: hi.on(name)?, count }),
+        (None, Some([lo, hi]), None, Some(count)) => Ok(Spacing::Log { lo: lo.on(name)?, hi: hi.on(name)?, count }),
+        (None, None, Some(values), None) => values.iter().map(|v| v.on(name)).collect::<Result<_, _>>().map(Spacing::Values),
+        _ => Err(format!(
+            "axis `{name}` is one of `{{ linear = [lo, hi], count = n }}`, `{{ log = [lo, hi], count = n }}`, `{{ values = [..] }}`"
+        )),
+    }
+}
+
+fn new_axis(name: &str, spacing: Spacing) -> Result<Axis, String> {
+    Axis::new(name, spacing).map_err(|e| e.to_string())
+}
+
+fn picture(raw: &RawPicture, grid: &Grid) -> Result<PicturePlan, Fault> {
+    let kind = match &raw.kind.get_ref()[..] {
+        "slice" => PictureKind::Slice,
+        "multiples" => PictureKind::Multiples,
+        other => return Err(Fault::new(raw.kind.span(), unknown("picture kind", other, &["slice", "multiples"]))),
+    };
+    let (x, y) = (axis_index(grid, &raw.x)?, axis_index(grid, &raw.y)?);
+    if x == y {
+        return Err(Fault::new(raw.y.span(), format!("`x` and `y` are both `{}`; take two axes", raw.y.get_ref())));
+    }
+    for key in raw.at.keys() {
+        let axis = axis_index(grid, key)?;
+        if axis == x || axis == y {
+            return Err(Fault::new(key.span(), format!("`{}` is drawn; `at` fixes the other axes", key.get_ref())));
+        }
+    }
+    let others = (0..grid.axes().len()).filter(|axis| ![x, y].contains(axis));
+    let at = others.map(|axis| Ok((axis, nodes(raw, kind, &grid.axes()[axis])?))).collect::<Result<_, _>>()?;
+    if let (PictureKind::Multiples, Some(mark)) = (kind, raw.mark.first()) {
+        return Err(Fault::new(mark.span(), "marks belong on a slice; add a picture of that kind"));
+    }
+    let axes = [&grid.axes()[x], &grid.axes()[y]];
+    let marks = raw.mark.iter().map(|m| mark(m, axes)).collect::<Result<_, _>>()?;
+    Ok(PicturePlan { kind, x, y, at, marks })
+}
+
+fn axis_index(grid: &Grid, name: &Spanned<String>) -> Result<usize, Fault> {
+    let known: Vec<&str> = grid.axes().iter().map(Axis::name).collect();
+    let index = known.iter().position(|k| k == name.get_ref());
+    index.ok_or_else(|| Fault::new(name.span(), unknown("axis", name.get_ref(), &known)))
+}
+
+/// The nodes of an axis that is not drawn.
+fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<Vec<usize>, Fault> {
+    let (name, count) = (axis.name(), axis.values().len());
+    let Some((_, given)) = raw.at.iter().find(|(key, _)| key.get_ref() == name) else {
+        return match kind {
+            PictureKind::Slice if count > 1 => {
+                Err(Fault::new(raw.kind.span(), format!("the slice leaves `{name}` open; say `at = {{ {name} = .. }}`")))
+            }
+            _ if count <= PANELS => Ok((0..count).collect()),
+            _ => Ok((0..PANELS).map(|i| i * (count - 1) / (PANELS - 1)).collect()),
+        };
+    };
+    let fail = |what: String| Fault::new(given.span(), what);
+    let points = match (given.get_ref(), kind) {
+        (Numbers::One(point), _) => std::slice::from_ref(point),
+        (Numbers::Many(points), PictureKind::Multiples) if !points.is_empty() => points,
+        (Numbers::Many(_), PictureKind::Slice) => return Err(fail(format!("a slice takes one value of `{name}`"))),
+        (Numbers::Many(_), _) => return Err(fail(format!("`{name}` has an empty list"))),
+    };
+    let lookup = Lookup::new(axis);
+    let mut nodes: Vec<usize> = Vec::new();
+    for point in points {
+        let point = point.on(name).map_err(fail)?;
+        let Some(node) = lookup.nearest(point) else {
+            let (first, last) = ends(axis);
+            return Err(fail(format!("{name} = {point} lies outside the axis, which runs from {first} to {last}")));
+        };
+        if nodes.last().is_some_and(|last| *last >= node) {
+            return Err(fail(format!("the values of `{name}` must increase, from node to node of the axis; {point} does not")));
+        }
+        nodes.push(node);
+    }
+    Ok(nodes)
+}
+
+fn mark(raw: &Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>, axes: [&Axis; 2]) -> Result<Mark, Fault> {
+    let known = [axes[0].name(), axes[1].name(), "label"];
+    let map = raw.get_ref();
+    if let Some(key) = map.keys().find(|key| !known.contains(&&key.get_ref()[..])) {
+        return Err(Fault::new(key.span(), unknown("key", key.get_ref(), &known)));
+    }
+    let get = |name: &str| {
+        let found = map.iter().find(|(key, _)| key.get_ref() == name).map(|(_, value)| value);
+        found.ok_or_else(|| Fault::new(raw.span(), format!("the mark lacks `{name}`")))
+    };
+    let coordinate = |axis: &Axis| {
+        let given = get(axis.name())?;
+        let value = given.get_ref().on(axis.name()).map_err(|e| Fault::new(given.span(), e))?;
+        let (first, last) = ends(axis);
+        if first <= value && value <= last {
+            return Ok(value);
+        }
+        let what = format!("{} = {value} lies outside the picture, which runs from {first} to {last}", axis.name());
+        Err(Fault::new(given.span(), what))
+    };
+    let label = get("label")?;
+    match label.get_ref() {
+        Number::Text(text) => Ok(Mark { x: coordinate(axes[0])?, y: coordinate(axes[1])?, label: text.clone() }),
+        Number::Plain(_) => Err(Fault::new(label.span(), "the label of a mark is a text")),
+    }
+}
+
+fn ends(axis: &Axis) -> (f64, f64) {
+    let values = axis.values();
+    (values[0], values[values.len() - 1])
+}

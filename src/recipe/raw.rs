@@ -1,0 +1,151 @@
+//! A recipe as TOML has it, before anything is looked up.
+
+use crate::error::{Error, Result};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::ops::Range;
+use toml::Spanned;
+
+/// What is wrong, and which bytes of the text are to blame.
+pub(super) struct Fault {
+    pub at: Range<usize>,
+    pub what: String,
+}
+
+impl Fault {
+    pub fn new(at: Range<usize>, what: impl ToString) -> Fault {
+        Fault { at, what: what.to_string() }
+    }
+
+    /// An error of the recipe, with line and column.
+    pub fn within(self, text: &str) -> Error {
+        let before = text.get(..self.at.start).unwrap_or(text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        Error::Recipe(format!("line {line}, column {column}: {}", self.what))
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRecipe {
+    pub family: Spanned<String>,
+    #[serde(default)]
+    pub fields: Vec<Spanned<String>>,
+    pub atlas: Spanned<Vec<RawAtlas>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAtlas {
+    pub name: Spanned<String>,
+    pub axes: Spanned<BTreeMap<Spanned<String>, Spanned<RawAxis>>>,
+    #[serde(default)]
+    pub picture: Vec<RawPicture>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAxis {
+    // Not arrays: serde would take the first two of three values without a word.
+    pub linear: Option<Vec<Number>>,
+    pub log: Option<Vec<Number>>,
+    pub values: Option<Vec<Number>>,
+    pub count: Option<usize>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawPicture {
+    pub kind: Spanned<String>,
+    pub x: Spanned<String>,
+    pub y: Spanned<String>,
+    #[serde(default)]
+    pub at: BTreeMap<Spanned<String>, Spanned<Numbers>>,
+    #[serde(default)]
+    pub mark: Vec<Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>>,
+}
+
+/// A number, or a text that may be an angle.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number, or a text such as \"40deg\"")]
+pub(super) enum Number {
+    Plain(f64),
+    Text(String),
+}
+
+/// One number or several.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number or a list of numbers")]
+pub(super) enum Numbers {
+    One(Number),
+    Many(Vec<Number>),
+}
+
+impl Number {
+    /// Its value on an axis. Texts are angles, and only axes of angles take them.
+    pub fn on(&self, axis: &str) -> Result<f64, String> {
+        match self {
+            Number::Plain(value) => Ok(*value),
+            Number::Text(text) if is_angle(axis) => parse_angle(text).map_err(|e| e.to_string()),
+            Number::Text(text) => Err(format!("`{axis}` is no angle, so {text:?} must be a plain number")),
+        }
+    }
+}
+
+/// Parses the text; an unknown key is refused with the nearest known one.
+pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
+    toml::from_str(text).map_err(|e| Fault::new(e.span().unwrap_or(0..0), key_hint(e.message())))
+}
+
+/// Serde says "unknown field `a`, expected one of `b`, `c`"; any other message passes unchanged.
+fn key_hint(message: &str) -> String {
+    let Some(rest) = message.strip_prefix("unknown field `") else { return message.to_owned() };
+    let mut names = rest.split('`').step_by(2);
+    let given = names.next().unwrap_or_default();
+    unknown("key", given, &names.filter(|name| !name.is_empty()).collect::<Vec<_>>())
+}
+
+/// The complaint about a name that is not known, with the nearest that is.
+pub(super) fn unknown(what: &str, given: &str, known: &[&str]) -> String {
+    let distance = |name: &&&str| strsim::damerau_levenshtein(given, name);
+    match known.iter().min_by_key(distance) {
+        Some(name) if distance(&name) <= 1 + name.len() / 3 => format!("unknown {what} `{given}`; did you mean `{name}`?"),
+        Some(_) => format!("unknown {what} `{given}`; known are `{}`", known.join("`, `")),
+        None => format!("unknown {what} `{given}`"),
+    }
+}
+
+/// Whether the axes of this name are angles.
+fn is_angle(axis: &str) -> bool {
+    ["phi", "theta"].iter().any(|start| axis.starts_with(start))
+}
+
+/// Reads an angle: `40deg`, `0.7rad`, or radians alone, `0.7`.
+///
+/// # Returns
+/// Radians; degrees are divided by 180 and then multiplied by π, each rounded once, so that `180deg` is π's double itself.
+///
+/// # Errors
+/// [`Error::Domain`] when it is no finite number with one of these units.
+///
+/// ```
+/// use spiral_atlas::recipe::parse_angle;
+/// assert_eq!(parse_angle("90deg")?, std::f64::consts::FRAC_PI_2);
+/// assert_eq!(parse_angle("0.7 rad")?, 0.7);
+/// assert!(parse_angle("40°").is_err());
+/// # Ok::<(), spiral_atlas::Error>(())
+/// ```
+pub fn parse_angle(text: &str) -> Result<f64> {
+    let trimmed = text.trim();
+    let (number, degrees) = match (trimmed.strip_suffix("deg"), trimmed.strip_suffix("rad")) {
+        (Some(number), _) => (number, true),
+        (None, Some(number)) => (number, false),
+        (None, None) => (trimmed, false),
+    };
+    match number.trim_end().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(if degrees { value / 180.0 * PI } else { value }),
+        _ => Err(Error::Domain(format!("{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg`"))),
+    }
+}
