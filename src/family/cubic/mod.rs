@@ -14,6 +14,7 @@ pub use solve::{Datum, Root, Solutions, solve};
 use super::{Chart, Code, Count, Family, Flag, Scalar, Table};
 use crate::error::Result;
 use crate::grid::Grid;
+use fearless_simd::Level;
 
 /// The cubic family.
 #[derive(Debug, Clone, Copy)]
@@ -81,6 +82,17 @@ const CHARTS: &[Chart] = &[
     },
 ];
 
+impl Cubic {
+    /// [`Family::table`] with a SIMD level of the caller's choice, to compare levels: all of them prove the same codes.
+    ///
+    /// # Errors
+    /// As [`Family::table`].
+    #[doc(hidden)]
+    pub fn table_at<'g>(&self, grid: &'g Grid, level: Level) -> Result<Box<dyn Table + 'g>> {
+        Ok(Box::new(table::CubicTable::new(grid, level)?))
+    }
+}
+
 impl Family for Cubic {
     fn name(&self) -> &'static str {
         "cubic"
@@ -108,6 +120,6 @@ impl Family for Cubic {
         SCALARS
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
-        Ok(Box::new(table::CubicTable::new(grid)?))
+        self.table_at(grid, Level::new())
     }
 }

@@ -19,7 +19,7 @@ pub(super) struct CubicTable<'g> {
 }
 
 impl<'g> CubicTable<'g> {
-    pub fn new(grid: &'g Grid) -> Result<CubicTable<'g>> {
+    pub fn new(grid: &'g Grid, level: Level) -> Result<CubicTable<'g>> {
         let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
         let chart = CHARTS.iter().position(|c| c.axes == names).ok_or_else(|| {
             let known: Vec<String> = CHARTS.iter().map(|c| c.axes.join(", ")).collect();
@@ -31,7 +31,7 @@ impl<'g> CubicTable<'g> {
         }
         let last = |axis: &crate::grid::Axis| axis.values()[axis.values().len() - 1];
         check_angles(last(phi0), last(phi1))?;
-        Ok(CubicTable { grid, normalised: chart == 1, level: Level::new() })
+        Ok(CubicTable { grid, normalised: chart == 1, level })
     }
 
     fn datum(&self, node: u64) -> ExactDatum {
