@@ -142,7 +142,7 @@ fn find_root(d: Datum, start: f32) -> Root {
     }
     let r = residual(d, x);
     // Near a double root delta may come out large; it then fails the test for `small`.
-    let delta = min(4.0 * r.error / abs(steep(r.slope)) + 4.0 * UNIT * x, 3.0);
+    let delta = min(2.5 * r.error / abs(steep(r.slope)) + 4.0 * UNIT * x, 3.0);
     let low = x - delta;
     let high = x + delta;
     let at_low = residual(d, low);

@@ -49,7 +49,7 @@ impl Interval {
 
     /// `(sin x, cos x)` of a finite double.
     pub fn sin_cos(x: f64, bits: usize) -> (Interval, Interval) {
-        thread_local!(static CONSTANTS: RefCell<ConstCache> = RefCell::new(ConstCache::new()));
+        thread_local!(static CONSTANTS: RefCell<ConstCache> = const { RefCell::new(ConstCache::new()) });
         let (sin, cos) = CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).sin_cos(&repr(x), Some(cache)));
         let around = |rounded: FpResult<FBig<HalfEven, 2>>| {
             let nearest = rounded.expect("finite argument").value().into_repr();

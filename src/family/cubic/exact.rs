@@ -47,8 +47,9 @@ pub(super) struct Angles {
 
 impl Angles {
     /// [`Angles::new`], kept for the next call: neighbouring nodes share their angles, and the sines cost more than all else.
-    fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
-        thread_local!(static LAST: RefCell<Option<([u64; 2], usize, Rc<Angles>)>> = const { RefCell::new(None) });
+    pub fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
+        type Last = Option<([u64; 2], usize, Rc<Angles>)>;
+        thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });
         let key = [phi0.to_bits(), phi1.to_bits()];
         LAST.with_borrow_mut(|last| match last {
             Some((k, b, angles)) if *k == key && *b == bits => Some(angles.clone()),
@@ -199,10 +200,10 @@ fn isolate(a: &Interval, k: &Interval) -> Option<(bool, Vec<(Interval, Interval)
     let mut roots: Vec<(Interval, Interval)> = Vec::new();
     for ends in brackets.windows(2) {
         let root = enclose(a, k, &bracketed(&ends[0], &ends[1], &Residual { a, k })?)?;
-        if let Some((before, _)) = roots.last() {
-            if before.compare(&root.0)? != Less {
-                return None;
-            }
+        if let Some((before, _)) = roots.last()
+            && before.compare(&root.0)? != Less
+        {
+            return None;
         }
         roots.push(root);
     }
@@ -293,13 +294,14 @@ fn enclose(a: &Interval, k: &Interval, guess: &Interval) -> Option<(Interval, In
         let delta = guess * &Interval::power_of_two(exponent, bits);
         let (low, high) = ((guess - &delta).lower(), (guess + &delta).upper());
         let ((f_low, _), (f_high, y_high)) = (residual(a, k, &low), residual(a, k, &high));
-        if let (Some(l), Some(h)) = (f_low.sign(), f_high.sign()) {
-            if l != Equal && h == l.reverse() {
-                let inside = low.sign()? == Greater && y_high.sign()? == Greater;
-                let x = low.union(&high);
-                let y = residual(a, k, &x).1;
-                return inside.then_some((x, y));
-            }
+        if let (Some(l), Some(h)) = (f_low.sign(), f_high.sign())
+            && l != Equal
+            && h == l.reverse()
+        {
+            let inside = low.sign()? == Greater && y_high.sign()? == Greater;
+            let x = low.union(&high);
+            let y = residual(a, k, &x).1;
+            return inside.then_some((x, y));
         }
         exponent += 10 + (bits / 64) as isize;
     }

@@ -3,57 +3,12 @@
 //! Guesses (Newton's method, division, square roots) only choose where to look. What is stored rests on `+ - *` with
 //! these bounds, in units of u = 2^-53. The shader `cubic.wgsl` does the same in f32, function by function.
 
-use super::pair::{PAIR_ERROR, Pair};
-use super::poly::{Bounds, side};
+use super::pair::Pair;
+use super::precision::{Precision, Prepared};
+use super::root::{Data, Root, Side, bernstein, bits, residual, root, sides};
 use crate::num::bernstein::{Quintic, positive};
-use crate::num::{Lanes, Number};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask};
-
-/// Constants of the error bounds; the f32 shader has its own set, derived the same way.
-#[derive(Debug, Clone, Copy)]
-pub struct Precision {
-    /// Unit roundoff u.
-    pub unit: f64,
-    /// Relative error of a, k, κ0, κ1 and the constants of a pair, in units.
-    pub input: f64,
-}
-
-impl Precision {
-    /// f64: a pair constant and a product ([`PAIR_ERROR`] + 2).
-    pub const F64: Precision = Precision { unit: 1.0 / (1u64 << 53) as f64, input: PAIR_ERROR + 2.0 };
-    /// f32: constants rounded once from f64, κ rounded once, one product: 3, and a little for the f64 errors below.
-    pub const F32: Precision = Precision { unit: 1.0 / (1u32 << 24) as f64, input: 4.0 };
-
-    /// Γ of [`Bounds`].
-    pub fn gamma(self) -> f64 {
-        (self.input + 12.0) * self.unit
-    }
-    /// `3k` against 1: the input and one product.
-    pub fn third(self) -> f64 {
-        (self.input + 4.0) * self.unit
-    }
-    /// The discriminant: up to four inputs and eight operations a term.
-    pub fn discriminant(self) -> f64 {
-        (4.0 * self.input + 10.0) * self.unit
-    }
-    /// `s - κ` for a sine s, and their product: input and two operations.
-    pub fn outer(self) -> f64 {
-        (self.input + 4.0) * self.unit
-    }
-    /// `y = 3 - a x²` for `a x² <= 3`: (input + 2) 3 + 3 + 3 units, rounded up.
-    pub fn eta(self) -> f64 {
-        (6.0 * self.input + 16.0) * self.unit
-    }
-    /// F: the factor of `k y² + 2 k y (V + y)`, where `V = a x²`.
-    pub fn residual(self) -> f64 {
-        (self.input + 4.0) * self.unit
-    }
-    /// F: what does not depend on k: two subtractions of numbers up to 3, and x itself, however they are reassociated.
-    pub fn residual_floor(self) -> f64 {
-        10.0 * self.unit
-    }
-}
 
 /// Verdicts of a vector of nodes, one bit a lane.
 #[derive(Debug, Clone, Copy, Default)]
@@ -68,52 +23,34 @@ pub struct Planes {
     pub undecided: u64,
 }
 
-impl Planes {
-    /// The code of one lane.
-    #[inline(always)]
-    pub fn code(&self, lane: usize) -> super::Code {
-        if self.undecided >> lane & 1 == 1 {
-            return super::Code::UNDECIDED;
+/// Bit l of a byte as the lowest bit of byte l: a plane of eight lanes, spread over their codes.
+const SPREAD: [u64; 256] = {
+    let mut table = [0; 256];
+    let mut plane = 0;
+    while plane < 256 {
+        let mut lane = 0;
+        while lane < 8 {
+            table[plane] |= ((plane as u64 >> lane) & 1) << (8 * lane);
+            lane += 1;
         }
-        let bit = |plane: u64, to: u32| ((plane >> lane & 1) << to) as u16;
-        let flags = (0..5).fold(0, |sum, i| sum | bit(self.flags[i], i as u32));
-        let counts = bit(self.roots[0], 8) | bit(self.roots[1], 9) | bit(self.spirals[0], 10) | bit(self.spirals[1], 11);
-        super::Code(flags | counts)
+        plane += 1;
     }
-}
+    table
+};
 
-/// A pair of angles ready for [`classify`].
-#[derive(Debug, Clone, Copy)]
-pub struct Prepared {
-    /// The constants.
-    pub pair: Pair,
-    /// Bounds of the φ0 side and of the φ1 side.
-    pub bounds: (Bounds, Bounds),
-}
-
-impl Prepared {
-    /// Adds the f64 bounds to a pair.
-    pub fn new(pair: Pair) -> Prepared {
-        Prepared { pair, bounds: Bounds::of_pair(&pair, Precision::F64.gamma()) }
+impl Planes {
+    /// Writes the codes of the first lanes, at most eight.
+    #[inline(always)]
+    pub fn store(&self, codes: &mut [super::Code]) {
+        let spread = |plane: u64| SPREAD[(plane & 0xff) as usize];
+        let undecided = spread(self.undecided) * 0xff;
+        let flags = (0..5).fold(undecided, |bytes, i| bytes | spread(self.flags[i]) << i);
+        let counts = [self.roots[0], self.roots[1], self.spirals[0], self.spirals[1]];
+        let counts = (0..4).fold(undecided, |bytes, i| bytes | spread(counts[i]) << i);
+        for (code, (flags, counts)) in codes.iter_mut().zip(flags.to_le_bytes().into_iter().zip(counts.to_le_bytes())) {
+            *code = super::Code::new(flags, counts);
+        }
     }
-}
-
-/// A vector of data: κ0, κ1 and the normalised a, k, each within [`Precision::input`].
-#[derive(Debug, Clone, Copy)]
-pub struct Data<S: Simd> {
-    /// a = κ0 d0² / (4 sin φ0).
-    pub a: S::f64s,
-    /// k = κ1 d1² / (4 sin φ1).
-    pub k: S::f64s,
-    /// κ0.
-    pub kappa0: S::f64s,
-    /// κ1.
-    pub kappa1: S::f64s,
-}
-
-#[inline(always)]
-fn bits<S: Simd>(mask: S::mask64s) -> u64 {
-    mask.to_bitmask()
 }
 
 /// How many roots the box (0, 3)² holds, from the signs of 3k - 1, 3a - 1 and the discriminant alone.
@@ -136,9 +73,9 @@ struct Cases {
 #[inline(always)]
 fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
     let (a, k) = (d.a, d.k);
-    const P: Precision = Precision::F64;
+    let precision = d.precision;
     let one = S::f64s::splat(simd, 1.0);
-    let (above, below) = (one + P.third(), one - P.third());
+    let (above, below) = (one + precision.third(), one - precision.third());
     let (k3, a3) = (k * 3.0, a * 3.0);
     // Outside 2^±200 products might overflow; zero and negative values have no root.
     let (least, most) = (S::f64s::splat(simd, 2f64.powi(-200)), S::f64s::splat(simd, 2f64.powi(200)));
@@ -152,7 +89,7 @@ fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
     let ak = a * k;
     let (square, sum) = (ak * 768.0, (a + k) * 256.0);
     let discriminant = ak * (square - sum + 96.0) - one;
-    let error = (ak * (square + sum + 96.0) + one) * P.discriminant();
+    let error = (ak * (square + sum + 96.0) + one) * precision.discriminant();
     let (real, complex) = (bits::<S>(discriminant.simd_gt(error)), bits::<S>(discriminant.simd_lt(-error)));
     let case = Cases {
         one: k_above & a_above,
@@ -170,7 +107,7 @@ fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
 /// Whether any spiral exists: `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1-φ0)/2)` with both factors positive (Kurnosenko).
 #[inline(always)]
 fn any_spiral<S: Simd>(simd: S, pair: &Pair, d: &Data<S>) -> (u64, u64) {
-    let e = Precision::F64.outer();
+    let e = d.precision.outer();
     let (sin0, sin1) = (S::f64s::splat(simd, pair.sin0), S::f64s::splat(simd, pair.sin1));
     let (room0, room1) = (sin0 - d.kappa0, d.kappa1 - sin1);
     let (error0, error1) = ((sin0 + d.kappa0.abs()) * e, (sin1 + d.kappa1.abs()) * e);
@@ -183,93 +120,11 @@ fn any_spiral<S: Simd>(simd: S, pair: &Pair, d: &Data<S>) -> (u64, u64) {
     (yes, no)
 }
 
-/// A root known to lie within `delta` of (x, y), in both coordinates.
-#[derive(Clone, Copy)]
-pub(super) struct Root<S: Simd> {
-    pub x: S::f64s,
-    pub y: S::f64s,
-    pub delta: S::f64s,
-    low: S::f64s,
-    high: S::f64s,
-    pub proved: u64,
-}
-
-/// `F = 3 - x - k y²` with its error, `y = 3 - a x²`, and `J = F' = 4akxy - 1`.
-#[inline(always)]
-fn residual<S: Simd>(simd: S, d: &Data<S>, x: S::f64s) -> (S::f64s, S::f64s, S::f64s, S::f64s) {
-    const P: Precision = Precision::F64;
-    let three = S::f64s::splat(simd, 3.0);
-    let v = d.a * x * x;
-    let y = three - v;
-    let wide = y.abs() + P.eta();
-    let kw = d.k * wide;
-    // y is off by at most (input + 2) V + y units, x by 1, k by `input`; products and the final difference as counted in `Precision`.
-    let error = (kw * wide + kw * (v + wide) * 2.0) * P.residual() + P.residual_floor();
-    let slope = d.a * x * (d.k * y) * 4.0 - 1.0;
-    ((three - x) - d.k * (y * y), error, y, slope)
-}
-
-/// Newton from `start`, then a proof: F has opposite certain signs at `x - δ` and `x + δ`, both inside the box.
-#[inline(always)]
-pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -> Root<S> {
-    const P: Precision = Precision::F64;
-    const MOST_STEPS: u32 = 24;
-    let mut x = start;
-    for _ in 0..MOST_STEPS {
-        let y = S::f64s::splat(simd, 3.0) - d.a * x * x;
-        let ky = d.k * y;
-        let step = ((S::f64s::splat(simd, 3.0) - x) - ky * y) / (d.a * x * ky * 4.0 - 1.0);
-        x -= step;
-        // The next error is the square of this step times F''/2F', usually below 100: under 2^-52 with this limit.
-        if bits::<S>(step.abs().simd_lt(x * 2f64.powi(-30))) & wanted == wanted {
-            break;
-        }
-    }
-    let (_, error, y, slope) = residual(simd, d, x);
-    // Any δ would do that the proof accepts; four times the error over the slope is one it usually does.
-    let delta = error * 4.0 / slope.abs() + x * 2f64.powi(-50);
-    let (low, high) = (x - delta, x + delta);
-    let (f_low, e_low, _, _) = residual(simd, d, low);
-    let (f_high, e_high, y_high, _) = residual(simd, d, high);
-    let crossing = (f_low.simd_gt(e_low) & f_high.simd_lt(-e_high)) | (f_low.simd_lt(-e_low) & f_high.simd_gt(e_high));
-    let zero = S::f64s::splat(simd, 0.0);
-    let inside = low.simd_gt(zero) & high.simd_le(S::f64s::splat(simd, 3.0)) & y_high.simd_gt(S::f64s::splat(simd, P.eta()));
-    let small = (delta * 64.0).simd_lt(x);
-    // |y - y*| <= a (2x + δ) δ + η, and δ < x/64.
-    let delta_y = d.a * x * delta * 2.1 + P.eta();
-    Root { x, y, delta: (delta * 1.01).max(delta_y), low, high, proved: bits::<S>(crossing & inside & small) }
-}
-
 /// Three-valued conditions at a vector of roots.
 struct Conditions {
     theorem: (u64, u64),
     /// H0 < 0 or H5 < 0: no spiral.
     bad_end: u64,
-}
-
-/// B0, B1, B2 of one side with their errors.
-#[derive(Clone, Copy)]
-pub(super) struct Side<S: Simd> {
-    pub value: [S::f64s; 3],
-    pub error: [S::f64s; 3],
-}
-
-/// The two sides of the spiral polynomial at a root; the second is already negated (H5, H4, H3 up to positive factors).
-#[inline(always)]
-pub(super) fn sides<S: Simd>(simd: S, prepared: &Prepared, root: &Root<S>) -> (Side<S>, Side<S>) {
-    let pair = &prepared.pair;
-    let n = |value: f64| Lanes::<S>::splat(simd, value);
-    let (x, y) = (Lanes::<S>(root.x), Lanes::<S>(root.y));
-    let start = side(&x, &y, &n(pair.p), &n(pair.g0), &n(pair.r));
-    let end = side(&y, &x, &n(pair.r), &n(pair.g1), &n(pair.p));
-    let error = |b: &Bounds| {
-        let of = |i: usize| root.delta * b.slope[i] + b.rounding[i];
-        [of(0), of(1), of(2)]
-    };
-    (
-        Side { value: start.map(|v| v.0), error: error(&prepared.bounds.0) },
-        Side { value: end.map(|v| v.times(-1.0).0), error: error(&prepared.bounds.1) },
-    )
 }
 
 /// `B0 >= 0, B2 >= 0, B1 + √(8 w B0 B2) >= 0`, one half of Theorem 3.1 divided by positive factors: (yes, no, B0 < 0).
@@ -299,27 +154,34 @@ fn conditions<S: Simd>(start: &Side<S>, end: &Side<S>, root: &Root<S>) -> Condit
     Conditions { theorem: (yes0 & yes1, no0 | no1), bad_end: bad0 | bad1 }
 }
 
-/// The Bernstein coefficients of the spiral polynomial (times 5) in one lane, and how far each may be off.
+/// Lanes whose spiral polynomial is certainly negative at s = 1/2, 1 or 2: most of those that are no spirals, without halving.
 ///
-/// `b = (5y²B0, yB1, yB2, xC2, xC1, 5x²C0)`: the binomials of degree 5 divide `H_i`.
-pub(super) fn bernstein<S: Simd>(start: &Side<S>, end: &Side<S>, root: &Root<S>, lane: usize) -> (Quintic<f64>, f64) {
-    let at = |v: &S::f64s| v.as_slice()[lane];
-    let (x, y, delta) = (at(&root.x), at(&root.y), at(&root.delta));
-    let half = |side: &Side<S>, w: f64| {
-        let (b, e) = (side.value.map(|v| at(&v)), side.error.map(|v| at(&v)));
-        let c = [5.0 * w * w * b[0], w * b[1], w * b[2]];
-        let near = w + delta;
+/// Each coefficient `H_i` carries what its B and its root may be off; three products and Horner's ten operations add less than 16 units.
+#[inline(always)]
+fn dips<S: Simd>(simd: S, start: &Side<S>, end: &Side<S>, root: &Root<S>) -> u64 {
+    let half = |side: &Side<S>, w: S::f64s| {
+        let (b, e) = (side.value, side.error);
+        let near = w + root.delta;
+        let h = [w * w * b[0], w * b[1], w * b[2] * 2.0];
         let error = [
-            5.0 * (near * near * e[0] + (w + near) * delta * b[0].abs()),
-            near * e[1] + delta * b[1].abs(),
-            near * e[2] + delta * b[2].abs(),
+            near * near * e[0] + (w + near) * root.delta * b[0].abs(),
+            near * e[1] + root.delta * b[1].abs(),
+            (near * e[2] + root.delta * b[2].abs()) * 2.0,
         ];
-        // Up to four roundings a coefficient.
-        let worst = (0..3).fold(0.0f64, |worst, i| worst.max(error[i] * 1.01 + 4.0 * Precision::F64.unit * c[i].abs()));
-        (c, worst)
+        let bound = |i: usize| error[i] * 1.01 + h[i].abs() * (16.0 * Precision::F64.unit);
+        (h, [bound(0), bound(1), bound(2)])
     };
-    let ((b, e0), (c, e1)) = (half(start, y), half(end, x));
-    ([b[0], b[1], b[2], c[2], c[1], c[0]], e0.max(e1))
+    let ((h, e), (g, f)) = (half(start, root.y), half(end, root.x));
+    let (h, e) = ([h[0], h[1], h[2], g[2], g[1], g[0]], [e[0], e[1], e[2], f[2], f[1], f[0]]);
+    let at = |s: f64| {
+        let (mut value, mut bound) = (h[5], e[5]);
+        for i in (0..5).rev() {
+            value = value * s + h[i];
+            bound = bound * s + e[i];
+        }
+        bits::<S>(value.simd_lt(S::f64s::splat(simd, 0.0) - bound))
+    };
+    at(0.5) | at(1.0) | at(2.0)
 }
 
 /// [`positive`] with the f64 bounds: halving a dozen times reaches features of width 2^-20 of the segment.
@@ -383,7 +245,8 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
     d: &Data<S>,
     mut seen: impl FnMut(Found<'_, S>),
 ) -> Planes {
-    let all = if S::f64s::LEN == 64 { u64::MAX } else { (1 << S::f64s::LEN) - 1 };
+    const { assert!(S::f64s::LEN <= 8, "a plane is a byte") };
+    let all = (1 << S::f64s::LEN) - 1;
     let case = cases(simd, d);
     let (any, no) = if prepared.pair.rising { any_spiral(simd, &prepared.pair, d) } else { (0, all) };
     let two = case.smaller_two | case.larger_two;
@@ -411,6 +274,9 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
         let theorem = known.theorem.0 & proved & any;
         let mut spirals = theorem;
         let mut not_spirals = known.bad_end | no;
+        if proved & !theorem & !not_spirals != 0 {
+            not_spirals |= dips(simd, &start, &end, &root) & proved & !theorem;
+        }
         let mut unclear = proved & !theorem & !not_spirals;
         while unclear != 0 {
             let lane = unclear.trailing_zeros() as usize;

@@ -4,6 +4,8 @@ mod exact;
 mod filter;
 mod pair;
 mod poly;
+mod precision;
+mod root;
 #[cfg(feature = "gpu")]
 mod shader;
 mod solve;

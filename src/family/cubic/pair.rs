@@ -1,5 +1,6 @@
 //! What depends on the two tangent angles alone.
 
+use super::exact::Angles;
 use crate::num::trig::{cos, sin, sin_of_sum};
 use std::f64::consts::PI;
 
@@ -65,6 +66,24 @@ impl Pair {
             rising,
         })
     }
+
+    /// The same, each constant correctly rounded from intervals; `None` also where 128 bits do not tell the nearest double.
+    pub fn precise(phi0: f64, phi1: f64) -> Option<Pair> {
+        let rough = Pair::new(phi0, phi1)?;
+        let angles = Angles::cached(phi0, phi1, 128)?;
+        Some(Pair {
+            p: angles.p.to_f64()?,
+            r: angles.r.to_f64()?,
+            g0: angles.g0.to_f64()?,
+            g1: angles.g1.to_f64()?,
+            curve0: angles.g1.over(&angles.sin0)?.to_f64()?,
+            curve1: angles.g0.over(&angles.sin1)?.to_f64()?,
+            sin0: angles.sin0.to_f64()?,
+            sin1: angles.sin1.to_f64()?,
+            sin2_half: if rough.rising { angles.sin2_half.to_f64()? } else { 0.0 },
+            rising: rough.rising,
+        })
+    }
 }
 
 #[cfg(test)]
@@ -76,28 +95,12 @@ mod tests {
     fn constants_keep_their_bound() {
         let mut worst: f64 = 0.0;
         let mut compared = 0;
-        let angles = [
-            1e-12,
-            1e-3,
-            0.1,
-            0.3,
-            0.7,
-            0.7000000001,
-            0.8,
-            0.9,
-            1.4,
-            1.5,
-            1.570796,
-            std::f64::consts::FRAC_PI_2,
-            1.6,
-            2.2,
-            3.0,
-            3.14,
-        ];
+        let angles =
+            [1e-12, 1e-3, 0.1, 0.3, 0.7, 0.7000000001, 0.8, 0.9, 1.4, 1.5, 1.56, std::f64::consts::FRAC_PI_2, 1.6, 2.2, 3.0, 3.1];
         for phi0 in angles {
             for phi1 in angles {
                 let Some(pair) = Pair::new(phi0, phi1) else { continue };
-                let truth = super::super::exact::Angles::new(phi0, phi1, 320).expect("enough bits");
+                let truth = Angles::new(phi0, phi1, 320).expect("enough bits");
                 let values = [pair.p, pair.r, pair.g0, pair.g1, pair.sin0, pair.sin1];
                 let truths = [&truth.p, &truth.r, &truth.g0, &truth.g1, &truth.sin0, &truth.sin1];
                 for (value, truth) in values.into_iter().zip(truths) {
@@ -112,6 +115,22 @@ mod tests {
             }
         }
         assert!(compared > 100 && worst > 1.0 && worst <= PAIR_ERROR, "{compared} pairs, worst {worst} units");
+    }
+
+    #[test]
+    fn precise_constants_are_the_nearest_doubles() {
+        let mut worst: f64 = 0.0;
+        for (phi0, phi1) in [(0.7, 1.4), (0.1, 1.5), (0.8, 0.9), (1e-9, 1.6), (0.7, 0.7000000001)] {
+            let pair = Pair::precise(phi0, phi1).expect("an ordinary pair");
+            let truth = Angles::new(phi0, phi1, 320).expect("enough bits");
+            let curve0 = truth.g1.over(&truth.sin0).expect("positive");
+            for (value, truth) in
+                [(pair.p, &truth.p), (pair.g1, &truth.g1), (pair.curve0, &curve0), (pair.sin2_half, &truth.sin2_half)]
+            {
+                worst = worst.max(units(value, truth));
+            }
+        }
+        assert!(worst > 0.1 && worst <= 1.0, "worst {worst} units");
     }
 
     fn units(value: f64, truth: &Interval) -> f64 {

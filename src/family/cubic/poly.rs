@@ -116,19 +116,9 @@ mod tests {
                     }
                 }
             }
-            for b in 0..3 {
-                assert!(
-                    slope[b] <= bounds.slope[b] * 1.000_001,
-                    "B{b}, coefficient {which}: slope {} over {}",
-                    slope[b],
-                    bounds.slope[b]
-                );
-                assert!(
-                    slope[b] >= bounds.slope[b] * 0.5,
-                    "B{b}, coefficient {which}: bound {} is far from {}",
-                    bounds.slope[b],
-                    slope[b]
-                );
+            for (slope, bound) in slope.into_iter().zip(bounds.slope) {
+                assert!(slope <= bound * 1.000_001, "coefficient {which}: slope {slope} over {bound}");
+                assert!(slope >= bound * 0.5, "coefficient {which}: bound {bound} is far from {slope}");
             }
         }
     }

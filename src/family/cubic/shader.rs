@@ -1,8 +1,8 @@
 //! What the shader `cubic.wgsl` reads: constants and tables, generated from the same Rust as the f64 step.
 
-use super::filter::Precision;
 use super::pair::Pair;
 use super::poly::Bounds;
+use super::precision::Precision;
 use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;

@@ -1,11 +1,11 @@
 //! The exact answer for one datum: all roots, which conditions hold, the margin, the chosen spiral.
 
 use super::exact::{self, Ends, ExactDatum, ExactRoot};
-use super::filter::{Data, Found, Precision, Prepared, bernstein, visit};
-use super::pair::Pair;
+use super::filter::{Found, visit};
+use super::precision::{Precision, Prepared};
+use super::root::{Data, bernstein};
 use super::{Code, table};
 use crate::error::{Error, Result};
-use crate::family::NO_VALUE;
 use crate::num::Interval;
 use crate::num::bernstein::{Quintic, least, least_error, least_interval};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
@@ -86,8 +86,8 @@ impl Solutions {
 /// Solves one datum exactly.
 ///
 /// # Accuracy
-/// Flags, counts and the verdicts of each root are proved. `f0` and `f1` are proved to 2^-34 and `margin` to 2^-30
-/// absolute, usually by far; where doubles cannot prove that, they are correctly rounded from intervals.
+/// Flags, counts and the verdicts of each root are proved. `f0` and `f1` are proved to 2^-34, `margin` to 2^-30, absolute;
+/// they are usually within a few units in the last place. Where doubles cannot prove that, they are correctly rounded from intervals.
 ///
 /// # Errors
 /// [`Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`;
@@ -105,7 +105,7 @@ pub fn solve(datum: &Datum) -> Result<Solutions> {
     table::check_angle("phi1", datum.phi1)?;
     table::check_angles(datum.phi0, datum.phi1)?;
     let datum = ExactDatum { phi0: datum.phi0, phi1: datum.phi1, ends: Ends::Curvature(datum.kappa0, datum.kappa1) };
-    match Solved::fast(&datum).filter(Solved::is_fine) {
+    match Solved::fast(&datum, Prepared::new(datum.phi0, datum.phi1)).filter(Solved::is_fine) {
         Some(solved) => Ok(solved.solutions()),
         None => slow(&datum),
     }
@@ -156,8 +156,8 @@ struct Solved {
 
 impl Solved {
     /// The f64 step; `None` where it abstains.
-    fn fast(datum: &ExactDatum) -> Option<Solved> {
-        let prepared = Prepared::new(Pair::new(datum.phi0, datum.phi1)?);
+    fn fast(datum: &ExactDatum, prepared: Option<Prepared>) -> Option<Solved> {
+        let prepared = prepared?;
         let (curve0, curve1) = (prepared.pair.curve0, prepared.pair.curve1);
         let (a, k, kappa0, kappa1) = match datum.ends {
             Ends::Curvature(kappa0, kappa1) => (kappa0 * curve0, kappa1 * curve1, kappa0, kappa1),
@@ -170,7 +170,7 @@ impl Solved {
     #[inline(always)]
     fn lane<S: Simd>(simd: S, prepared: &Prepared, [a, k, kappa0, kappa1]: [f64; 4]) -> Option<Solved> {
         let splat = |value| S::f64s::splat(simd, value);
-        let data = Data { a: splat(a), k: splat(k), kappa0: splat(kappa0), kappa1: splat(kappa1) };
+        let data = Data { a: splat(a), k: splat(k), kappa0: splat(kappa0), kappa1: splat(kappa1), precision: prepared.precision };
         let mut solved = Solved { code: Code::UNDECIDED, roots: Default::default(), len: 0, chosen: None };
         let planes = visit::<S, true>(simd, prepared, &data, |found| {
             if found.wanted & 1 == 1 {
@@ -178,7 +178,9 @@ impl Solved {
                 solved.len += 1;
             }
         });
-        solved.code = planes.code(0);
+        let mut code = [Code::UNDECIDED];
+        planes.store(&mut code);
+        solved.code = code[0];
         if solved.code == Code::UNDECIDED {
             return None;
         }
@@ -204,10 +206,7 @@ impl Solved {
     /// Whether all numbers are as accurate as [`solve`] promises.
     fn is_fine(&self) -> bool {
         let fine = |r: Range, error: f64| r.high - r.low <= error;
-        let root = |r: &SolvedRoot| {
-            let scale = 2f64.powi(-34);
-            fine(r.x, r.x.low * scale) && fine(r.y, r.y.low * scale) && fine(r.margin, 2f64.powi(-30))
-        };
+        let root = |r: &SolvedRoot| fine(r.x, 2f64.powi(-34)) && fine(r.y, 2f64.powi(-34)) && fine(r.margin, 2f64.powi(-30));
         self.roots[..self.len].iter().all(root)
     }
 
@@ -308,17 +307,17 @@ fn slow(datum: &ExactDatum) -> Result<Solutions> {
     exact::climb(datum, "a root or its margin", attempt).map(|(solutions, _)| solutions)
 }
 
-/// The scalars f0, f1, margin (0, 1, 2) of the chosen spiral, each rounded to nearest f32 with proof.
-pub(super) fn scalars(datum: &ExactDatum, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
-    if super::COUNTS[1].of(code.counts()) == 0 {
-        out.fill(NO_VALUE);
-        return Ok(());
-    }
-    let fast = Solved::fast(datum).and_then(|solved| {
+/// The scalars f0, f1, margin (0, 1, 2) of the chosen spiral of a datum that has one, each rounded to nearest f32 with proof.
+///
+/// Doubles, then doubles with correctly rounded constants, then intervals.
+pub(super) fn scalars(datum: &ExactDatum, which: &[usize], out: &mut [f32]) -> Result<()> {
+    let rounded = |prepared: Option<Prepared>| {
+        let solved = Solved::fast(datum, prepared)?;
         let root = solved.roots[solved.chosen?];
         let ranges = [root.x, root.y, root.margin];
         which.iter().map(|i| ranges[*i].to_f32()).collect::<Option<Vec<f32>>>()
-    });
+    };
+    let fast = rounded(Prepared::new(datum.phi0, datum.phi1)).or_else(|| rounded(Prepared::precise(datum.phi0, datum.phi1)));
     let values = match fast {
         Some(values) => values,
         None => {

@@ -1,11 +1,12 @@
 //! The cubic family on a grid.
 
 use super::exact::{Ends, ExactDatum, truth};
-use super::filter::{Data, Prepared, classify};
-use super::pair::Pair;
+use super::filter::classify;
+use super::precision::{Precision, Prepared};
+use super::root::Data;
 use super::{CHARTS, Code};
 use crate::error::{Error, Result};
-use crate::family::Table;
+use crate::family::{NO_VALUE, Table};
 use crate::grid::Grid;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::f64::consts::PI;
@@ -46,7 +47,8 @@ impl<'g> CubicTable<'g> {
         let pair = &prepared.pair;
         let third = S::f64s::splat(simd, third);
         let (curve0, curve1) = (S::f64s::splat(simd, pair.curve0), S::f64s::splat(simd, pair.curve1));
-        let width = S::f64s::LEN;
+        // A constant here, so that every bound folds into one.
+        let (width, precision) = (S::f64s::LEN, Precision::F64);
         let mut padded = [0.0; 64];
         for (values, codes) in last.chunks(width).zip(out.chunks_mut(width)) {
             let fourth = if values.len() == width {
@@ -58,14 +60,11 @@ impl<'g> CubicTable<'g> {
                 S::f64s::from_slice(simd, &padded[..width])
             };
             let data = if self.normalised {
-                Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1 }
+                Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1, precision }
             } else {
-                Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth }
+                Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth, precision }
             };
-            let planes = classify(simd, prepared, &data);
-            for (lane, code) in codes.iter_mut().enumerate() {
-                *code = planes.code(lane);
-            }
+            classify(simd, prepared, &data).store(codes);
         }
     }
 
@@ -80,7 +79,7 @@ impl<'g> CubicTable<'g> {
             let length = (last.len() - i3).min(out.len() - done);
             let (codes, values) = (&mut out[done..done + length], &last[i3..i3 + length]);
             if angles.is_none_or(|(at, _)| at != (i0, i1)) {
-                angles = Some(((i0, i1), Pair::new(axes[0].values()[i0], axes[1].values()[i1]).map(Prepared::new)));
+                angles = Some(((i0, i1), Prepared::new(axes[0].values()[i0], axes[1].values()[i1])));
             }
             match angles {
                 Some((_, Some(prepared))) => self.row(simd, &prepared, axes[2].values()[i2], values, codes),
@@ -122,7 +121,11 @@ impl Table for CubicTable<'_> {
     }
 
     fn scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
-        super::solve::scalars(&self.datum(node), code, which, out)
+        if super::COUNTS[1].of(code.counts()) == 0 {
+            out.fill(NO_VALUE);
+            return Ok(());
+        }
+        super::solve::scalars(&self.datum(node), which, out)
     }
 
     #[cfg(feature = "gpu")]
