@@ -6,6 +6,7 @@ pub mod curve;
 pub mod error;
 pub mod eval;
 pub mod family;
+pub mod files;
 pub mod grid;
 pub mod num;
 #[cfg(feature = "cli")]

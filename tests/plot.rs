@@ -6,6 +6,7 @@
 mod crude;
 
 use crude::{cubic_slice, curve_figure, spaced};
+use spiral_atlas::files::write_file;
 use spiral_atlas::plot::*;
 use std::f64::consts::PI;
 use std::path::Path;

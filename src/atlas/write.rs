@@ -5,11 +5,10 @@ use super::header::{Header, Tensor};
 use super::{Spec, fault};
 use crate::error::{Error, Result};
 use crate::eval::Chunk;
+use crate::files::Draft;
 use blake3::{Hash, Hasher};
-use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// Bytes of f32 that are converted at a time.
 const BLOCK: usize = 1 << 16;
@@ -21,7 +20,7 @@ const BLOCK: usize = 1 << 16;
 #[derive(Debug)]
 pub struct Writer {
     target: PathBuf,
-    temporary: NamedTempFile,
+    draft: Draft,
     header: Header,
     body: u64,
     hashers: Vec<Hasher>,
@@ -52,11 +51,11 @@ impl Writer {
         let header = Header::new(About::of(spec).map_err(domain)?, spec.grid.clone()).map_err(domain)?;
         let head = header.render().map_err(domain)?;
         let io = || Error::io(path);
-        let temporary = temporary(path).map_err(io())?;
+        let mut draft = Draft::beside(path).map_err(io())?;
         let body = head.len() as u64;
-        temporary.as_file().set_len(body + header.body_len() as u64).map_err(io())?;
+        draft.file().set_len(body + header.body_len() as u64).map_err(io())?;
         let hashers = vec![Hasher::new(); header.tensors.len()];
-        let mut writer = Writer { target: path.to_owned(), temporary, header, body, hashers, nodes: spec.grid.len(), next: 0 };
+        let mut writer = Writer { target: path.to_owned(), draft, header, body, hashers, nodes: spec.grid.len(), next: 0 };
         for (i, axis) in spec.grid.axes().iter().enumerate() {
             let bytes: Vec<u8> = axis.values().iter().flat_map(|v| v.to_le_bytes()).collect();
             writer.append(i, 0, &bytes)?;
@@ -101,10 +100,9 @@ impl Writer {
         self.header.hashes = self.hashers.iter().map(Hasher::finalize).collect();
         let (head, id) = (self.header.render().map_err(Error::Domain)?, self.header.id().map_err(Error::Domain)?);
         let bytes = self.body + self.header.body_len() as u64;
-        let Writer { target, mut temporary, header, .. } = self;
-        let file = temporary.as_file_mut();
-        file.rewind().and_then(|()| file.write_all(&head)).and_then(|()| file.sync_all()).map_err(Error::io(&target))?;
-        temporary.persist(&target).map_err(|e| e.error).and_then(|_| sync_folder(&target)).map_err(Error::io(&target))?;
+        let Writer { target, mut draft, header, .. } = self;
+        let file = draft.file();
+        file.rewind().and_then(|()| file.write_all(&head)).and_then(|()| draft.keep()).map_err(Error::io(&target))?;
         let hashes = header.tensors.into_iter().map(|t: Tensor| t.name).zip(header.hashes).collect();
         Ok(Written { bytes, id, hashes })
     }
@@ -132,27 +130,9 @@ impl Writer {
     /// Writes and hashes the next bytes of a tensor; `at` counts from the tensor's start.
     fn append(&mut self, tensor: usize, at: u64, bytes: &[u8]) -> Result<()> {
         let start = self.body + self.header.tensors[tensor].info.data_offsets.0 as u64 + at;
-        let file = self.temporary.as_file_mut();
+        let file = self.draft.file();
         file.seek(SeekFrom::Start(start)).and_then(|_| file.write_all(bytes)).map_err(Error::io(&self.target))?;
         self.hashers[tensor].update(bytes);
         Ok(())
     }
-}
-
-/// A file beside the target, with the permissions that an ordinary new file gets.
-fn temporary(target: &Path) -> std::io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".spiral-atlas-").suffix(".part");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder(target))
-}
-
-fn folder(target: &Path) -> &Path {
-    target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
-/// Makes the new name durable; only Unix lets a folder be opened for that.
-fn sync_folder(target: &Path) -> std::io::Result<()> {
-    if cfg!(unix) { File::open(folder(target))?.sync_all() } else { Ok(()) }
 }

@@ -59,6 +59,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
         start_curvature: args.start_curvature,
         end_curvature: args.end_curvature,
     };
+    if let Some(path) = args.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
+        return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
+    }
     let answer = spiral(&ends)?;
     if args.json {
         output::print_json(&answer)?
@@ -80,7 +83,7 @@ fn draw(answer: &Answer, path: &Path) -> Result<()> {
     let Some(solution) = answer.chosen().or_else(nearest) else {
         return Err(Error::Domain(format!("{} was not drawn: no cubic has these ends", path.display())));
     };
-    plot::write_file(path, &plot::curve_png(&figure(answer, solution)?, SIZE)?)
+    spiral_atlas::files::write_file(path, &plot::curve_png(&figure(answer, solution)?, SIZE)?)
 }
 
 fn figure(answer: &Answer, solution: &Solution) -> Result<CurveFigure> {

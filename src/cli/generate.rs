@@ -8,7 +8,7 @@ use spiral_atlas::Result;
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, Report, evaluate};
 use spiral_atlas::family::Family;
-use spiral_atlas::plot::write_file;
+use spiral_atlas::files::write_file;
 use spiral_atlas::recipe::{AtlasPlan, Recipe};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;

@@ -79,7 +79,12 @@ pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
     let mut slice = panel(atlas, plan, &fixed)?;
     slice.title = title.trim_end_matches([':', ' ']).to_owned();
     let (x, y) = (slice.x.values.len() as u64, slice.y.values.len() as u64);
-    slice.note = format!("{} × {} = {} nodes, each proved", grouped(x), grouped(y), grouped(x * y));
+    let shares = slice.regions.iter().map(|region| {
+        let yes = region.mask.iter().filter(|m| **m).count();
+        format!("{} {:.1} %", region.label, 100.0 * yes as f64 / region.mask.len() as f64)
+    });
+    let shares = shares.collect::<Vec<_>>().join(", ");
+    slice.note = format!("{} × {} = {} nodes, each proved: {shares}", grouped(x), grouped(y), grouped(x * y));
     slice.marks = plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect();
     Ok(slice)
 }
@@ -108,7 +113,12 @@ fn multiples(atlas: &Atlas, plan: &PicturePlan) -> Result<Multiples> {
     let (name, total) = (&atlas.about().name, panels.iter().map(|p| p.x.values.len() * p.y.values.len()).sum::<usize>());
     let mut rows: Vec<String> = captions(rows);
     rows.reverse();
-    let note = format!("{} panels, {} nodes, each proved", panels.len(), grouped(total as u64));
+    let of = plan
+        .at
+        .iter()
+        .map(|(axis, nodes)| format!("{} of {} {}", nodes.len(), axes[*axis].values().len(), plot::symbol(axes[*axis].name())));
+    let of = of.collect::<Vec<_>>().join(", ");
+    let note = format!("{} panels ({of}), {} nodes, each proved", panels.len(), grouped(total as u64));
     Ok(Multiples { title: name.clone(), note, columns: captions(columns), rows, panels })
 }
 

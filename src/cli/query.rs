@@ -144,7 +144,7 @@ impl Answer {
             text += &format!("  {name:<14} {:<4} {}\n", yes(*holds), flag.doc);
         }
         if self.solutions.is_empty() {
-            text += "no cubic has these ends\n";
+            text += "no cubic with f0, f1 in (0, 3) has these ends\n";
         }
         for (i, s) in self.solutions.iter().enumerate() {
             let chosen = if self.chosen == Some(i) { ", chosen" } else { "" };

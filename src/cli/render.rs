@@ -5,7 +5,6 @@ use super::output::{self, Product};
 use super::pictures;
 use super::{Outcome, generate};
 use spiral_atlas::atlas::Atlas;
-use spiral_atlas::plot;
 use spiral_atlas::recipe::{AtlasPlan, PictureKind, PicturePlan, Recipe};
 use spiral_atlas::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -74,7 +73,7 @@ fn of_recipe(args: &Args) -> Result<Vec<Product>> {
 pub fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
     let files = pictures::files(folder, &atlas.about().name, plans.len());
     let draw = |(plan, file): (&PicturePlan, PathBuf)| {
-        plot::write_file(&file, &pictures::draw(atlas, plan)?)?;
+        spiral_atlas::files::write_file(&file, &pictures::draw(atlas, plan)?)?;
         Product::of(&file)
     };
     plans.iter().zip(files).map(draw).collect()
@@ -92,7 +91,7 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
         return Ok(None);
     }
     let (stem, file) = (stem(source), together_path(source, folder));
-    plot::write_file(&file, &pictures::side_by_side(&stem, slices)?)?;
+    spiral_atlas::files::write_file(&file, &pictures::side_by_side(&stem, slices)?)?;
     Product::of(&file).map(Some)
 }
 
@@ -102,7 +101,10 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
 /// Those of [`spiral_atlas::family::Family::table`], and [`Error::Recipe`] that names the file.
 pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
     for plan in &recipe.atlases {
-        recipe.family.table(&plan.grid)?;
+        recipe.family.table(&plan.grid).map_err(|e| match e {
+            Error::Domain(what) => Error::Recipe(format!("{}, atlas `{}`: {what}", source.display(), plan.name)),
+            other => other,
+        })?;
     }
     let mut files: Vec<PathBuf> = Vec::new();
     for plan in &recipe.atlases {

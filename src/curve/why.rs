@@ -195,12 +195,13 @@ impl fmt::Display for Why {
             }
             Why::Straight { which } => write!(
                 f,
-                "the {which} curvature is 0: a cubic of this family has curvature of one sign at both ends (a straight end is its \
-                 limit f = 3; give a small curvature)"
+                "the {which} curvature is 0: this family is the open box 0 < f0, f1 < 3, whose curves bend at both ends (a straight end \
+                 is its limit f = 3; a small curvature comes as close as you like)"
             ),
             Why::Inflection { which, curvature, turn } => write!(
                 f,
-                "the {which} curvature {curvature:?} is {}, but the directions turn {turn}: the curve would have an inflection",
+                "the {which} curvature {curvature:?} is {}, but the directions turn {turn}: the curve would have an inflection, and \
+                 this family (0 < f0, f1 < 3) has none",
                 if *curvature > 0.0 { "to the left" } else { "to the right" }
             ),
             Why::EqualCurvatures { kappa } => {

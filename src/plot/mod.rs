@@ -1,7 +1,7 @@
 //! PNG pictures: slices of an atlas, small multiples of slices, curves with their curvature.
 //!
 //! Everything here is plain data in, PNG bytes out; the same data give the same bytes.
-//! [`write_file`] puts them on disk.
+//! [`crate::files::write_file`] puts them on disk.
 
 mod axes;
 mod canvas;
@@ -14,10 +14,6 @@ mod slice;
 pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
 pub use multiples::{Multiples, multiples_png};
 pub use slice::slice_png;
-
-use crate::error::{Error, Result};
-use std::io::Write;
-use std::path::Path;
 
 /// One axis of a slice.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,27 +105,6 @@ pub fn symbol(name: &str) -> String {
     };
     let lowered = |c: char| c.to_digit(10).map_or(c, |d| ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'][d as usize]);
     letter.chars().chain(name[stem.len()..].chars().map(lowered)).collect()
-}
-
-/// Writes a file whole or not at all: beside its place first, then to disk, then renamed.
-///
-/// # Errors
-/// [`Error::Io`], naming `path`, when the folder is missing, the disk is full, and so on; an older file is then untouched.
-pub fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
-    let write = || {
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        #[cfg_attr(not(unix), expect(unused_mut, reason = "changed on unix only"))]
-        let mut builder = tempfile::Builder::new();
-        // Temporary files are private by default; what is written here is as readable as any file of the user.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut file = builder.tempfile_in(folder)?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        file.persist(path)?;
-        Ok(())
-    };
-    write().map_err(Error::io(path))
 }
 
 /// A number with its digits in groups of three.

@@ -48,7 +48,7 @@ const FLAGS: &[Flag] = &[
     Flag {
         name: "SPIRAL",
         label: "exact cubic spiral",
-        doc: "some root's curve has monotone curvature: necessary and sufficient",
+        doc: "some root (f0, f1) in (0, 3)^2 has a curve of monotone curvature: necessary and sufficient",
     },
     Flag {
         name: "ANY_SPIRAL",
