@@ -1,7 +1,8 @@
 // The cubic family in f32: twin of family/cubic/filter.rs, function by function. Formulas and bounds are derived there and
 // in poly.rs; the constants (UNIT, THIRD, ...) and each pair's bounds are generated from the same Rust, for f32.
 // Proofs use + - * and comparisons alone, and hold with or without fused multiply-adds, reassociation of sums, and
-// flushed denormals (every bound has a part above 2^-60). Guesses use / and sqrt, kept finite by clamps.
+// flushed denormals (every bound has a part above 2^-110). Guesses use / and sqrt, kept finite by clamps; curvatures are
+// limited, so that no product overflows.
 
 struct Pair {
     p: f32,
@@ -151,8 +152,10 @@ fn find_root(d: Datum, start: f32) -> Root {
     let rises = at_low.f < -at_low.error && at_high.f > at_high.error;
     let inside = low > 0.0 && high <= 3.0 && at_high.y > ETA;
     let small = delta * 64.0 < x;
-    let delta_y = 2.1 * (d.a * x * delta) + ETA;
-    return Root(x, r.y, max(1.01 * delta, delta_y), low, high, (falls || rises) && inside && small);
+    // The root lies between the rounded ends; see root.rs.
+    let reach = 1.01 * delta + 4.0 * UNIT;
+    let delta_y = 2.1 * (d.a * x * reach) + ETA;
+    return Root(x, r.y, max(reach, delta_y), low, high, (falls || rises) && inside && small);
 }
 
 struct Half {
@@ -207,6 +210,9 @@ fn evaluate(index: vec4<u32>) -> u32 {
         return UNDECIDED;
     }
     let d = read_datum(index, pair);
+    if abs(d.kappa0) > KAPPA_MOST || abs(d.kappa1) > KAPPA_MOST {
+        return UNDECIDED;
+    }
     let any = any_spiral(pair, d);
     let rootless = d.kappa0 <= 0.0 || d.kappa1 <= 0.0;
     if rootless {
@@ -242,7 +248,7 @@ fn evaluate(index: vec4<u32>) -> u32 {
     let solvable = k_above && roots > 0u;
     var flags = select(0u, SOLVABLE, solvable);
     if any == NO {
-        return flags | roots << 8u;
+        return flags | (roots << 8u);
     }
     flags |= ANY_SPIRAL;
 
@@ -293,5 +299,5 @@ fn evaluate(index: vec4<u32>) -> u32 {
         spirals += 1u;
         flags |= SPIRAL;
     }
-    return flags | (roots | spirals << 2u) << 8u;
+    return flags | ((roots | (spirals << 2u)) << 8u);
 }

@@ -5,7 +5,7 @@
 
 use spiral_atlas::eval::gpu::{Engine, Settings};
 use spiral_atlas::eval::{Backend, Chunk, Job, Report, evaluate};
-use spiral_atlas::family::cubic::Cubic;
+use spiral_atlas::family::cubic::{Cubic, Datum, solve};
 use spiral_atlas::family::{Code, Family};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 use std::sync::atomic::AtomicBool;
@@ -18,6 +18,38 @@ fn lin(name: &str, lo: f64, hi: f64, count: usize) -> Axis {
 
 fn log(name: &str, lo: f64, hi: f64, count: usize) -> Axis {
     Axis::new(name, Spacing::Log { lo, hi, count }).unwrap()
+}
+
+fn values(name: &str, values: &[f64]) -> Axis {
+    Axis::new(name, Spacing::Values(values.to_vec())).unwrap()
+}
+
+/// Values of κ1 packed around every boundary along κ1, a few f32 units apart: what an f32 bound that is too small gets wrong.
+fn boundaries() -> Grid {
+    let (phi0, phi1, kappa0) = ([0.25, 0.6, 0.8], [0.9, 1.3, 1.65, 1.9], [0.08, 0.2, 0.33, 0.45, 0.6]);
+    let mut kappa1 = Vec::new();
+    for (phi0, phi1, kappa0) in phi0.iter().flat_map(|a| phi1.iter().flat_map(move |b| kappa0.map(|c| (*a, *b, c)))) {
+        let verdict = |kappa1: f64| {
+            let solutions = solve(&Datum { phi0, phi1, kappa0, kappa1 }).unwrap();
+            (solutions.flags(), solutions.roots().iter().filter(|r| r.spiral).count(), solutions.roots().len())
+        };
+        let steps: Vec<f64> = (0..=60).map(|i| 0.3 * 1.12f64.powi(i)).collect();
+        for pair in steps.windows(2) {
+            let (mut low, mut high) = (pair[0], pair[1]);
+            if verdict(low) == verdict(high) {
+                continue;
+            }
+            while high - low > high * 1e-9 {
+                let middle = 0.5 * (low + high);
+                if verdict(middle) == verdict(low) { low = middle } else { high = middle }
+            }
+            kappa1.extend((-12..=12).map(|i| low * (1.0 + f64::from(i) * 3e-7)));
+        }
+    }
+    kappa1.sort_by(f64::total_cmp);
+    kappa1.dedup();
+    assert!(kappa1.len() > 1000, "{} values", kappa1.len());
+    Grid::new(vec![values("phi0", &phi0), values("phi1", &phi1), values("kappa0", &kappa0), values("kappa1", &kappa1)]).unwrap()
 }
 
 /// Grids with four different counts; more than ten million nodes in all.
@@ -51,6 +83,25 @@ fn grids() -> Vec<(&'static str, Grid)> {
                 log("kappa1", 1e-6, 1e12, 59),
             ]),
         ),
+        (
+            "curvatures beyond f32, in both charts",
+            grid(vec![
+                values("phi0", &[1e-4, 0.7]),
+                values("phi1", &[0.8, 1.4, 2.2]),
+                values("kappa0", &[-1e300, -1e29, -1e-300, 0.0, 1e-300, 0.4, 1e16, 3e17, 1e300]),
+                values("kappa1", &[-1e300, -1.0, 0.0, 1e-60, 1e-20, 4.0, 9e16, 1.1e17, 1e29, 1e300]),
+            ]),
+        ),
+        (
+            "a and k beyond f32",
+            grid(vec![
+                values("phi0", &[1e-4, 0.7]),
+                values("phi1", &[0.8, 1.4, 2.2]),
+                values("a", &[-1e300, -1e29, 1e-300, 0.35, 1e16, 1e300]),
+                values("k", &[-1e300, 0.0, 1e-60, 1.0, 9e16, 1e29, 1e300]),
+            ]),
+        ),
+        ("boundaries at the scale of f32", boundaries()),
         (
             "normalised, through cusp and fold",
             grid(vec![lin("phi0", 0.1, 0.9, 5), lin("phi1", 0.7, 1.5, 7), lin("a", 0.01, 0.5, 199), lin("k", 0.005, 1.0, 211)]),

@@ -96,6 +96,10 @@ impl Table for Probe<'_> {
     fn scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
         unreachable!("the f32 step only");
     }
+
+    fn exact_scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
+        unreachable!("the f32 step only");
+    }
     fn shader(&self) -> Shader {
         Shader { constants: format!("const WORDS: u32 = {WORDS}u;"), fragments: vec![("arithmetic.wgsl", SHADER)] }
     }

@@ -66,6 +66,10 @@ impl Table for Hash<'_> {
     fn scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
         unreachable!("the engine is the f32 step only");
     }
+
+    fn exact_scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
+        unreachable!("the engine is the f32 step only");
+    }
     fn shader(&self) -> Shader {
         Shader { constants: format!("const SALT: u32 = {}u;", self.salt), fragments: vec![("hash.wgsl", self.shader)] }
     }

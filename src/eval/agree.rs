@@ -127,10 +127,11 @@ pub fn sample(job: &Job, stored: &Stored, count: u64, stop: &AtomicBool, progres
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        let (code, _) = table.exact(node)?;
+        let named = |e| super::pipeline::name_node(e, node, job.grid);
+        let (code, _) = table.exact(node).map_err(named)?;
         let mut scalars = vec![0.0; job.scalars.len()];
         if !scalars.is_empty() {
-            table.scalars(node, code, job.scalars, &mut scalars)?;
+            table.exact_scalars(node, code, job.scalars, &mut scalars).map_err(named)?;
         }
         let scalars = scalars.iter().map(|v| vec![*v]).collect();
         comparison.put(&Chunk { start: node, flags: vec![code.flags()], solutions: vec![code.counts()], scalars })?;

@@ -58,18 +58,23 @@ pub fn evaluate(
     let mut report = Report::new(job, backend, threads);
     let gate = Gate::new(2 * threads as u64 + 2);
     let halt = Halt { ours: AtomicBool::new(false), users: stop };
+    let release = || Release { halt: &halt, gate: &gate };
     std::thread::scope(|scope| {
         let (tasks, queue) = sync_channel::<Task>(threads);
         let (results, finished) = sync_channel::<Result<(Chunk, Tally)>>(threads);
         // Workers own the receiving end together: when all have left, the producer's next send fails.
         let queue = Arc::new(Mutex::new(queue));
         for _ in 0..threads {
-            let (queue, results, halt, table) = (queue.clone(), results.clone(), &halt, &*table);
-            scope.spawn(move || work(job, table, &queue, &results, halt));
+            let (queue, results, halt, table, release) = (queue.clone(), results.clone(), &halt, &*table, release());
+            scope.spawn(move || {
+                let _release = release;
+                work(job, table, &queue, &results, halt);
+            });
         }
         drop((queue, results));
         let (gate_in, halt_in, table_in) = (&gate, &halt, &*table);
         let producer = scope.spawn(move || produce(job, backend, table_in, &tasks, gate_in, halt_in));
+        let _release = release();
         let outcome = collect(&finished, &gate, &mut report, &mut sink);
         if outcome.is_err() {
             // The producer may wait at the gate and workers at the channel: let all of them run dry.
@@ -118,6 +123,21 @@ impl Halt<'_> {
     fn check(&self) -> Result<()> {
         let stop = self.ours.load(Ordering::Relaxed) || self.users.load(Ordering::Relaxed);
         if stop { Err(Error::Interrupted) } else { Ok(()) }
+    }
+}
+
+/// Ends the run when its holder panics, so that nobody waits for ever and the panic gets through.
+struct Release<'r> {
+    halt: &'r Halt<'r>,
+    gate: &'r Gate,
+}
+
+impl Drop for Release<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.halt.ours.store(true, Ordering::Relaxed);
+            self.gate.open();
+        }
     }
 }
 
@@ -262,7 +282,7 @@ fn retry(codes: &mut [Code], mut again: impl FnMut(usize, &mut [Code])) -> u64 {
     count
 }
 
-fn name_node(error: Error, node: u64, grid: &Grid) -> Error {
+pub(super) fn name_node(error: Error, node: u64, grid: &Grid) -> Error {
     match error {
         Error::Undecided { what, bits, .. } => {
             Error::Undecided { node: node.to_string(), coordinates: grid.describe(node), what, bits }

@@ -127,6 +127,12 @@ pub trait Table: Sync {
     /// [`crate::Error::Undecided`] at the precision cap.
     fn scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()>;
 
+    /// [`Table::scalars`] by intervals alone: what [`crate::eval`] checks samples with.
+    ///
+    /// # Errors
+    /// As there.
+    fn exact_scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()>;
+
     /// The f32 step on the GPU: the assembled shader's family part.
     #[cfg(feature = "gpu")]
     fn shader(&self) -> Shader;

@@ -3,6 +3,9 @@
 use super::{Interval, Number};
 use std::cmp::Ordering;
 
+/// Most halvings of intervals: deeper pieces are ties for every purpose, and the recursion stays within a thread's stack.
+pub const MOST_HALVINGS: u32 = 400;
+
 /// Bernstein coefficients of a quintic.
 pub type Quintic<N> = [N; 6];
 
@@ -161,7 +164,7 @@ pub fn least_interval(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
 
 /// Whether the quintic stays above `floor` on [0, 1].
 fn above(c: &Quintic<Interval>, floor: &Interval) -> Option<bool> {
-    positive(&c.clone().map(|v| &v - floor), 0.0, 0.0, c[0].bits() as u32)
+    positive(&c.clone().map(|v| &v - floor), 0.0, 0.0, MOST_HALVINGS)
 }
 
 /// Newton's method for a zero of the derivative, strictly inside; `None` when it leaves [0, 1] or the quintic does not bend upwards.

@@ -17,6 +17,32 @@ pub struct Interval {
     bits: usize,
 }
 
+/// The nearest double, also below the least subnormal, where the conversion of `dashu-float` 0.6 always gives zero: numbers above half
+/// of it round to it.
+fn nearest_f64(x: &Repr<2>) -> f64 {
+    match x.to_f64().value() {
+        0.0 if beyond(x, -1075) => f64::from_bits(1).copysign(sign(x)),
+        value => value,
+    }
+}
+
+/// The same for singles.
+fn nearest_f32(x: &Repr<2>) -> f32 {
+    match x.to_f32().value() {
+        0.0 if beyond(x, -150) => f32::from_bits(1).copysign(sign(x) as f32),
+        value => value,
+    }
+}
+
+fn sign(x: &Repr<2>) -> f64 {
+    if *x < Repr::zero() { -1.0 } else { 1.0 }
+}
+
+/// Whether `|x| > 2^exponent`.
+fn beyond(x: &Repr<2>, exponent: isize) -> bool {
+    *x > Repr::new(1.into(), exponent) || *x < Repr::new((-1).into(), exponent)
+}
+
 fn repr(x: f64) -> Repr<2> {
     FBig::<HalfEven, 2>::try_from(x).expect("finite numbers only").into_repr()
 }
@@ -136,11 +162,6 @@ impl Interval {
         }
     }
 
-    /// Whether the two have a number in common.
-    pub fn meets(&self, other: &Interval) -> bool {
-        self.lo <= other.hi && other.lo <= self.hi
-    }
-
     /// The thin interval at its middle (rounded): a good guess, nothing proved.
     pub fn middle(&self) -> Interval {
         let sum = directed!(self.bits + 1, add, HalfEven, &self.lo, &self.hi);
@@ -161,14 +182,13 @@ impl Interval {
 
     /// The nearest double of the number it stands for, when that is certain.
     pub fn to_f64(&self) -> Option<f64> {
-        let (lo, hi) = (self.lo.to_f64().value(), self.hi.to_f64().value());
-        (lo == hi).then_some(lo)
+        let (lo, hi) = (nearest_f64(&self.lo), nearest_f64(&self.hi));
+        (lo == hi).then_some(lo + 0.0)
     }
 
-    /// The nearest single of the number it stands for, when that is certain.
+    /// The nearest single of the number it stands for, when that is certain; what underflows from either side is +0.
     pub fn to_f32(&self) -> Option<f32> {
-        let (lo, hi) = (self.lo.to_f32().value(), self.hi.to_f32().value());
-        // One zero: what underflows from either side is stored as +0.
+        let (lo, hi) = (nearest_f32(&self.lo), nearest_f32(&self.hi));
         (lo == hi).then_some(lo + 0.0)
     }
 
@@ -236,4 +256,24 @@ pub(super) fn log_space(lo: f64, hi: f64, last: usize) -> Vec<f64> {
             if i == last { hi } else { here }
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_to_nearest_down_to_the_least_subnormals() {
+        // 0.7, 0.5 and 0.3 of the least single and of the least double, and 1.5 of it (a tie, to even).
+        let power = |exponent| Interval::power_of_two(exponent, 64);
+        for (factor, steps) in [(0.7, 1), (0.5, 0), (0.3, 0), (1.4, 1), (1.5, 2), (2.6, 3)] {
+            for sign in [1.0, -1.0] {
+                let single = power(-149).scale(sign * factor).to_f32().unwrap();
+                assert_eq!(single, sign as f32 * f32::from_bits(steps), "{factor}");
+                let double = power(-1074).scale(sign * factor).to_f64().unwrap();
+                assert_eq!(double, sign * f64::from_bits(u64::from(steps)), "{factor}");
+            }
+        }
+        assert_eq!(power(-150).union(&power(-149)).to_f32(), None);
+    }
 }

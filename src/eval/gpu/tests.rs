@@ -16,6 +16,10 @@ impl Table for Plain {
     fn scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
         unreachable!("the f32 step only");
     }
+
+    fn exact_scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
+        unreachable!("the f32 step only");
+    }
     fn shader(&self) -> Shader {
         let evaluate = "fn evaluate(index: vec4<u32>) -> u32 { return index.x & 0xfffu; }";
         Shader { constants: String::new(), fragments: vec![("plain.wgsl", evaluate)] }

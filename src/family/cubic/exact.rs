@@ -3,7 +3,7 @@
 use super::poly::side;
 use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::error::{Error, Result};
-use crate::num::bernstein::{Quintic, positive};
+use crate::num::bernstein::{MOST_HALVINGS, Quintic, positive};
 use crate::num::{Interval, Number};
 use std::cell::RefCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
@@ -355,7 +355,7 @@ fn judge(angles: &Angles, x: Interval, y: Interval, any: bool) -> Option<ExactRo
         (&x.square() * &end[0]).scale(5.0),
     ];
     let theorem = any && three_valued(x_or_y.iter().map(|(b, w)| half_theorem(b, w)))?;
-    let spiral = theorem || any && positive(&quintic, 0.0, 0.0, x.bits() as u32)?;
+    let spiral = theorem || any && positive(&quintic, 0.0, 0.0, MOST_HALVINGS)?;
     Some(ExactRoot { x, y, theorem, spiral, quintic })
 }
 

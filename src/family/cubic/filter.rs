@@ -184,7 +184,7 @@ fn dips<S: Simd>(simd: S, start: &Side<S>, end: &Side<S>, root: &Root<S>) -> u64
     at(0.5) | at(1.0) | at(2.0)
 }
 
-/// [`positive`] with the f64 bounds: halving a dozen times reaches features of width 2^-20 of the segment.
+/// [`positive`] with the f64 bounds: twenty halvings reach features of 2^-20 of the segment, finer than the bounds show.
 pub(super) fn spiral(c: &Quintic<f64>, error: f64) -> Option<bool> {
     const DEPTH: u32 = 20;
     let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs()));

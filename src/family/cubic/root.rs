@@ -78,9 +78,11 @@ pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -
     let inside =
         low.simd_gt(zero) & high.simd_le(S::f64s::splat(simd, 3.0)) & y_high.simd_gt(S::f64s::splat(simd, d.precision.eta()));
     let small = (delta * 64.0).simd_lt(x);
-    // |y - y*| <= a (2x + δ) δ + η, and δ < x/64.
+    // The root lies between the rounded x - δ and x + δ, each off by up to 2 units for x up to 3; 1.01 covers δ's own rounding.
+    let delta = delta * 1.01 + 4.0 * Precision::F64.unit;
+    // |y - y*| <= a (2x + δ) δ + η, and δ < x/60.
     let delta_y = d.a * x * delta * 2.1 + d.precision.eta();
-    Root { x, y, delta: (delta * 1.01).max(delta_y), low, high, proved: bits::<S>(crossing & inside & small) }
+    Root { x, y, delta: delta.max(delta_y), low, high, proved: bits::<S>(crossing & inside & small) }
 }
 
 /// B0, B1, B2 of one side with their errors.

@@ -13,8 +13,9 @@ const PAIR_STRIDE: usize = 23;
 const MOST: f64 = (1u32 << 20) as f64;
 /// Constants of pairs must lie within 2^±30, apart from the two that may be 0 or negative.
 const PAIR_MOST: f64 = (1u32 << 30) as f64;
-/// Curvatures are clamped to this; what is clamped is left to f64 by the bounds on a and k.
-const KAPPA_MOST: f64 = 1e30;
+/// Curvatures beyond this are left to f64: the product of two stays finite. The table holds at most twice as much, which the
+/// shader sees to be beyond, in the normalised chart too: there a factor of at most 2^30 follows.
+const KAPPA_MOST: f64 = 1e17;
 /// Nonzero curvatures are at least this, so that none turns into 0; likewise left to f64.
 const KAPPA_LEAST: f64 = 1e-24;
 
@@ -37,6 +38,7 @@ pub(super) fn shader() -> Shader {
         ("RESIDUAL_FLOOR", P.residual_floor()),
         ("MOST", MOST),
         ("LEAST", 1.0 / MOST),
+        ("KAPPA_MOST", KAPPA_MOST),
     ];
     let mut constants = format!("const PAIR_STRIDE: u32 = {PAIR_STRIDE}u;\nconst UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
     for (name, value) in flags {
@@ -74,7 +76,7 @@ pub(super) fn inputs(grid: &Grid, normalised: bool, start: u64, len: u64) -> Sha
 }
 
 fn curvature(value: f64) -> f32 {
-    let kept = if value == 0.0 { 0.0 } else { value.signum() * value.abs().clamp(KAPPA_LEAST, KAPPA_MOST) };
+    let kept = if value == 0.0 { 0.0 } else { value.signum() * value.abs().clamp(KAPPA_LEAST, 2.0 * KAPPA_MOST) };
     kept as f32
 }
 

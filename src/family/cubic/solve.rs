@@ -318,18 +318,23 @@ pub(super) fn scalars(datum: &ExactDatum, which: &[usize], out: &mut [f32]) -> R
         which.iter().map(|i| ranges[*i].to_f32()).collect::<Option<Vec<f32>>>()
     };
     let fast = rounded(Prepared::new(datum.phi0, datum.phi1)).or_else(|| rounded(Prepared::precise(datum.phi0, datum.phi1)));
-    let values = match fast {
-        Some(values) => values,
-        None => {
-            let attempt = |bits| {
-                let (_, weighed, chosen) = weigh(datum, bits)?;
-                let w = &weighed[chosen?];
-                let ranges = [&w.root.x, &w.root.y, &w.margin];
-                which.iter().map(|i| ranges[*i].to_f32()).collect::<Option<Vec<f32>>>()
-            };
-            exact::climb(datum, "a scalar", attempt)?.0
+    match fast {
+        Some(values) => {
+            out.copy_from_slice(&values);
+            Ok(())
         }
+        None => exact_scalars(datum, which, out),
+    }
+}
+
+/// [`scalars`] by intervals alone.
+pub(super) fn exact_scalars(datum: &ExactDatum, which: &[usize], out: &mut [f32]) -> Result<()> {
+    let attempt = |bits| {
+        let (_, weighed, chosen) = weigh(datum, bits)?;
+        let w = &weighed[chosen?];
+        let ranges = [&w.root.x, &w.root.y, &w.margin];
+        which.iter().map(|i| ranges[*i].to_f32()).collect::<Option<Vec<f32>>>()
     };
-    out.copy_from_slice(&values);
+    out.copy_from_slice(&exact::climb(datum, "a scalar", attempt)?.0);
     Ok(())
 }

@@ -41,6 +41,15 @@ impl<'g> CubicTable<'g> {
         ExactDatum { phi0, phi1, ends }
     }
 
+    /// The scalars of a node, or none where there is no spiral.
+    fn fill(&self, node: u64, code: Code, out: &mut [f32], by: impl Fn(&ExactDatum, &mut [f32]) -> Result<()>) -> Result<()> {
+        if super::COUNTS[1].of(code.counts()) == 0 {
+            out.fill(NO_VALUE);
+            return Ok(());
+        }
+        by(&self.datum(node), out)
+    }
+
     /// Fills the nodes of one row: all share the first three coordinates, the last runs over `last`.
     #[inline(always)]
     fn row<S: Simd>(&self, simd: S, prepared: &Prepared, third: f64, last: &[f64], out: &mut [Code]) {
@@ -49,7 +58,7 @@ impl<'g> CubicTable<'g> {
         let (curve0, curve1) = (S::f64s::splat(simd, pair.curve0), S::f64s::splat(simd, pair.curve1));
         // A constant here, so that every bound folds into one.
         let (width, precision) = (S::f64s::LEN, Precision::F64);
-        let mut padded = [0.0; 64];
+        let mut padded = [0.0; 8];
         for (values, codes) in last.chunks(width).zip(out.chunks_mut(width)) {
             let fourth = if values.len() == width {
                 S::f64s::from_slice(simd, values)
@@ -121,11 +130,11 @@ impl Table for CubicTable<'_> {
     }
 
     fn scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
-        if super::COUNTS[1].of(code.counts()) == 0 {
-            out.fill(NO_VALUE);
-            return Ok(());
-        }
-        super::solve::scalars(&self.datum(node), which, out)
+        self.fill(node, code, out, |datum, out| super::solve::scalars(datum, which, out))
+    }
+
+    fn exact_scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+        self.fill(node, code, out, |datum, out| super::solve::exact_scalars(datum, which, out))
     }
 
     #[cfg(feature = "gpu")]
