@@ -43,7 +43,7 @@ fn recipes_give_the_bytes_of_the_manifest() {
         }
     }
     for (name, hash) in hashes(&atlases) {
-        assert_eq!(manifest.get(&name), Some(&hash), "the committed {name}");
+        assert_eq!(manifest.get(&name), Some(&hash), "the committed {name}; a fresh manifest:\n{fresh}");
         pictures += 1;
     }
     assert!(wrong.is_empty() && pictures >= 3, "{wrong:?} differ; a fresh manifest:\n{fresh}");
