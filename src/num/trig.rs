@@ -71,15 +71,27 @@ pub fn cos(x: f64) -> f64 {
     if complement >= 0.0 { sin_quadrant(complement) } else { -sin_quadrant(-complement) }
 }
 
+/// A rounded sum and its rounding error, exactly (Knuth).
+fn two_sum(x: f64, y: f64) -> (f64, f64) {
+    let sum = x + y;
+    let part = sum - x;
+    (sum, (x - (sum - part)) + (y - part))
+}
+
+/// Whether `x + y < π`, decided exactly: π lies between the double [`PI`] and the next one up, so where the rounded sum equals
+/// [`PI`] its rounding error tells.
+pub fn sum_below_pi(x: f64, y: f64) -> bool {
+    let (sum, low) = two_sum(x, y);
+    sum < PI || sum == PI && low < PI_LOW
+}
+
 /// `sin(x + y)` for `x, y > 0`, `x + y < π`.
 ///
 /// # Accuracy
 /// [`SIN_ERROR`] units of 2^-53, relative: the rounding error of the sum is recovered (Knuth's two-sum) and kept where
 /// it matters, close to π.
 pub fn sin_of_sum(x: f64, y: f64) -> f64 {
-    let sum = x + y;
-    let part = sum - x;
-    let low = (x - (sum - part)) + (y - part);
+    let (sum, low) = two_sum(x, y);
     if sum <= FRAC_PI_2 { sin_quadrant(sum) } else { sin_quadrant((PI - sum) + (PI_LOW - low)) }
 }
 

@@ -8,6 +8,7 @@ use super::{CHARTS, Code};
 use crate::error::{Error, Result};
 use crate::family::{NO_VALUE, Table};
 use crate::grid::Grid;
+use crate::num::trig::sum_below_pi;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::f64::consts::PI;
 
@@ -109,14 +110,10 @@ pub(super) fn check_angle(name: &str, angle: f64) -> Result<()> {
 
 /// The tangents must meet: φ0 + φ1 < π, decided exactly.
 pub(super) fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
-    // π lies between the double PI and the next one up. Where the rounded sum equals PI, two-sum tells which side.
-    let sum = phi0 + phi1;
-    let part = sum - phi0;
-    let low = (phi0 - (sum - part)) + (phi1 - part);
-    let below = sum < PI || sum == PI && low < 1.224_646_799_147_353_2e-16;
-    if below {
+    if sum_below_pi(phi0, phi1) {
         return Ok(());
     }
+    let sum = phi0 + phi1;
     Err(Error::Domain(format!("phi0 + phi1 reaches {phi0} + {phi1} = {sum}; it must stay below pi, so that the tangents meet")))
 }
 
