@@ -24,6 +24,13 @@
 //! x = "kappa0"
 //! y = "kappa1"
 //! at = { phi0 = [0.3, 0.7] }       # an axis left out is sampled evenly, at most 6 nodes
+//! regions = ["ANY_SPIRAL", "SPIRAL"] # flags to fill, each over those before; left out: the family's choice
+//! outlines = ["SOLVABLE"]          # flags to draw as hatched outlines; left out beside `regions`: none
+//!
+//! [[atlas.picture]]
+//! kind = "union"                   # a slice that shows what is true for any of the other axes' nodes
+//! x = "kappa0"
+//! y = "kappa1"
 //! ```
 //!
 //! Angles may be written `"40deg"` on axes of angles.
@@ -81,7 +88,11 @@ pub struct PicturePlan {
     pub y: usize,
     /// The other axes, slowest first, each with the nodes to show, increasing: just one on a slice.
     pub at: Vec<(usize, Vec<usize>)>,
-    /// Points to mark; on slices only.
+    /// Flags to fill, each over those before: indices into [`Family::flags`]. Empty: the family's own choice.
+    pub regions: Vec<usize>,
+    /// Flags to draw as outlines, where `regions` are chosen.
+    pub outlines: Vec<usize>,
+    /// Points to mark; on slices and unions only.
     pub marks: Vec<Mark>,
 }
 
@@ -90,6 +101,8 @@ pub struct PicturePlan {
 pub enum PictureKind {
     /// One.
     Slice,
+    /// One, of what is true at any combination of the other axes' chosen nodes.
+    Union,
     /// One for each combination of the other axes' chosen nodes.
     Multiples,
 }
@@ -181,7 +194,7 @@ fn plan(raw: RawAtlas, family: &'static dyn Family) -> Result<AtlasPlan, Fault> 
         axes.push(spacing(name, axis.get_ref()).and_then(|s| new_axis(name, s)).map_err(|e| Fault::new(axis.span(), e))?);
     }
     let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
-    let pictures = raw.picture.iter().map(|p| picture(p, &grid)).collect::<Result<_, _>>()?;
+    let pictures = raw.picture.iter().map(|p| picture(p, &grid, family)).collect::<Result<_, _>>()?;
     Ok(AtlasPlan { name: name.clone(), chart, grid, pictures })
 }
 
@@ -221,11 +234,12 @@ fn new_axis(name: &str, spacing: Spacing) -> Result<Axis, String> {
     Axis::new(name, spacing).map_err(|e| e.to_string())
 }
 
-fn picture(raw: &RawPicture, grid: &Grid) -> Result<PicturePlan, Fault> {
+fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family) -> Result<PicturePlan, Fault> {
     let kind = match &raw.kind.get_ref()[..] {
         "slice" => PictureKind::Slice,
+        "union" => PictureKind::Union,
         "multiples" => PictureKind::Multiples,
-        other => return Err(Fault::new(raw.kind.span(), unknown("picture kind", other, &["slice", "multiples"]))),
+        other => return Err(Fault::new(raw.kind.span(), unknown("picture kind", other, &["slice", "union", "multiples"]))),
     };
     let (x, y) = (axis_index(grid, &raw.x)?, axis_index(grid, &raw.y)?);
     if x == y {
@@ -244,7 +258,21 @@ fn picture(raw: &RawPicture, grid: &Grid) -> Result<PicturePlan, Fault> {
     }
     let axes = [&grid.axes()[x], &grid.axes()[y]];
     let marks = raw.mark.iter().map(|m| mark(m, axes)).collect::<Result<_, _>>()?;
-    Ok(PicturePlan { kind, x, y, at, marks })
+    let (regions, outlines) = (flags(&raw.regions, family)?, flags(&raw.outlines, family)?);
+    if let (true, Some(outline)) = (regions.is_empty(), raw.outlines.first()) {
+        return Err(Fault::new(outline.span(), "`outlines` go with `regions`; say which flags to fill"));
+    }
+    Ok(PicturePlan { kind, x, y, at, regions, outlines, marks })
+}
+
+/// The places of named flags.
+fn flags(names: &[Spanned<String>], family: &dyn Family) -> Result<Vec<usize>, Fault> {
+    let known: Vec<&str> = family.flags().iter().map(|f| f.name).collect();
+    let place = |name: &Spanned<String>| {
+        let place = known.iter().position(|k| k == name.get_ref());
+        place.ok_or_else(|| Fault::new(name.span(), unknown("flag", name.get_ref(), &known)))
+    };
+    names.iter().map(place).collect()
 }
 
 fn axis_index(grid: &Grid, name: &Spanned<String>) -> Result<usize, Fault> {
@@ -261,6 +289,7 @@ fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<Vec<usize>,
             PictureKind::Slice if count > 1 => {
                 Err(Fault::new(raw.kind.span(), format!("the slice leaves `{name}` open; say `at = {{ {name} = .. }}`")))
             }
+            PictureKind::Union => Ok((0..count).collect()),
             _ if count <= PANELS => Ok((0..count).collect()),
             _ => Ok((0..PANELS).map(|i| i * (count - 1) / (PANELS - 1)).collect()),
         };
@@ -268,7 +297,7 @@ fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<Vec<usize>,
     let fail = |what: String| Fault::new(given.span(), what);
     let points = match (given.get_ref(), kind) {
         (Numbers::One(point), _) => std::slice::from_ref(point),
-        (Numbers::Many(points), PictureKind::Multiples) if !points.is_empty() => points,
+        (Numbers::Many(points), PictureKind::Multiples | PictureKind::Union) if !points.is_empty() => points,
         (Numbers::Many(_), PictureKind::Slice) => return Err(fail(format!("a slice takes one value of `{name}`"))),
         (Numbers::Many(_), _) => return Err(fail(format!("`{name}` has an empty list"))),
     };

@@ -80,6 +80,30 @@ fn a_recipe_is_understood() {
 }
 
 #[test]
+fn pictures_choose_their_flags_and_unions_take_all_nodes() {
+    let union = "kind = \"union\"\nregions = [\"ANY_SPIRAL\", \"SPIRAL\"]\noutlines = [\"SOLVABLE\"]\nx = \"kappa1\"";
+    let recipe = Recipe::parse(&GOOD.replacen("kind = \"multiples\"\nx = \"kappa1\"", union, 1)).unwrap();
+    let picture = &recipe.atlases[0].pictures[1];
+    assert_eq!((picture.kind, &picture.regions[..], &picture.outlines[..]), (PictureKind::Union, &[4, 3][..], &[0][..]));
+    assert_eq!(picture.at, [(0, (0..12).collect()), (1, vec![0])]);
+    assert!(complaint("kind = \"multiples\"", "kind = \"union\"\nregions = [\"SPIRALS\"]").contains("did you mean `SPIRAL`?"));
+    assert!(
+        complaint("kind = \"multiples\"", "kind = \"union\"\noutlines = [\"SPIRAL\"]").contains("`outlines` go with `regions`")
+    );
+}
+
+#[test]
+fn shipped_regions_of_end_points() {
+    for (name, kind) in [("reach.toml", "reach-cubic"), ("reach-ph.toml", "reach-ph")] {
+        let recipe = shipped(name);
+        assert_eq!(recipe.family.name(), kind);
+        let kinds: Vec<PictureKind> = recipe.atlases.iter().map(|a| a.pictures[0].kind).collect();
+        assert_eq!(kinds, [PictureKind::Slice, PictureKind::Slice, PictureKind::Union]);
+        assert!(recipe.atlases.iter().all(|a| a.pictures[0].regions.len() == 3 && recipe.family.table(&a.grid).is_ok()));
+    }
+}
+
+#[test]
 fn line_ends_do_not_matter() {
     let recipe = Recipe::parse(&GOOD.replace('\n', "\r\n")).unwrap();
     assert_eq!(recipe.text, GOOD);

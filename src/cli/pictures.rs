@@ -34,7 +34,7 @@ fn default_slice(atlas: &Atlas) -> Result<PicturePlan> {
         return Err(Error::Domain("an atlas of one axis has no slices; pictures need two axes".into()));
     };
     let at = counts[..x].iter().enumerate().map(|(axis, count)| (axis, vec![count / 2])).collect();
-    Ok(PicturePlan { kind: PictureKind::Slice, x, y: x + 1, at, marks: Vec::new() })
+    Ok(PicturePlan { kind: PictureKind::Slice, x, y: x + 1, at, regions: Vec::new(), outlines: Vec::new(), marks: Vec::new() })
 }
 
 /// The files of an atlas's pictures: `NAME.png`, or `NAME-1.png`, `NAME-2.png`, ... for several.
@@ -51,7 +51,7 @@ pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
 /// Those of [`plot`], and [`Error::Domain`] for a family that this program does not have.
 pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
     match plan.kind {
-        PictureKind::Slice => plot::slice_png(&slice(atlas, plan)?, SLICE),
+        PictureKind::Slice | PictureKind::Union => plot::slice_png(&slice(atlas, plan)?, SLICE),
         PictureKind::Multiples => plot::multiples_png(&multiples(atlas, plan)?, MULTIPLES),
     }
 }
@@ -67,16 +67,19 @@ pub fn side_by_side(title: &str, slices: Vec<Slice>) -> Result<Vec<u8>> {
     plot::multiples_png(&figure, (PANEL.0.saturating_mul(count), PANEL.1))
 }
 
-/// The slice of a plan: the first node of each axis that is not drawn.
+/// The slice of a plan: the chosen node of each axis that is not drawn or, of a union, all chosen ones together.
 ///
 /// # Errors
 /// [`Error::Domain`] for a family that this program does not have.
 pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
-    let fixed: Vec<(usize, usize)> = plan.at.iter().filter_map(|(axis, nodes)| Some((*axis, *nodes.first()?))).collect();
     let axes = atlas.grid().axes();
-    let places: Vec<String> = fixed.iter().map(|(axis, node)| place(&axes[*axis], *node)).collect();
+    let place = |(axis, nodes): &(usize, Vec<usize>)| match nodes[..] {
+        [node] => place(&axes[*axis], node),
+        _ => format!("any of {} {}", nodes.len(), plot::symbol(axes[*axis].name())),
+    };
+    let places: Vec<String> = plan.at.iter().map(place).collect();
     let title = format!("{}: {}", atlas.about().name, places.join(", "));
-    let mut slice = panel(atlas, plan, &fixed)?;
+    let mut slice = panel(atlas, plan, &plan.at)?;
     slice.title = title.trim_end_matches([':', ' ']).to_owned();
     let (x, y) = (slice.x.values.len() as u64, slice.y.values.len() as u64);
     let shares = slice.regions.iter().map(|region| {
@@ -105,8 +108,8 @@ fn multiples(atlas: &Atlas, plan: &PicturePlan) -> Result<Multiples> {
     let mut panels = Vec::new();
     for row in nodes(rows).into_iter().rev() {
         for column in nodes(columns) {
-            let at = |of: Option<&(usize, Vec<usize>)>, node| of.map(|(axis, _)| (*axis, node));
-            let fixed: Vec<(usize, usize)> = at(rows, row).into_iter().chain(at(columns, column)).collect();
+            let at = |of: Option<&(usize, Vec<usize>)>, node| of.map(|(axis, _)| (*axis, vec![node]));
+            let fixed: Vec<(usize, Vec<usize>)> = at(rows, row).into_iter().chain(at(columns, column)).collect();
             panels.push(panel(atlas, plan, &fixed)?);
         }
     }
@@ -122,21 +125,23 @@ fn multiples(atlas: &Atlas, plan: &PicturePlan) -> Result<Multiples> {
     Ok(Multiples { title: name.clone(), note, columns: captions(columns), rows, panels })
 }
 
-/// A plane of the atlas through fixed nodes of the other axes.
-fn panel(atlas: &Atlas, plan: &PicturePlan, fixed: &[(usize, usize)]) -> Result<Slice> {
+/// A plane of the atlas through nodes of the other axes; where there are several, what is true at any of them.
+fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Slice> {
     let family = of(atlas)?;
     let (grid, flags) = (atlas.grid(), family.flags());
     let (x, y) = (&grid.axes()[plan.x], &grid.axes()[plan.y]);
-    let mut index = vec![0; grid.axes().len()];
-    for (axis, node) in fixed {
-        index[*axis] = *node;
-    }
-    let mut plane = Vec::with_capacity(x.values().len() * y.values().len());
-    for j in 0..y.values().len() {
-        for i in 0..x.values().len() {
-            (index[plan.x], index[plan.y]) = (i, j);
+    let mut plane = vec![0; x.values().len() * y.values().len()];
+    for combination in 0..at.iter().map(|(_, nodes)| nodes.len()).product() {
+        let mut index = vec![0; grid.axes().len()];
+        let mut rest: usize = combination;
+        for (axis, nodes) in at {
+            index[*axis] = nodes[rest % nodes.len()];
+            rest /= nodes.len();
+        }
+        for (place, byte) in plane.iter_mut().enumerate() {
+            (index[plan.x], index[plan.y]) = (place % x.values().len(), place / x.values().len());
             let entry = atlas.at(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
-            plane.push(entry.flags);
+            *byte |= entry.flags;
         }
     }
     let region = |(bit, flag): (usize, &Flag)| Region {
@@ -145,16 +150,14 @@ fn panel(atlas: &Atlas, plan: &PicturePlan, fixed: &[(usize, usize)]) -> Result<
     };
     let place = |name: &&str| flags.iter().enumerate().find(|(_, f)| f.name == *name);
     let nested = family.nested();
-    let outlines = flags.iter().enumerate().filter(|(_, f)| !nested.contains(&f.name));
-    Ok(Slice {
-        title: String::new(),
-        x: view(x),
-        y: view(y),
-        regions: nested.iter().filter_map(place).map(region).collect(),
-        outlines: outlines.map(region).collect(),
-        marks: Vec::new(),
-        note: String::new(),
-    })
+    let chosen = |places: &[usize]| places.iter().map(|i| region((*i, &flags[*i]))).collect::<Vec<_>>();
+    let (regions, outlines) = if plan.regions.is_empty() {
+        let others = flags.iter().enumerate().filter(|(_, f)| !nested.contains(&f.name));
+        (nested.iter().filter_map(place).map(region).collect(), others.map(region).collect())
+    } else {
+        (chosen(&plan.regions), chosen(&plan.outlines))
+    };
+    Ok(Slice { title: String::new(), x: view(x), y: view(y), regions, outlines, marks: Vec::new(), note: String::new() })
 }
 
 /// The family of an atlas.

@@ -28,6 +28,7 @@ mod figure;
 mod jet;
 mod length;
 mod placement;
+pub mod reach;
 mod spiral;
 mod vector;
 mod why;

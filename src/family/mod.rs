@@ -3,6 +3,7 @@
 //! Adding one touches `family/<name>.rs`, `shaders/<name>.wgsl`, a recipe, tests, and the list in [`all`].
 
 pub mod cubic;
+pub mod reach;
 
 use crate::error::Result;
 use crate::grid::Grid;
@@ -163,7 +164,7 @@ pub struct ShaderInputs {
 
 /// Every family, in the order in which they are listed to users.
 pub fn all() -> &'static [&'static dyn Family] {
-    &[&cubic::Cubic]
+    &[&cubic::Cubic, &reach::Reach(reach::Kind::Cubic), &reach::Reach(reach::Kind::Ph)]
 }
 
 /// The family of a name.

@@ -100,6 +100,8 @@ pub fn symbol(name: &str) -> String {
         "kappa" => "κ",
         "omega" => "ω",
         "theta" => "θ",
+        "xi" => "ξ",
+        "eta" => "η",
         "f" | "H" | "w" | "a" | "k" => stem,
         _ => return name.to_owned(),
     };

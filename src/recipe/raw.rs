@@ -64,6 +64,10 @@ pub(super) struct RawPicture {
     #[serde(default)]
     pub at: BTreeMap<Spanned<String>, Spanned<Numbers>>,
     #[serde(default)]
+    pub regions: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub outlines: Vec<Spanned<String>>,
+    #[serde(default)]
     pub mark: Vec<Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>>,
 }
 

@@ -44,7 +44,14 @@ fn sign_of(x: &BigFloat) -> Ordering {
 impl Iv {
     pub fn new(x: f64, bits: usize) -> Iv {
         assert!(x.is_finite());
-        Iv::point(BigFloat::from_f64(x, bits), bits)
+        let mut point = BigFloat::from_f64(x, bits);
+        if x.is_subnormal() {
+            // These it reads wrongly: from a multiple that is normal.
+            point = BigFloat::from_f64(x * 2f64.powi(60), bits);
+            let exponent = point.exponent().expect("finite") - 60;
+            point.set_exponent(exponent);
+        }
+        Iv::point(point, bits)
     }
 
     fn point(x: BigFloat, bits: usize) -> Iv {

@@ -7,9 +7,10 @@
 pub mod compare;
 mod curve;
 pub mod data;
-mod iv;
+pub mod iv;
 mod margin;
-mod poly;
+pub mod poly;
+pub mod reach;
 
 pub use curve::Ends;
 

@@ -1,0 +1,226 @@
+//! Adding a spiral segment to the end of a line or of a circle.
+
+use super::Turn;
+use super::vector::{Vector, add, scale, sub, turn};
+use crate::error::{Error, Result};
+use crate::family::reach::{Datum, Kind, Level, level_of_shape, solve};
+use serde::Serialize;
+
+/// What the segment is added to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Base {
+    /// The end of a straight line: curvature grows from 0 to 1/r (case 1).
+    Line,
+    /// The end of an arc of radius r: curvature falls from 1/r to 0 (case 2).
+    Circle,
+}
+
+/// How the segment is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Target {
+    /// By its shape.
+    Shape {
+        /// m, positive.
+        m: f64,
+        /// q, positive.
+        q: f64,
+    },
+    /// By its end point, in the user's coordinates.
+    Point([f64; 2]),
+}
+
+/// A segment to add, in the user's units and axes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Request {
+    /// What it is added to.
+    pub base: Base,
+    /// Where it starts: the end of the line or arc.
+    pub start: [f64; 2],
+    /// Direction of travel there: counter-clockwise angle from the x axis, radians.
+    pub direction: f64,
+    /// Which way it turns.
+    pub turn: Turn,
+    /// r: the radius of its round end, positive.
+    pub radius: f64,
+    /// How far it turns, radians, positive: below π/2 (cubic) or π (PH quintic).
+    pub theta: f64,
+    /// Its shape or its end point.
+    pub target: Target,
+}
+
+/// A segment with everything asked for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Added {
+    /// 1 or 2, as in the paper.
+    pub case: u8,
+    /// End point over r, in the frame of the start.
+    pub xi: f64,
+    /// See `xi`; positive on the side to which it turns.
+    pub eta: f64,
+    /// Shape.
+    pub m: f64,
+    /// Shape.
+    pub q: f64,
+    /// What is proved of it: of the given shape, or of the end point after rounding to (θ, ξ, η).
+    #[serde(serialize_with = "level_name")]
+    pub level: Level,
+    /// Bézier control points in the user's units and axes: 4 (cubic) or 6 (PH quintic). The first is the start and, when an end
+    /// point was given, the last is that.
+    pub control_points: Vec<[f64; 2]>,
+    /// The same relative to the start: what to differentiate, free of the rounding of far-away coordinates.
+    pub local_control_points: Vec<[f64; 2]>,
+    /// Direction of travel at the end, radians.
+    pub end_direction: f64,
+}
+
+/// The segment, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// The segment; [`Added::level`] says whether it is a spiral.
+    Segment(Added),
+    /// No segment of this family, angle and radius ends there.
+    None {
+        /// The condition that fails, with its numbers.
+        why: String,
+    },
+}
+
+fn level_name<S: serde::Serializer>(level: &Level, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(level.name())
+}
+
+/// Adds a segment to the end of a line or circle.
+///
+/// # Accuracy
+/// Levels are proved (see [`Added::level`]). Control points are within a few ulp of the largest coordinate difference; a given end
+/// point is met exactly, end directions of [`Added::local_control_points`] to 1e-14, and curvatures times r to 1e-12 or, where the
+/// end leg is short, some 2^-50 over the square of its length in r.
+///
+/// # Errors
+/// [`Error::Domain`] naming a value that is not finite, not positive where it must be, or outside the family's range.
+///
+/// # Source
+/// Habib & Sakai (CGIV 2004), cases 1 and 2, (4), (12), (17).
+pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
+    let Request { start, direction, radius, theta, target, .. } = *request;
+    let finite = [("start x", start[0]), ("start y", start[1]), ("direction", direction)];
+    if let Some((name, value)) = finite.iter().find(|(_, value)| !value.is_finite()) {
+        return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
+    }
+    positive("radius", radius)?;
+    let frame = Frame { start, along: [direction.cos(), direction.sin()], right: request.turn == Turn::Right, radius };
+    let case = if request.base == Base::Line { 1 } else { 2 };
+    let (xi, eta, m, q, level) = match target {
+        Target::Shape { m, q } => {
+            positive("m", m)?;
+            positive("q", q)?;
+            let level = level_of_shape(kind, theta, m, q)?;
+            let end = last(&legs(kind, case, theta, m, q));
+            (end[0], end[1], m, q, level)
+        }
+        Target::Point(point) => {
+            let [xi, eta] = frame.to_local(point)?;
+            let reached = solve(kind, &Datum { theta, xi, eta })?;
+            let segment = if case == 1 { reached.case1 } else { reached.case2 };
+            let Some(s) = segment else { return Ok(Outcome::None { why: why(case, theta, xi, eta) }) };
+            (xi, eta, s.m, s.q, s.level)
+        }
+    };
+    let mut at = [0.0, 0.0];
+    let mut local_control_points = vec![at];
+    for leg in legs(kind, case, theta, m, q) {
+        at = add(at, leg);
+        local_control_points.push(frame.step(at));
+    }
+    let mut control_points: Vec<Vector> = local_control_points.iter().map(|p| add(start, *p)).collect();
+    if let (Target::Point(point), Some(end)) = (target, control_points.last_mut()) {
+        *end = point;
+    }
+    if let Some([x, y]) = control_points.iter().find(|p| !(p[0].is_finite() && p[1].is_finite())) {
+        return Err(Error::Domain(format!("a control point is ({x:?}, {y:?}), outside the range of doubles")));
+    }
+    let end_direction = direction + if frame.right { -theta } else { theta };
+    Ok(Outcome::Segment(Added { case, xi, eta, m, q, level, control_points, local_control_points, end_direction }))
+}
+
+fn positive(name: &str, value: f64) -> Result<()> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Domain(format!("{name} is {value:?}; it must be finite and above 0")))
+}
+
+/// Why there is no segment: one of the two legs would have to run backwards.
+fn why(case: u8, theta: f64, xi: f64, eta: f64) -> String {
+    let (s, c) = theta.sin_cos();
+    let (round, name) = if case == 1 { (eta, "eta") } else { (xi * s - eta * c, "xi sin(theta) - eta cos(theta)") };
+    let place = format!("the end point (xi, eta) = ({xi:?}, {eta:?}) at theta = {theta:?}");
+    if round <= 0.0 {
+        format!("{place} has {name} = {round:?}, which must be above 0: it lies behind the tangent of the flat end")
+    } else {
+        format!("{place} needs m <= 0: it lies too near, so that the flat end's tangent would run backwards")
+    }
+}
+
+/// The start's frame: radius 1, turning left from (0, 0) along (1, 0).
+struct Frame {
+    start: Vector,
+    along: Vector,
+    right: bool,
+    radius: f64,
+}
+
+impl Frame {
+    fn mirror(&self, z: Vector) -> Vector {
+        if self.right { [z[0], -z[1]] } else { z }
+    }
+
+    /// The user's vector from the start.
+    fn step(&self, z: Vector) -> Vector {
+        scale(turn(self.along, self.mirror(z)), self.radius)
+    }
+
+    fn to_local(&self, point: Vector) -> Result<Vector> {
+        let back = [self.along[0], -self.along[1]];
+        let local = self.mirror(scale(turn(back, sub(point, self.start)), 1.0 / self.radius));
+        if local.iter().all(|x| x.is_finite()) {
+            return Ok(local);
+        }
+        let ([x, y], r) = (point, self.radius);
+        Err(Error::Domain(format!("the end point ({x:?}, {y:?}) is out of range in units of the radius {r:?}")))
+    }
+}
+
+/// The sides of the control polygon for r = 1.
+fn legs(kind: Kind, case: u8, theta: f64, m: f64, q: f64) -> Vec<Vector> {
+    let ((s, c), (sh, ch)) = (theta.sin_cos(), (0.5 * theta).sin_cos());
+    match kind {
+        Kind::Cubic => {
+            // The round end's leg is d = q; curvature 1 makes the middle one d²/(2 sin θ), the flat one m times that.
+            let middle = q * q / (2.0 * s);
+            let lengths = [m * middle, middle, q].map(|d| d / 3.0);
+            match case {
+                1 => vec![[lengths[0], 0.0], [lengths[1], 0.0], scale([c, s], lengths[2])],
+                _ => vec![[lengths[2], 0.0], scale([c, s], lengths[1]), scale([c, s], lengths[0])],
+            }
+        }
+        Kind::Ph => {
+            let round = q.sqrt();
+            let middle = q * round / (4.0 * sh);
+            let tilted = |f: f64| [f * ch, f * sh];
+            let [a, b, c] = match case {
+                1 => [[m * middle, 0.0], [middle, 0.0], tilted(round)],
+                _ => [[round, 0.0], tilted(middle), tilted(m * middle)],
+            };
+            let middle = scale(add(scale(turn(b, b), 2.0), turn(a, c)), 1.0 / 3.0);
+            [turn(a, a), turn(a, b), middle, turn(b, c), turn(c, c)].map(|leg| scale(leg, 0.2)).to_vec()
+        }
+    }
+}
+
+fn last(legs: &[Vector]) -> Vector {
+    legs.iter().fold([0.0, 0.0], |sum, leg| add(sum, *leg))
+}

@@ -1,0 +1,150 @@
+//! Reachable end points of a spiral segment with given angle and end radius (Habib & Sakai, CGIV 2004): cubic and PH quintic.
+
+mod angle;
+mod exact;
+mod filter;
+mod poly;
+#[cfg(feature = "gpu")]
+mod shader;
+mod solve;
+mod table;
+
+pub use solve::{Datum, Level, Reached, Segment, level_of_shape, solve};
+
+use super::{Chart, Count, Family, Flag, Scalar, Table};
+use crate::error::Result;
+use crate::grid::Grid;
+
+/// Which curve the added segment is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// A cubic Bézier curve.
+    Cubic,
+    /// A Pythagorean hodograph quintic.
+    Ph,
+}
+
+impl Kind {
+    /// The family's name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Kind::Cubic => "reach-cubic",
+            Kind::Ph => "reach-ph",
+        }
+    }
+}
+
+/// The families of reachable end points.
+#[derive(Debug, Clone, Copy)]
+pub struct Reach(pub Kind);
+
+/// Bit of CASE1_EXISTS; case 2 is [`CASE_BITS`] bits higher.
+pub const EXISTS: u8 = 1;
+/// Bit of CASE1_EXACT.
+pub const EXACT: u8 = 1 << 1;
+/// Bit of CASE1_THEOREM.
+pub const THEOREM: u8 = 1 << 2;
+/// Bit of CASE1_PAPER.
+pub const PAPER: u8 = 1 << 3;
+/// Bits of a case.
+pub const CASE_BITS: u32 = 4;
+
+const FLAGS: &[Flag] = &[
+    Flag {
+        name: "CASE1_EXISTS",
+        label: "case 1: some segment",
+        doc: "case 1 (from an inflection to radius r): some m, q > 0 put the end point there",
+    },
+    Flag {
+        name: "CASE1_EXACT",
+        label: "case 1: exact spiral",
+        doc: "case 1: and the segment's curvature is monotone: necessary and sufficient",
+    },
+    Flag {
+        name: "CASE1_THEOREM",
+        label: "case 1: the whole theorem",
+        doc: "case 1: and all four terms of Theorem 2.1 (cubic) or 3.1 (PH) accept it",
+    },
+    Flag {
+        name: "CASE1_PAPER",
+        label: "case 1: drawn in the paper",
+        doc: "case 1: and m >= m*, q >= A1: the region of the paper's figures",
+    },
+    Flag {
+        name: "CASE2_EXISTS",
+        label: "case 2: some segment",
+        doc: "case 2 (from radius r to an inflection): some m, q > 0 put the end point there",
+    },
+    Flag {
+        name: "CASE2_EXACT",
+        label: "case 2: exact spiral",
+        doc: "case 2: and the segment's curvature is monotone: necessary and sufficient",
+    },
+    Flag {
+        name: "CASE2_THEOREM",
+        label: "case 2: the whole theorem",
+        doc: "case 2: and all four terms of Theorem 2.1 (cubic) or 3.1 (PH) accept it",
+    },
+    Flag {
+        name: "CASE2_PAPER",
+        label: "case 2: drawn in the paper",
+        doc: "case 2: and m >= m*, q >= A1: the region of the paper's figures",
+    },
+];
+
+const SCALARS: &[Scalar] = &[
+    Scalar { name: "m1", doc: "shape m of the segment of case 1, above 0, no unit; the largest single where m is larger" },
+    Scalar { name: "q1", doc: "shape q of the segment of case 1, above 0, no unit; the largest single where q is larger" },
+    Scalar { name: "m2", doc: "shape m of the segment of case 2, above 0, no unit; the largest single where m is larger" },
+    Scalar { name: "q2", doc: "shape q of the segment of case 2, above 0, no unit; the largest single where q is larger" },
+];
+
+const CUBIC_CHARTS: &[Chart] = &[Chart {
+    name: "end-point",
+    axes: &["theta", "xi", "eta"],
+    doc: "theta: angle from the start to the end tangent, radians, in (0, pi/2); (xi, eta): end point over r, start at (0, 0) along (1, 0)",
+}];
+
+const PH_CHARTS: &[Chart] = &[Chart {
+    name: "end-point",
+    axes: &["theta", "xi", "eta"],
+    doc: "theta: angle from the start to the end tangent, radians, in (0, pi); (xi, eta): end point over r, start at (0, 0) along (1, 0)",
+}];
+
+impl Family for Reach {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+    fn title(&self) -> &'static str {
+        match self.0 {
+            Kind::Cubic => "end points that a cubic spiral segment reaches (Habib & Sakai)",
+            Kind::Ph => "end points that a PH quintic spiral segment reaches (Habib & Sakai)",
+        }
+    }
+    fn charts(&self) -> &'static [Chart] {
+        match self.0 {
+            Kind::Cubic => CUBIC_CHARTS,
+            Kind::Ph => PH_CHARTS,
+        }
+    }
+    fn conventions(&self) -> &'static str {
+        "start point (0, 0), start direction (1, 0), end direction (cos theta, sin theta), curvature positive to the left; case 1: \
+         curvature 0 at the start and 1/r at the end, increasing; case 2: 1/r at the start and 0 at the end, decreasing; lengths in \
+         units of r, angles in radians"
+    }
+    fn flags(&self) -> &'static [Flag] {
+        FLAGS
+    }
+    fn nested(&self) -> &'static [&'static str] {
+        &["CASE1_EXISTS", "CASE1_EXACT", "CASE1_THEOREM", "CASE1_PAPER"]
+    }
+    fn counts(&self) -> &'static [Count] {
+        &[]
+    }
+    fn scalars(&self) -> &'static [Scalar] {
+        SCALARS
+    }
+    fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
+        Ok(Box::new(table::ReachTable::new(self.0, grid)?))
+    }
+}

@@ -1,0 +1,100 @@
+//! What the shaders read: constants and tables, generated from the same Rust as the f64 step.
+
+use super::angle::Angle;
+use super::filter::{Precision, SMALL, least_drawn_m};
+use super::poly::{LEAST_M, MONOTONE_M};
+use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
+use crate::family::{Code, Shader, ShaderInputs};
+use crate::grid::Grid;
+
+/// Numbers of an angle in the table; the order is that of `read_angle`.
+const ANGLE_STRIDE: usize = 6;
+/// Coordinates other than 0 must lie above this and below its inverse, or they are left to f64.
+const LEAST: f64 = 1e-12;
+/// Coordinates are clamped to [`LEAST`] / 2 and its inverse, which the shader takes for what they are.
+const KEPT: f64 = LEAST / 2.0;
+/// m must stay below this, so that its third power stays in range.
+const MOST_M: f64 = (1u32 << 30) as f64;
+/// Constants of angles must lie within this and its inverse.
+const MOST: f64 = (1u32 << 30) as f64;
+
+pub(super) fn shader(kind: Kind) -> Shader {
+    const P: Precision = Precision::F32;
+    let flags = [("EXISTS", EXISTS), ("EXACT", EXACT), ("THEOREM", THEOREM), ("PAPER", PAPER), ("CASE_BITS", CASE_BITS as u8)];
+    let star = least_drawn_m(kind);
+    let numbers = [
+        ("UNIT", P.unit),
+        ("SCALE", P.scale()),
+        ("SIDE", P.side()),
+        ("SHAPE", P.shape()),
+        ("RESIDUAL", P.residual()),
+        ("COEFFICIENT", P.coefficient()),
+        ("FLOOR", P.floor),
+        ("MOST_ALPHA", P.most_alpha),
+        ("MOST_BETA", P.most_beta),
+        ("LEAST_U", P.range_u.0),
+        ("MOST_U", P.range_u.1),
+        ("MOST_M", MOST_M),
+        ("SMALL", SMALL),
+        ("LEAST", LEAST),
+        ("LEAST_M", LEAST_M),
+        ("MONOTONE_M", MONOTONE_M),
+        ("DRAWN_ABOVE", star * (1.0 + 4.0 * P.unit)),
+        ("DRAWN_BELOW", star * (1.0 - 4.0 * P.unit)),
+    ];
+    let mut constants = format!("const ANGLE_STRIDE: u32 = {ANGLE_STRIDE}u;\nconst UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
+    for (name, value) in flags {
+        constants += &format!("const {name}: u32 = {value}u;\n");
+    }
+    for (name, value) in numbers {
+        constants += &format!("const {name}: f32 = {value:e};\n");
+    }
+    let own = match kind {
+        Kind::Cubic => ("reach_cubic.wgsl", include_str!("../../../shaders/reach_cubic.wgsl")),
+        Kind::Ph => ("reach_ph.wgsl", include_str!("../../../shaders/reach_ph.wgsl")),
+    };
+    Shader {
+        constants,
+        fragments: vec![
+            ("lib/bernstein.wgsl", include_str!("../../../shaders/lib/bernstein.wgsl")),
+            ("lib/reach.wgsl", include_str!("../../../shaders/lib/reach.wgsl")),
+            own,
+        ],
+    }
+}
+
+/// Angles of the chunk, then the axes of ξ and η.
+pub(super) fn inputs(kind: Kind, grid: &Grid, start: u64, len: u64) -> ShaderInputs {
+    let axes = grid.axes();
+    let (theta, xi, eta) = (axes[0].values(), axes[1].values(), axes[2].values());
+    let nodes_per_angle = (xi.len() * eta.len()) as u64;
+    let (first, last) = (start / nodes_per_angle, (start + len.max(1) - 1) / nodes_per_angle);
+    let mut words = Vec::with_capacity((last - first + 1) as usize * ANGLE_STRIDE + xi.len() + eta.len());
+    for theta in &theta[first as usize..=last as usize] {
+        words.extend(angle_words(kind, *theta));
+    }
+    let xi_at = words.len();
+    words.extend(xi.iter().map(|v| coordinate(*v)));
+    let eta_at = words.len();
+    words.extend(eta.iter().map(|v| coordinate(*v)));
+    ShaderInputs { words, offsets: [first as u32, xi_at as u32, eta_at as u32, 0] }
+}
+
+fn coordinate(value: f64) -> f32 {
+    let kept = if value == 0.0 { 0.0 } else { value.signum() * value.abs().clamp(KEPT, 1.0 / KEPT) };
+    kept as f32
+}
+
+/// One row of the table; the last word is 0 when the angle is left to f64.
+fn angle_words(kind: Kind, theta: f64) -> [f32; ANGLE_STRIDE] {
+    let mut row = [0.0; ANGLE_STRIDE];
+    let Some(angle) = Angle::new(kind, theta) else { return row };
+    let sizes = [angle.sin, angle.cos.abs(), angle.g, angle.to_alpha, angle.to_beta];
+    if sizes.iter().any(|v| !(1.0 / MOST..=MOST).contains(v)) {
+        return row;
+    }
+    for (word, value) in row.iter_mut().zip([angle.sin, angle.cos, angle.g, angle.to_alpha, angle.to_beta, 1.0]) {
+        *word = value as f32;
+    }
+    row
+}

@@ -1,0 +1,211 @@
+//! The exact answer for one end point: the segments of both cases and how far each is proved.
+
+use super::angle::{Angle, ExactAngle, check};
+use super::exact::{Shape, climb, judge, judge_shape, place};
+use super::filter::{Near, shape, sides};
+use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
+use crate::error::{Error, Result};
+use crate::family::{Code, NO_VALUE};
+use crate::num::Interval;
+use fearless_simd::{Level as SimdLevel, Simd, SimdBase, dispatch};
+
+/// An end point in units of the given radius r; the start is (0, 0) along (1, 0).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Datum {
+    /// Angle from the start to the end tangent, radians: in (0, π/2) for cubics, in (0, π) for PH quintics.
+    pub theta: f64,
+    /// End point over r, along the start tangent.
+    pub xi: f64,
+    /// End point over r, to the left of it.
+    pub eta: f64,
+}
+
+/// How much is true of a segment; each level contains the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// Its curvature is not monotone.
+    Exists,
+    /// It is a spiral.
+    Exact,
+    /// All four terms of Theorem 2.1 or 3.1 accept it.
+    Theorem,
+    /// It lies in the region drawn in the paper: `m >= m*`, `q >= A1`.
+    Paper,
+}
+
+impl Level {
+    /// Its name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Level::Exists => "exists",
+            Level::Exact => "exact",
+            Level::Theorem => "theorem",
+            Level::Paper => "paper",
+        }
+    }
+}
+
+/// The shape of a segment and its level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// Ratio of the paper's u0 and u1, above 0.
+    pub m: f64,
+    /// Square of the paper's tangent parameter over r, above 0 (the cubic's end tangent is d = qr long).
+    pub q: f64,
+    /// What is proved of it.
+    pub level: Level,
+}
+
+/// The segments that reach an end point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reached {
+    /// The segment of case 1 (increasing curvature, 0 to 1/r).
+    pub case1: Option<Segment>,
+    /// The segment of case 2 (decreasing curvature, 1/r to 0).
+    pub case2: Option<Segment>,
+}
+
+/// Finds the segments of both cases with an end point.
+///
+/// # Accuracy
+/// Which exist, and their levels, are proved; m and q are correctly rounded.
+///
+/// # Errors
+/// [`Error::Domain`] for an angle outside the family's range or a coordinate that is not finite, or a shape beyond the range of
+/// doubles; [`Error::Undecided`] at the precision cap.
+///
+/// # Source
+/// Habib & Sakai (CGIV 2004), (7) and (20); the exact test replaces the sufficient one.
+pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
+    let Datum { theta, xi, eta } = *datum;
+    check(kind, theta)?;
+    for (name, value) in [("xi", xi), ("eta", eta)] {
+        if !value.is_finite() {
+            return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
+        }
+    }
+    let datum = [theta, xi, eta];
+    let case = |case| {
+        let attempt = |bits| {
+            let (flags, shape) = judge(kind, datum, case, bits)?;
+            let Some(shape) = shape else { return Some(None) };
+            let q = shape.q(&*ExactAngle::cached(kind, theta, bits)?)?;
+            Some(Some(Segment { m: shape.m.to_f64()?, q: q.to_f64()?, level: level(flags) }))
+        };
+        let (segment, _) = climb(&place(&datum), "a segment", attempt)?;
+        match segment {
+            Some(s) if !(s.m.is_finite() && s.q.is_finite()) => Err(Error::Domain(format!(
+                "the segment to xi = {xi:?}, eta = {eta:?} at theta = {theta:?} has m = {}, q = {}, beyond the range of doubles",
+                s.m, s.q
+            ))),
+            other => Ok(other),
+        }
+    };
+    Ok(Reached { case1: case(0)?, case2: case(1)? })
+}
+
+/// What is true of the segment with an angle and a shape, proved for these doubles.
+///
+/// # Errors
+/// [`Error::Domain`] for an angle outside the family's range or a shape that is not finite and positive; [`Error::Undecided`] at the
+/// precision cap.
+pub fn level_of_shape(kind: Kind, theta: f64, m: f64, q: f64) -> Result<Level> {
+    check(kind, theta)?;
+    for (name, value) in [("m", m), ("q", q)] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(Error::Domain(format!("{name} is {value:?}; it must be finite and above 0")));
+        }
+    }
+    let attempt = |bits| {
+        let angle = ExactAngle::cached(kind, theta, bits)?;
+        let u = angle.length.over(&Interval::new(q, bits))?;
+        judge_shape(kind, &angle, &Shape { u, m: Interval::new(m, bits) })
+    };
+    climb(&format!("theta = {theta:?}, m = {m:?}, q = {q:?}"), "a segment's level", attempt).map(|(flags, _)| level(flags))
+}
+
+fn level(flags: u8) -> Level {
+    [(PAPER, Level::Paper), (THEOREM, Level::Theorem), (EXACT, Level::Exact)]
+        .into_iter()
+        .find(|(flag, _)| flags & flag != 0)
+        .map_or(Level::Exists, |(_, level)| level)
+}
+
+/// The scalars m1, q1, m2, q2 (0 to 3), each rounded to nearest f32 with proof; beyond the largest single, that.
+pub(super) fn scalars(kind: Kind, datum: [f64; 3], code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+    let any = which.iter().any(|i| exists(code, i / 2));
+    from_intervals(kind, datum, code, which, out, if any { fast(kind, datum) } else { [None; 4] })
+}
+
+/// [`scalars`] by intervals alone.
+pub(super) fn exact_scalars(kind: Kind, datum: [f64; 3], code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+    from_intervals(kind, datum, code, which, out, [None; 4])
+}
+
+fn exists(code: Code, case: usize) -> bool {
+    code.flags() >> (CASE_BITS * case as u32) & EXISTS != 0
+}
+
+/// The scalars that are not `known`, by intervals.
+fn from_intervals(
+    kind: Kind,
+    datum: [f64; 3],
+    code: Code,
+    which: &[usize],
+    out: &mut [f32],
+    known: [Option<f32>; 4],
+) -> Result<()> {
+    for (slot, i) in out.iter_mut().zip(which) {
+        let (case, of_q) = (i / 2, i % 2 == 1);
+        *slot = match known[*i] {
+            _ if !exists(code, case) => NO_VALUE,
+            Some(value) => value,
+            None => {
+                let attempt = |bits| {
+                    let shape = judge(kind, datum, case, bits)?.1?;
+                    let value = if of_q { shape.q(&*ExactAngle::cached(kind, datum[0], bits)?)? } else { shape.m };
+                    single(&value)
+                };
+                climb(&place(&datum), "a scalar", attempt)?.0
+            }
+        };
+    }
+    Ok(())
+}
+
+fn single(value: &Interval) -> Option<f32> {
+    value.to_f32().map(|x| x.min(f32::MAX))
+}
+
+/// The scalars that doubles prove.
+fn fast(kind: Kind, [theta, xi, eta]: [f64; 3]) -> [Option<f32>; 4] {
+    static LEVEL: std::sync::LazyLock<SimdLevel> = std::sync::LazyLock::new(SimdLevel::new);
+    let Some(angle) = Angle::new(kind, theta) else { return [None; 4] };
+    dispatch!(*LEVEL, simd => lane(simd, kind, &angle, xi, eta))
+}
+
+#[inline(always)]
+fn lane<S: Simd>(simd: S, kind: Kind, angle: &Angle, xi: f64, eta: f64) -> [Option<f32>; 4] {
+    let mut values = [None; 4];
+    for (case, (a, b, none)) in sides(simd, angle, xi, S::f64s::splat(simd, eta)).into_iter().enumerate() {
+        let shape = shape(simd, kind, angle, &a, &b, none);
+        if shape.is_found(0) {
+            let at = |v: &S::f64s| v.as_slice()[0];
+            let Near { value: u, error: rho } = shape.u;
+            let q = angle.length / at(&u);
+            // The length is good to 21 units, the quotient to one.
+            let q_error = q * (1.1 * at(&rho) + 24.0 * f64::EPSILON);
+            values[2 * case] = rounded(at(&shape.m.value), at(&shape.m.error));
+            values[2 * case + 1] = rounded(q, q_error);
+        }
+    }
+    values
+}
+
+/// The nearest f32 of a number within `error` of `value`, when that is certain.
+fn rounded(value: f64, error: f64) -> Option<f32> {
+    // One more unit for the rounding of the ends themselves.
+    let error = error + value.abs() * f64::EPSILON;
+    let (low, high) = ((value - error) as f32, (value + error) as f32);
+    (low == high).then(|| low.min(f32::MAX))
+}
