@@ -5,6 +5,7 @@
 
 use super::pair::{PAIR_ERROR, Pair};
 use super::poly::{Bounds, side};
+use crate::family::outer;
 use crate::num::bernstein::{Quintic, positive};
 use crate::num::{Lanes, Number};
 use fearless_simd::prelude::*;
@@ -23,6 +24,7 @@ impl Precision {
     /// f64: a pair constant and a product ([`PAIR_ERROR`] + 2).
     pub const F64: Precision = Precision { unit: 1.0 / (1u64 << 53) as f64, input: PAIR_ERROR + 2.0 };
     /// f32: constants rounded once from f64, κ rounded once, one product: 3, and a little for the f64 errors below.
+    #[cfg(feature = "gpu")]
     pub const F32: Precision = Precision { unit: 1.0 / (1u32 << 24) as f64, input: 4.0 };
 
     /// Γ of [`Bounds`].
@@ -165,22 +167,6 @@ fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
     let none = complex & ((k_above & a_below) | (k_below & a_above)) | rootless;
     let known = case.one | case.smaller_two | case.larger_two | case.lone | case.three | none;
     Cases { known, ..case }
-}
-
-/// Whether any spiral exists: `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1-φ0)/2)` with both factors positive (Kurnosenko).
-#[inline(always)]
-fn any_spiral<S: Simd>(simd: S, pair: &Pair, d: &Data<S>) -> (u64, u64) {
-    let e = Precision::F64.outer();
-    let (sin0, sin1) = (S::f64s::splat(simd, pair.sin0), S::f64s::splat(simd, pair.sin1));
-    let (room0, room1) = (sin0 - d.kappa0, d.kappa1 - sin1);
-    let (error0, error1) = ((sin0 + d.kappa0.abs()) * e, (sin1 + d.kappa1.abs()) * e);
-    let product = room0 * room1;
-    let over = product - pair.sin2_half;
-    let error = room0.abs() * error1 + room1.abs() * error0 + error0 * error1 + (product.abs() + pair.sin2_half) * e;
-    let zero = S::f64s::splat(simd, 0.0);
-    let yes = bits::<S>(over.simd_gt(error) & room0.simd_gt(zero));
-    let no = bits::<S>(over.simd_lt(-error) | room0.simd_lt(-error0) | room1.simd_lt(-error1));
-    (yes, no)
 }
 
 /// A root known to lie within `delta` of (x, y), in both coordinates.
@@ -385,7 +371,11 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
 ) -> Planes {
     let all = if S::f64s::LEN == 64 { u64::MAX } else { (1 << S::f64s::LEN) - 1 };
     let case = cases(simd, d);
-    let (any, no) = if prepared.pair.rising { any_spiral(simd, &prepared.pair, d) } else { (0, all) };
+    let pair = &prepared.pair;
+    let (any, no) = match pair.rising {
+        true => outer::lanes(simd, &[pair.sin0, pair.sin1, pair.sin2_half], d.kappa0, d.kappa1, Precision::F64.outer()),
+        false => (0, all),
+    };
     let two = case.smaller_two | case.larger_two;
     let mut planes = Planes {
         flags: [case.one | case.smaller_two, 0, 0, 0, any],

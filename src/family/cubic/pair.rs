@@ -99,15 +99,15 @@ mod tests {
                 let Some(pair) = Pair::new(phi0, phi1) else { continue };
                 let truth = super::super::exact::Angles::new(phi0, phi1, 320).expect("enough bits");
                 let values = [pair.p, pair.r, pair.g0, pair.g1, pair.sin0, pair.sin1];
-                let truths = [&truth.p, &truth.r, &truth.g0, &truth.g1, &truth.sin0, &truth.sin1];
+                let truths = [&truth.p, &truth.r, &truth.g0, &truth.g1, &truth.outer[0], &truth.outer[1]];
                 for (value, truth) in values.into_iter().zip(truths) {
                     worst = worst.max(units(value, truth));
                 }
                 if pair.rising {
-                    worst = worst.max(units(pair.sin2_half, &truth.sin2_half));
+                    worst = worst.max(units(pair.sin2_half, &truth.outer[2]));
                 }
-                worst = worst.max(units(pair.curve0, &truth.g1.over(&truth.sin0).expect("positive")));
-                worst = worst.max(units(pair.curve1, &truth.g0.over(&truth.sin1).expect("positive")));
+                worst = worst.max(units(pair.curve0, &truth.g1.over(&truth.outer[0]).expect("positive")));
+                worst = worst.max(units(pair.curve1, &truth.g0.over(&truth.outer[1]).expect("positive")));
                 compared += 1;
             }
         }

@@ -6,8 +6,8 @@ use super::pair::Pair;
 use super::{Code, table};
 use crate::error::{Error, Result};
 use crate::family::NO_VALUE;
-use crate::num::Interval;
 use crate::num::bernstein::{Quintic, least, least_error, least_interval};
+use crate::num::{Interval, climb};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::cmp::Ordering;
 
@@ -288,7 +288,7 @@ fn slow(datum: &ExactDatum) -> Result<Solutions> {
         }
         Some(Solutions { flags: code.flags(), roots, len: weighed.len(), chosen })
     };
-    exact::climb(datum, "a root or its margin", attempt).map(|(solutions, _)| solutions)
+    climb(datum, "a root or its margin", attempt).map(|(solutions, _)| solutions)
 }
 
 /// The scalars f0, f1, margin (0, 1, 2) of the chosen spiral, each rounded to nearest f32 with proof.
@@ -311,7 +311,7 @@ pub(super) fn scalars(datum: &ExactDatum, code: Code, which: &[usize], out: &mut
                 let ranges = [&w.root.x, &w.root.y, &w.margin];
                 which.iter().map(|i| ranges[*i].to_f32()).collect::<Option<Vec<f32>>>()
             };
-            exact::climb(datum, "a scalar", attempt)?.0
+            climb(datum, "a scalar", attempt)?.0
         }
     };
     out.copy_from_slice(&values);

@@ -3,10 +3,12 @@
 use super::exact::{Ends, ExactDatum, truth};
 use super::filter::{Data, Prepared, classify};
 use super::pair::Pair;
-use super::{CHARTS, Code};
+use super::{Code, Cubic};
 use crate::error::{Error, Result};
-use crate::family::Table;
+use crate::family::rows::{Rows, fill};
+use crate::family::{Table, chart_of};
 use crate::grid::Grid;
+use crate::num::trig::two_sum;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::f64::consts::PI;
 
@@ -20,11 +22,7 @@ pub(super) struct CubicTable<'g> {
 
 impl<'g> CubicTable<'g> {
     pub fn new(grid: &'g Grid) -> Result<CubicTable<'g>> {
-        let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
-        let chart = CHARTS.iter().position(|c| c.axes == names).ok_or_else(|| {
-            let known: Vec<String> = CHARTS.iter().map(|c| c.axes.join(", ")).collect();
-            Error::Domain(format!("axes {} are no chart of `cubic`; it has: {}", names.join(", "), known.join(" | ")))
-        })?;
+        let chart = chart_of(&Cubic, grid)?;
         let (phi0, phi1) = (&grid.axes()[0], &grid.axes()[1]);
         for axis in [phi0, phi1] {
             check_angle(axis.name(), axis.values()[0])?;
@@ -39,54 +37,27 @@ impl<'g> CubicTable<'g> {
         let ends = if self.normalised { Ends::Normalised(u, v) } else { Ends::Curvature(u, v) };
         ExactDatum { phi0, phi1, ends }
     }
+}
 
-    /// Fills the nodes of one row: all share the first three coordinates, the last runs over `last`.
-    #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, prepared: &Prepared, third: f64, last: &[f64], out: &mut [Code]) {
-        let pair = &prepared.pair;
-        let third = S::f64s::splat(simd, third);
-        let (curve0, curve1) = (S::f64s::splat(simd, pair.curve0), S::f64s::splat(simd, pair.curve1));
-        let width = S::f64s::LEN;
-        let mut padded = [0.0; 64];
-        for (values, codes) in last.chunks(width).zip(out.chunks_mut(width)) {
-            let fourth = if values.len() == width {
-                S::f64s::from_slice(simd, values)
-            } else {
-                // The last lanes repeat the row's last value; their codes are dropped.
-                padded[..values.len()].copy_from_slice(values);
-                padded[values.len()..width].fill(values[values.len() - 1]);
-                S::f64s::from_slice(simd, &padded[..width])
-            };
-            let data = if self.normalised {
-                Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1 }
-            } else {
-                Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth }
-            };
-            let planes = classify(simd, prepared, &data);
-            for (lane, code) in codes.iter_mut().enumerate() {
-                *code = planes.code(lane);
-            }
-        }
+impl Rows for CubicTable<'_> {
+    type Pair = Prepared;
+
+    fn pair(&self, phi0: f64, phi1: f64) -> Option<Prepared> {
+        Pair::new(phi0, phi1).map(Prepared::new)
     }
 
     #[inline(always)]
-    fn rows<S: Simd>(&self, simd: S, start: u64, out: &mut [Code]) {
-        let axes = self.grid.axes();
-        let last = axes[3].values();
-        let mut done = 0;
-        let mut angles = None;
-        while done < out.len() {
-            let [i0, i1, i2, i3] = self.grid.index(start + done as u64);
-            let length = (last.len() - i3).min(out.len() - done);
-            let (codes, values) = (&mut out[done..done + length], &last[i3..i3 + length]);
-            if angles.is_none_or(|(at, _)| at != (i0, i1)) {
-                angles = Some(((i0, i1), Pair::new(axes[0].values()[i0], axes[1].values()[i1]).map(Prepared::new)));
-            }
-            match angles {
-                Some((_, Some(prepared))) => self.row(simd, &prepared, axes[2].values()[i2], values, codes),
-                _ => codes.fill(Code::UNDECIDED),
-            }
-            done += length;
+    fn codes<S: Simd>(&self, simd: S, prepared: &Prepared, third: f64, fourth: S::f64s, out: &mut [Code]) {
+        let third = S::f64s::splat(simd, third);
+        let (curve0, curve1) = (S::f64s::splat(simd, prepared.pair.curve0), S::f64s::splat(simd, prepared.pair.curve1));
+        let data = if self.normalised {
+            Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1 }
+        } else {
+            Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth }
+        };
+        let planes = classify(simd, prepared, &data);
+        for (lane, code) in out.iter_mut().enumerate() {
+            *code = planes.code(lane);
         }
     }
 }
@@ -102,9 +73,7 @@ pub(super) fn check_angle(name: &str, angle: f64) -> Result<()> {
 /// The tangents must meet: φ0 + φ1 < π, decided exactly.
 pub(super) fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
     // π lies between the double PI and the next one up. Where the rounded sum equals PI, two-sum tells which side.
-    let sum = phi0 + phi1;
-    let part = sum - phi0;
-    let low = (phi0 - (sum - part)) + (phi1 - part);
+    let (sum, low) = two_sum(phi0, phi1);
     let below = sum < PI || sum == PI && low < 1.224_646_799_147_353_2e-16;
     if below {
         return Ok(());
@@ -114,7 +83,7 @@ pub(super) fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
 
 impl Table for CubicTable<'_> {
     fn filter(&self, start: u64, out: &mut [Code]) {
-        dispatch!(self.level, simd => self.rows(simd, start, out));
+        dispatch!(self.level, simd => fill(simd, self, self.grid, start, out));
     }
 
     fn exact(&self, node: u64) -> Result<(Code, usize)> {
