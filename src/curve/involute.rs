@@ -64,7 +64,6 @@ pub struct Spiral {
 /// Whether there is a spiral.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
-#[expect(clippy::large_enum_variant, reason = "one a question, not stored in numbers")]
 pub enum Outcome {
     /// The involute's image.
     Curve {
@@ -117,15 +116,15 @@ impl Spiral {
 /// [`Error::Undecided`] at the precision cap.
 ///
 /// # Source
-/// Kurnosenko, arXiv 2603.29596, (2) to (6), with the sign of ρ in (6) corrected.
+/// Kurnosenko, arXiv 2603.29596, (2) to (6), with the sign of z0 in (6) corrected.
 pub fn involute(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
     for (name, angle) in [("alpha", chord.alpha), ("beta", chord.beta)] {
-        if !(angle.abs() <= PI) {
+        if angle.is_nan() || angle.abs() > PI {
             return Err(Error::Domain(format!("{name} is {angle:?}; it must be -pi to pi (radians)")));
         }
     }
     for (name, k) in [("k1", chord.k1), ("k2", chord.k2)] {
-        if !(k.abs() <= 1e100) {
+        if k.is_nan() || k.abs() > 1e100 {
             return Err(Error::Domain(format!("{name} is {k:?}; it must be at most 1e100 in magnitude (times half the chord)")));
         }
     }

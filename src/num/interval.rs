@@ -19,7 +19,7 @@ pub struct Interval {
 
 thread_local! {
     /// Constants such as π, as far as they have been computed.
-    static CONSTANTS: RefCell<ConstCache> = RefCell::new(ConstCache::new());
+    static CONSTANTS: RefCell<ConstCache> = const { RefCell::new(ConstCache::new()) };
 }
 
 fn repr(x: f64) -> Repr<2> {

@@ -96,10 +96,8 @@ pub fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
         let delta = guess * &Interval::power_of_two(exponent, bits);
         let (low, high) = ((guess - &delta).lower(), (guess + &delta).upper());
         let sign = |x: &Interval| f.at(x)?.0.sign().filter(|s| *s != Ordering::Equal);
-        if let (Some(l), Some(h)) = (sign(&low), sign(&high)) {
-            if h == l.reverse() {
-                return Some(low.union(&high));
-            }
+        if sign(&low).is_some_and(|s| sign(&high) == Some(s.reverse())) {
+            return Some(low.union(&high));
         }
         exponent += 10 + (bits / 64) as isize;
     }
