@@ -111,7 +111,8 @@ mod tests {
 
     #[test]
     fn no_more_evaluations_than_bisection_and_usually_far_fewer() {
-        let functions: [(&dyn Fn(f64) -> f64, f64, f64, f64); 5] = [
+        type Case<'f> = (&'f dyn Fn(f64) -> f64, f64, f64, f64);
+        let functions: [Case; 5] = [
             (&|x| x.cos() - x, 0.0, 2.0, 0.7390851332151607),
             (&|x| x.powi(3) - 0.008, -1.0, 4.0, 0.2),
             (&|x| (x - 1e-6).powi(9), -1.0, 4.0, 1e-6),
