@@ -300,7 +300,7 @@ fn reasons_and_bad_input() {
     assert_eq!(why(chord(0.1, 0.2, 0.2, 0.3), [0, 0]), WhyNone::CirclesCross);
     assert_eq!(why(chord(0.0, 0.0, 0.0, 1.0), [0, 1]), WhyNone::CirclesTouch);
     assert!(involute(&chord(-0.3, 0.3, -3.0, 2.0), [0, 1]).unwrap().curve().is_some());
-    let message = |chord, turns| involute(&chord, turns).err().expect("bad input").to_string();
+    let message = |chord, turns| involute(&chord, turns).expect_err("bad input").to_string();
     assert!(message(chord(4.0, 0.0, 0.0, 1.0), [0, 0]).contains("alpha is 4"));
     assert!(message(chord(0.0, f64::NAN, 0.0, 1.0), [0, 0]).contains("beta is NaN"));
     assert!(message(chord(0.0, 0.0, f64::INFINITY, 1.0), [0, 0]).contains("k1 is inf"));
