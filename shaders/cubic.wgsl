@@ -72,31 +72,6 @@ fn side(x: f32, y: f32, p: f32, g: f32, r: f32) -> vec3<f32> {
     return vec3<f32>(b0, b1, b2);
 }
 
-const NO: u32 = 0u;
-const YES: u32 = 1u;
-const OPEN: u32 = 2u;
-
-// Kurnosenko's bound: (sin phi0 - kappa0)(kappa1 - sin phi1) > sin^2((phi1 - phi0)/2), both factors positive.
-fn any_spiral(pair: Pair, d: Datum) -> u32 {
-    if !pair.rising {
-        return NO;
-    }
-    let room0 = pair.sin0 - d.kappa0;
-    let room1 = d.kappa1 - pair.sin1;
-    let error0 = (pair.sin0 + abs(d.kappa0)) * OUTER;
-    let error1 = (pair.sin1 + abs(d.kappa1)) * OUTER;
-    let product = room0 * room1;
-    let over = product - pair.sin2_half;
-    let error = abs(room0) * error1 + abs(room1) * error0 + error0 * error1 + (abs(product) + pair.sin2_half) * OUTER;
-    if over > error && room0 > 0.0 {
-        return YES;
-    }
-    if over < -error || room0 < -error0 || room1 < -error1 {
-        return NO;
-    }
-    return OPEN;
-}
-
 // F = 3 - x - k y^2, its error, y = 3 - a x^2, F' = 4akxy - 1.
 struct Residual {
     f: f32,
@@ -213,7 +188,12 @@ fn evaluate(index: vec4<u32>) -> u32 {
     if abs(d.kappa0) > KAPPA_MOST || abs(d.kappa1) > KAPPA_MOST {
         return UNDECIDED;
     }
-    let any = any_spiral(pair, d);
+    let sines = vec3<f32>(pair.sin0, pair.sin1, pair.sin2_half);
+    // Without phi0 < phi1 there is no spiral.
+    var any = NO;
+    if pair.rising {
+        any = any_spiral(sines, d.kappa0, d.kappa1, OUTER);
+    }
     let rootless = d.kappa0 <= 0.0 || d.kappa1 <= 0.0;
     if rootless {
         return select(select(0u, ANY_SPIRAL, any == YES), UNDECIDED, any == OPEN);

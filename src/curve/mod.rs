@@ -1,5 +1,5 @@
 //! The curves themselves: points, curvature and arc length, placement in the user's plane, and the transition spiral
-//! between two given ends (Habib & Sakai, section 3.2).
+//! between two given ends: cubic (Habib & Sakai, section 3.2), or an involute's image (Kurnosenko).
 //!
 //! ```
 //! use spiral_atlas::curve::{Ends, Placement};
@@ -25,6 +25,7 @@ mod bezier;
 mod bound;
 mod extrema;
 mod figure;
+mod involute;
 mod jet;
 mod length;
 mod placement;
@@ -36,6 +37,9 @@ mod why;
 pub use bezier::CubicBezier;
 pub use bound::least_end_curvature;
 pub use figure::{EndCircle, Figure, Sample};
+pub use involute::{
+    Chord, Frame, Involute, InvolutePoint, Outcome as InvoluteOutcome, Spiral, Split, WhyNone, involute, involute_between,
+};
 pub use jet::Jet;
 pub use length::arc_length;
 pub use placement::{Ends, Placement, direction_of};

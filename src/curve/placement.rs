@@ -1,8 +1,8 @@
 //! From user data anywhere in the plane to the normalised frame, and back.
 
-use super::CubicBezier;
 use super::vector::{Vector, add, length, scale, sub, turn};
 use super::why::Turn;
+use super::{Chord, CubicBezier};
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
 use serde::Serialize;
@@ -58,6 +58,17 @@ impl Ends {
             Some((name, value)) => Err(Error::Domain(format!("{name} is {value}; it must be finite"))),
             None => Ok(()),
         }
+    }
+
+    /// The ends seen from their chord, and half the chord as a vector.
+    pub(super) fn chord(&self) -> Result<(Chord, Vector)> {
+        self.check_finite()?;
+        let (half, size) = self.half_chord()?;
+        let chord = half[1].atan2(half[0]);
+        let (alpha, beta) = (against(self.start_direction, chord), against(self.end_direction, chord));
+        let k1 = by_chord("start", self.start_curvature, size)?;
+        let k2 = by_chord("end", self.end_curvature, size)?;
+        Ok((Chord { alpha, beta, k1, k2 }, half))
     }
 
     /// Half the chord as a vector, and its length.
@@ -120,12 +131,7 @@ impl Placement {
     /// [`Error::Domain`] naming the value: not finite; coincident points; half chord or a curvature times it
     /// outside the range of normal doubles.
     pub fn normalise(ends: &Ends) -> Result<(Datum, Placement)> {
-        ends.check_finite()?;
-        let (half, size) = ends.half_chord()?;
-        let chord = half[1].atan2(half[0]);
-        let (alpha, beta) = (against(ends.start_direction, chord), against(ends.end_direction, chord));
-        let at_start = by_chord("start", ends.start_curvature, size)?;
-        let at_end = by_chord("end", ends.end_curvature, size)?;
+        let (Chord { alpha, beta, k1: at_start, k2: at_end }, half) = ends.chord()?;
 
         let (sides_of_left, sides_of_right) = (alpha < 0.0 && beta > 0.0, alpha > 0.0 && beta < 0.0);
         let right = sides_of_right || (!sides_of_left && at_start + at_end < 0.0);

@@ -2,10 +2,13 @@
 //!
 //! Adding one touches `family/<name>.rs`, `shaders/<name>.wgsl`, a recipe, tests, and the list in [`all`].
 
+pub mod any_spiral;
 pub mod cubic;
+mod outer;
 pub mod reach;
+mod rows;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::grid::Grid;
 
 /// The stored verdicts of one node: flags in the low byte, packed counts in the high byte.
@@ -111,6 +114,15 @@ pub trait Family: Sync {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>>;
 }
 
+/// Which of a family's charts a grid has, as an index into [`Family::charts`].
+fn chart_of(family: &dyn Family, grid: &Grid) -> Result<usize> {
+    let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
+    family.charts().iter().position(|c| c.axes == names).ok_or_else(|| {
+        let known: Vec<String> = family.charts().iter().map(|c| c.axes.join(", ")).collect();
+        Error::Domain(format!("axes {} are no chart of `{}`; it has: {}", names.join(", "), family.name(), known.join(" | ")))
+    })
+}
+
 /// A family on one grid.
 pub trait Table: Sync {
     /// The f64 step: proves the codes of the nodes from `start` on, or leaves [`Code::UNDECIDED`].
@@ -164,7 +176,7 @@ pub struct ShaderInputs {
 
 /// Every family, in the order in which they are listed to users.
 pub fn all() -> &'static [&'static dyn Family] {
-    &[&cubic::Cubic, &reach::Reach(reach::Kind::Cubic), &reach::Reach(reach::Kind::Ph)]
+    &[&cubic::Cubic, &any_spiral::AnySpiral, &reach::Reach(reach::Kind::Cubic), &reach::Reach(reach::Kind::Ph)]
 }
 
 /// The family of a name.

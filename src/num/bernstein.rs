@@ -134,13 +134,13 @@ pub fn least_interval(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
     let bits = c[0].bits();
     let end = if guess < 0.5 { &c[0] } else { &c[5] };
     let Some(t) = stationary(c, guess) else {
-        let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.union(&-v).upper());
+        let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.size().upper());
         let slack = &size * &Interval::power_of_two(-(bits as isize) / 2, bits);
         let floor = &end.lower() - &slack;
         return above(c, &floor)?.then(|| floor.union(end));
     };
     let [value, slope, _] = at(c, &t);
-    let floor = &value.lower() - &slope.union(&-&slope).upper();
+    let floor = &value.lower() - &slope.size().upper();
     let mut reach = 0.0625;
     while reach > 1e-7 {
         let (from, to) = (t.plus(-reach), t.plus(reach));

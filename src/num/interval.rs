@@ -17,6 +17,11 @@ pub struct Interval {
     bits: usize,
 }
 
+thread_local! {
+    /// Constants such as π, as far as they have been computed.
+    static CONSTANTS: RefCell<ConstCache> = const { RefCell::new(ConstCache::new()) };
+}
+
 /// The nearest double, also below the least subnormal, where the conversion of `dashu-float` 0.6 always gives zero: numbers above half
 /// of it round to it.
 fn nearest_f64(x: &Repr<2>) -> f64 {
@@ -75,20 +80,39 @@ impl Interval {
 
     /// `(sin x, cos x)` of a finite double.
     pub fn sin_cos(x: f64, bits: usize) -> (Interval, Interval) {
-        thread_local!(static CONSTANTS: RefCell<ConstCache> = const { RefCell::new(ConstCache::new()) });
-        let (sin, cos) = CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).sin_cos(&repr(x), Some(cache)));
+        Interval::new(x, bits).sine_cosine()
+    }
+
+    /// Sine and cosine: those at its middle, and up to half its width more, because neither is ever steeper than 1.
+    pub fn sine_cosine(&self) -> (Interval, Interval) {
+        let thin = self.lo == self.hi;
+        let middle = if thin { self.lo.clone() } else { self.middle().lo };
+        // The middle has a bit more than the precision; at least as many are asked for, so that it is taken as it is.
+        let bits = self.bits + 2;
+        let (sin, cos) = CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).sin_cos(&middle, Some(cache)));
+        let half = (self - &Interval { lo: middle.clone(), hi: middle, bits: self.bits }).size();
         let around = |rounded: FpResult<FBig<HalfEven, 2>>| {
             let nearest = rounded.expect("finite argument").value().into_repr();
-            Interval { lo: nearest.clone(), hi: nearest, bits }.widened()
+            let point = Interval { lo: nearest.clone(), hi: nearest, bits: self.bits }.widened();
+            if thin { point } else { &point + &half }
         };
         (around(sin), around(cos))
     }
 
+    /// π.
+    pub fn pi(bits: usize) -> Interval {
+        let nearest = CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).pi::<2>(Some(cache)).value().into_repr());
+        Interval { lo: nearest.clone(), hi: nearest, bits }.widened()
+    }
+
+    /// From -m to m, where m is the largest absolute value of its numbers.
+    pub fn size(&self) -> Interval {
+        self.union(&-self)
+    }
+
     /// Larger by more than one unit in the last place at both ends: around a correctly rounded number, contains the true one.
     fn widened(&self) -> Interval {
-        let slack = self * &Interval::power_of_two(1 - self.bits as isize, self.bits);
-        let slack = slack.union(&-&slack);
-        self + &slack
+        self + &(self * &Interval::power_of_two(1 - self.bits as isize, self.bits)).size()
     }
 
     /// The common sign of all its numbers; `None` when it holds numbers of different signs (zero and others included).

@@ -1,10 +1,13 @@
-//! What the proofs rest on: intervals of any precision, certified elementary functions, Bernstein sign tests.
+//! What the proofs rest on: intervals of any precision, certified elementary functions, Bernstein sign tests, roots.
 
 pub mod bernstein;
+mod climb;
 mod interval;
 mod number;
+pub mod root;
 pub mod trig;
 
+pub use climb::climb;
 pub use interval::Interval;
 pub use number::{Lanes, Number};
 

@@ -1,4 +1,4 @@
-//! Sines and cosines in f64 with a proved error, for angles in (0, π).
+//! Sines and cosines in f64 with a proved error, for angles from 0 to 3π/2.
 //!
 //! The standard library leaves the accuracy of `sin` unspecified, so no proof may rest on it.
 
@@ -10,6 +10,9 @@ use std::sync::LazyLock;
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 /// π/2 - [`FRAC_PI_2`].
 const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
+
+/// 3π/2 - `3.0 * FRAC_PI_2`.
+const THREE_HALVES_PI_LOW: f64 = 1.8369701987210297e-16;
 
 /// Relative error of [`sin`], [`cos`] and [`sin_of_sum`], in units of 2^-53.
 pub const SIN_ERROR: f64 = 10.0;
@@ -52,27 +55,35 @@ fn sin_quadrant(x: f64) -> f64 {
     knot.sin + (knot.cos * sin_r + (knot.sin * cos_r_less_1 + knot.sin_low))
 }
 
-/// `sin x` for `0 < x < π`.
+/// `sin x` for `0 <= x <= 3π/2`.
 ///
 /// # Accuracy
-/// [`SIN_ERROR`] units of 2^-53, relative, up to `x = π`: beyond π/2 the angle is taken from π exactly (Sterbenz)
+/// [`SIN_ERROR`] units of 2^-53, relative: beyond π/2 the angle is taken from π exactly (Sterbenz)
 /// and rounded once; a relative error of the angle below π/2 costs at most as much in the sine.
 pub fn sin(x: f64) -> f64 {
-    if x <= FRAC_PI_2 { sin_quadrant(x) } else { sin_quadrant((PI - x) + PI_LOW) }
+    if x <= FRAC_PI_2 {
+        return sin_quadrant(x);
+    }
+    let rest = (PI - x) + PI_LOW;
+    if rest >= 0.0 { sin_quadrant(rest) } else { -sin_quadrant(-rest) }
 }
 
-/// `cos x` for `0 < x < π`.
+/// `cos x` for `0 <= x < 3π/2`.
 ///
 /// # Accuracy
 /// [`SIN_ERROR`] units of 2^-53, relative, also close to π/2: the complement is exact from π/4 on, and below π/4 its
-/// rounding error, under 1.6 units, reaches the cosine times tan x < 1.
+/// rounding error, under 1.6 units, reaches the cosine times tan x < 1. Beyond π the same holds from 3π/2.
 pub fn cos(x: f64) -> f64 {
+    if x > PI {
+        // The difference is exact.
+        return -sin_quadrant((3.0 * FRAC_PI_2 - x) + THREE_HALVES_PI_LOW);
+    }
     let complement = (FRAC_PI_2 - x) + FRAC_PI_2_LOW;
     if complement >= 0.0 { sin_quadrant(complement) } else { -sin_quadrant(-complement) }
 }
 
 /// A rounded sum and its rounding error, exactly (Knuth).
-fn two_sum(x: f64, y: f64) -> (f64, f64) {
+pub fn two_sum(x: f64, y: f64) -> (f64, f64) {
     let sum = x + y;
     let part = sum - x;
     (sum, (x - (sum - part)) + (y - part))
@@ -85,7 +96,7 @@ pub fn sum_below_pi(x: f64, y: f64) -> bool {
     sum < PI || sum == PI && low < PI_LOW
 }
 
-/// `sin(x + y)` for `x, y > 0`, `x + y < π`.
+/// `sin(x + y)` for `0 <= x + y < π`, `|x|, |y| < π`.
 ///
 /// # Accuracy
 /// [`SIN_ERROR`] units of 2^-53, relative: the rounding error of the sum is recovered (Knuth's two-sum) and kept where
@@ -111,9 +122,9 @@ mod tests {
     fn angles() -> impl Iterator<Item = f64> {
         let near = [FRAC_PI_2, PI, 1.0 / 32.0, 3.0 / 32.0, 1.0 / 16.0];
         let close = near.into_iter().flat_map(|x| (1..40).map(move |i| x - f64::EPSILON * f64::from(i)));
-        let beyond = (1..20).map(|i| FRAC_PI_2 + f64::EPSILON * f64::from(i));
+        let beyond = (1..20).flat_map(|i| [FRAC_PI_2, PI].map(|x| x + 2.0 * f64::EPSILON * f64::from(i)));
         let tiny = (1..10).map(|i| 10f64.powi(-30 * i));
-        close.chain(beyond).chain(tiny).chain((1..600).map(|i| f64::from(i) * 5.23e-3))
+        close.chain(beyond).chain(tiny).chain((1..900).map(|i| f64::from(i) * 5.23e-3))
     }
 
     #[test]
@@ -130,8 +141,8 @@ mod tests {
     fn sine_of_a_sum_keeps_its_bound_up_to_pi() {
         let mut worst: f64 = 0.0;
         for x in angles() {
-            for y in [0.3, (PI - x) * (1.0 - 1e-13), 1e-9] {
-                if x + y >= PI || y <= 0.0 {
+            for y in [0.3, (PI - x) * (1.0 - 1e-13), 1e-9, -0.4 * x, -x * (1.0 - 1e-14)] {
+                if x + y >= PI || x + y <= 0.0 || x > PI {
                     continue;
                 }
                 let ((s, c), (s2, c2)) = (Interval::sin_cos(x, BITS), Interval::sin_cos(y, BITS));

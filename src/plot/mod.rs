@@ -96,6 +96,8 @@ pub fn region_colors(count: usize) -> Vec<[u8; 3]> {
 pub fn symbol(name: &str) -> String {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let letter = match stem {
+        "alpha" => "α",
+        "beta" => "β",
         "phi" => "φ",
         "kappa" => "κ",
         "omega" => "ω",

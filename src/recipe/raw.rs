@@ -123,7 +123,7 @@ pub(super) fn unknown(what: &str, given: &str, known: &[&str]) -> String {
 
 /// Whether the axes of this name are angles.
 fn is_angle(axis: &str) -> bool {
-    ["phi", "theta"].iter().any(|start| axis.starts_with(start))
+    ["alpha", "beta", "phi", "theta"].iter().any(|start| axis.starts_with(start))
 }
 
 /// Reads an angle: `40deg`, `0.7rad`, or radians alone, `0.7`.

@@ -2,17 +2,14 @@
 
 use super::poly::side;
 use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::family::outer::{self, Sines};
 use crate::num::bernstein::{MOST_HALVINGS, Quintic, positive};
-use crate::num::{Interval, Number};
+use crate::num::root::{Curve, bracketed, enclose};
+use crate::num::{Interval, Number, climb};
 use std::cell::RefCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 use std::rc::Rc;
-
-/// Precision of the first try, in bits.
-const FIRST_BITS: usize = 128;
-/// Documented cap: a verdict still open here is an error. Sums of the tiniest and the largest doubles need some 4000 bits.
-pub const MOST_BITS: usize = 16384;
 
 /// A datum in one of the two charts, its numbers taken as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,9 +37,7 @@ pub(super) struct Angles {
     pub r: Interval,
     pub g0: Interval,
     pub g1: Interval,
-    pub sin0: Interval,
-    pub sin1: Interval,
-    pub sin2_half: Interval,
+    pub outer: Sines<Interval>,
 }
 
 impl Angles {
@@ -72,9 +67,7 @@ impl Angles {
             r: cs.over(&sum)?,
             g0: sin0.over(&sum)?.square(),
             g1: sin1.over(&sum)?.square(),
-            sin2_half: cos_difference.scale(-1.0).plus(1.0).scale(0.5),
-            sin0,
-            sin1,
+            outer: [sin0, sin1, cos_difference.scale(-1.0).plus(1.0).scale(0.5)],
         })
     }
 }
@@ -99,33 +92,21 @@ pub(super) struct Truth {
 /// Proves all verdicts, raising the precision until they are decided; returns the bits that were needed.
 ///
 /// # Errors
-/// [`Error::Undecided`] at [`MOST_BITS`].
+/// [`crate::Error::Undecided`] at the precision cap.
 pub(super) fn truth(datum: &ExactDatum) -> Result<(Truth, usize)> {
     climb(datum, "a verdict", |bits| at_precision(datum, bits))
-}
-
-/// Runs `attempt` with doubling precision until it succeeds.
-pub(super) fn climb<T>(datum: &ExactDatum, what: &str, attempt: impl Fn(usize) -> Option<T>) -> Result<(T, usize)> {
-    let mut bits = FIRST_BITS;
-    while bits <= MOST_BITS {
-        if let Some(found) = attempt(bits) {
-            return Ok((found, bits));
-        }
-        bits *= 2;
-    }
-    Err(Error::Undecided { node: "-".into(), coordinates: format!("{datum:?}"), what: what.into(), bits: MOST_BITS })
 }
 
 /// One attempt: `None` when something is undecided at this precision.
 pub(super) fn at_precision(datum: &ExactDatum, bits: usize) -> Option<Truth> {
     let angles = Angles::cached(datum.phi0, datum.phi1, bits)?;
     let number = |x: f64| Interval::new(x, bits);
-    let (scale0, scale1) = (angles.g1.over(&angles.sin0)?, angles.g0.over(&angles.sin1)?);
+    let (scale0, scale1) = (angles.g1.over(&angles.outer[0])?, angles.g0.over(&angles.outer[1])?);
     let (a, k, kappa0, kappa1) = match datum.ends {
         Ends::Curvature(kappa0, kappa1) => (scale0.scale(kappa0), scale1.scale(kappa1), number(kappa0), number(kappa1)),
         Ends::Normalised(a, k) => (number(a), number(k), number(a).over(&scale0)?, number(k).over(&scale1)?),
     };
-    let any = datum.phi0 < datum.phi1 && any_spiral(&angles, &kappa0, &kappa1)?;
+    let any = datum.phi0 < datum.phi1 && outer::holds(&angles.outer, &kappa0, &kappa1)?;
     let (solvable, parabolas) = match a.sign()? == Greater && k.sign()? == Greater {
         true => isolate(&a, &k)?,
         false => (false, Vec::new()),
@@ -143,15 +124,6 @@ pub(super) fn at_precision(datum: &ExactDatum, bits: usize) -> Option<Truth> {
     let spirals = roots.iter().filter(|r| r.spiral).count();
     let code = Code::new(flags, (roots.len() | spirals << 2) as u8);
     Some(Truth { code, roots })
-}
-
-/// `κ0 < sin φ0` and `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1-φ0)/2)`; Q < 0 with φ0 < φ1 and κ0 < κ1 comes to the same.
-fn any_spiral(angles: &Angles, kappa0: &Interval, kappa1: &Interval) -> Option<bool> {
-    let (room0, room1) = (&angles.sin0 - kappa0, kappa1 - &angles.sin1);
-    if room0.sign()? != Greater || room1.sign()? != Greater {
-        return Some(false);
-    }
-    Some((&room0 * &room1).compare(&angles.sin2_half)? == Greater)
 }
 
 /// F and y at x.
@@ -199,7 +171,7 @@ fn isolate(a: &Interval, k: &Interval) -> Option<(bool, Vec<(Interval, Interval)
     };
     let mut roots: Vec<(Interval, Interval)> = Vec::new();
     for ends in brackets.windows(2) {
-        let root = enclose(a, k, &bracketed(&ends[0], &ends[1], &Residual { a, k })?)?;
+        let root = prove(a, k, &bracketed(&ends[0], &ends[1], &Residual { a, k })?)?;
         if let Some((before, _)) = roots.last()
             && before.compare(&root.0)? != Less
         {
@@ -210,20 +182,14 @@ fn isolate(a: &Interval, k: &Interval) -> Option<(bool, Vec<(Interval, Interval)
     Some((solvable, roots))
 }
 
-/// A function with its derivative, in intervals and, for guesses, in doubles.
-trait Curve {
-    fn at(&self, x: &Interval) -> (Interval, Interval);
-    fn guess(&self, x: f64) -> f64;
-}
-
 struct Residual<'i> {
     a: &'i Interval,
     k: &'i Interval,
 }
 
 impl Curve for Residual<'_> {
-    fn at(&self, x: &Interval) -> (Interval, Interval) {
-        (residual(self.a, self.k, x).0, slope(self.a, self.k, x))
+    fn at(&self, x: &Interval) -> Option<(Interval, Interval)> {
+        Some((residual(self.a, self.k, x).0, slope(self.a, self.k, x)))
     }
     fn guess(&self, x: f64) -> f64 {
         residual(&self.a.approx(), &self.k.approx(), &x).0
@@ -236,76 +202,20 @@ struct Derivative<'i> {
 }
 
 impl Curve for Derivative<'_> {
-    fn at(&self, x: &Interval) -> (Interval, Interval) {
-        (slope(self.a, self.k, x), curvature(self.a, self.k, x))
+    fn at(&self, x: &Interval) -> Option<(Interval, Interval)> {
+        Some((slope(self.a, self.k, x), curvature(self.a, self.k, x)))
     }
     fn guess(&self, x: f64) -> f64 {
         slope(&self.a.approx(), &self.k.approx(), &x)
     }
 }
 
-/// A guess at the zero of `f` between two thin intervals: bisection in doubles, then Newton's method kept inside the bracket.
-///
-/// `None` when f has no certain, opposite signs at the ends.
-fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Interval> {
-    let (mut low, mut high) = (from.clone(), to.clone());
-    let side = f.at(&low).0.sign()?;
-    if side == Equal || f.at(&high).0.sign()? != side.reverse() {
-        return None;
-    }
-    let bits = low.bits();
-    let inside = |x: &Interval, low: &Interval, high: &Interval| x.compare(low) == Some(Greater) && x.compare(high) == Some(Less);
-    let middle = |low: &Interval, high: &Interval| (low + high).scale(0.5).middle();
-    let guess = Interval::new(bisect(low.approx(), high.approx(), side, f), bits);
-    let mut x = if inside(&guess, &low, &high) { guess } else { middle(&low, &high) };
-    let tiny = Interval::power_of_two(-(bits as isize), bits);
-    for _ in 0..4 * bits {
-        let (value, slope) = f.at(&x);
-        let Some(sign) = value.sign().filter(|s| *s != Equal) else { break };
-        if sign == side {
-            low = x.clone()
-        } else {
-            high = x.clone()
-        }
-        let newton = value.over(&slope).map(|step| (&x - &step).middle());
-        let next = newton.filter(|n| inside(n, &low, &high)).unwrap_or_else(|| middle(&low, &high));
-        let (step, limit) = (&next - &x, &x * &tiny);
-        x = next;
-        if step.compare(&limit) != Some(Greater) && (-&step).compare(&limit) != Some(Greater) {
-            break;
-        }
-    }
-    Some(x)
-}
-
-fn bisect(mut low: f64, mut high: f64, side: Ordering, f: &impl Curve) -> f64 {
-    for _ in 0..54 {
-        let middle = 0.5 * (low + high);
-        if f.guess(middle).partial_cmp(&0.0) == Some(side) { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
-/// Proves a root around a guess: opposite certain signs of F at `x - δ` and `x + δ`, with the least δ that works.
-fn enclose(a: &Interval, k: &Interval, guess: &Interval) -> Option<(Interval, Interval)> {
-    let bits = guess.bits();
-    let mut exponent = -(bits as isize) + 12;
-    while exponent < -(bits as isize) / 4 {
-        let delta = guess * &Interval::power_of_two(exponent, bits);
-        let (low, high) = ((guess - &delta).lower(), (guess + &delta).upper());
-        let ((f_low, _), (f_high, y_high)) = (residual(a, k, &low), residual(a, k, &high));
-        if let (Some(l), Some(h)) = (f_low.sign(), f_high.sign())
-            && l != Equal
-            && h == l.reverse()
-        {
-            let inside = low.sign()? == Greater && y_high.sign()? == Greater;
-            let x = low.union(&high);
-            let y = residual(a, k, &x).1;
-            return inside.then_some((x, y));
-        }
-        exponent += 10 + (bits / 64) as isize;
-    }
-    None
+/// Proves a root of F around a guess, inside the box.
+fn prove(a: &Interval, k: &Interval, guess: &Interval) -> Option<(Interval, Interval)> {
+    let x = enclose(&Residual { a, k }, guess)?;
+    let y = residual(a, k, &x).1;
+    let inside = x.lower().sign()? == Greater && residual(a, k, &x.upper()).1.sign()? == Greater;
+    inside.then_some((x, y))
 }
 
 /// The roots where the discriminant is exactly 0: a double root, and a simple one where neither a nor k exceeds 1/3.

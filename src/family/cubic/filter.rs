@@ -3,9 +3,9 @@
 //! Guesses (Newton's method, division, square roots) only choose where to look. What is stored rests on `+ - *` with
 //! these bounds, in units of u = 2^-53. The shader `cubic.wgsl` does the same in f32, function by function.
 
-use super::pair::Pair;
 use super::precision::{Precision, Prepared};
 use super::root::{Data, Root, Side, bernstein, bits, residual, root, sides};
+use crate::family::outer;
 use crate::num::bernstein::{Quintic, positive};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask};
@@ -102,22 +102,6 @@ fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
     let none = complex & ((k_above & a_below) | (k_below & a_above)) | rootless;
     let known = case.one | case.smaller_two | case.larger_two | case.lone | case.three | none;
     Cases { known, ..case }
-}
-
-/// Whether any spiral exists: `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1-φ0)/2)` with both factors positive (Kurnosenko).
-#[inline(always)]
-fn any_spiral<S: Simd>(simd: S, pair: &Pair, d: &Data<S>) -> (u64, u64) {
-    let e = d.precision.outer();
-    let (sin0, sin1) = (S::f64s::splat(simd, pair.sin0), S::f64s::splat(simd, pair.sin1));
-    let (room0, room1) = (sin0 - d.kappa0, d.kappa1 - sin1);
-    let (error0, error1) = ((sin0 + d.kappa0.abs()) * e, (sin1 + d.kappa1.abs()) * e);
-    let product = room0 * room1;
-    let over = product - pair.sin2_half;
-    let error = room0.abs() * error1 + room1.abs() * error0 + error0 * error1 + (product.abs() + pair.sin2_half) * e;
-    let zero = S::f64s::splat(simd, 0.0);
-    let yes = bits::<S>(over.simd_gt(error) & room0.simd_gt(zero));
-    let no = bits::<S>(over.simd_lt(-error) | room0.simd_lt(-error0) | room1.simd_lt(-error1));
-    (yes, no)
 }
 
 /// Three-valued conditions at a vector of roots.
@@ -248,7 +232,11 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
     const { assert!(S::f64s::LEN <= 8, "a plane is a byte") };
     let all = (1 << S::f64s::LEN) - 1;
     let case = cases(simd, d);
-    let (any, no) = if prepared.pair.rising { any_spiral(simd, &prepared.pair, d) } else { (0, all) };
+    let pair = &prepared.pair;
+    let (any, no) = match pair.rising {
+        true => outer::lanes(simd, &[pair.sin0, pair.sin1, pair.sin2_half], d.kappa0, d.kappa1, d.precision.outer()),
+        false => (0, all),
+    };
     let two = case.smaller_two | case.larger_two;
     let mut planes = Planes {
         flags: [case.one | case.smaller_two, 0, 0, 0, any],

@@ -76,11 +76,11 @@ impl Pair {
             r: angles.r.to_f64()?,
             g0: angles.g0.to_f64()?,
             g1: angles.g1.to_f64()?,
-            curve0: angles.g1.over(&angles.sin0)?.to_f64()?,
-            curve1: angles.g0.over(&angles.sin1)?.to_f64()?,
-            sin0: angles.sin0.to_f64()?,
-            sin1: angles.sin1.to_f64()?,
-            sin2_half: if rough.rising { angles.sin2_half.to_f64()? } else { 0.0 },
+            curve0: angles.g1.over(&angles.outer[0])?.to_f64()?,
+            curve1: angles.g0.over(&angles.outer[1])?.to_f64()?,
+            sin0: angles.outer[0].to_f64()?,
+            sin1: angles.outer[1].to_f64()?,
+            sin2_half: if rough.rising { angles.outer[2].to_f64()? } else { 0.0 },
             rising: rough.rising,
         })
     }
@@ -102,15 +102,15 @@ mod tests {
                 let Some(pair) = Pair::new(phi0, phi1) else { continue };
                 let truth = Angles::new(phi0, phi1, 320).expect("enough bits");
                 let values = [pair.p, pair.r, pair.g0, pair.g1, pair.sin0, pair.sin1];
-                let truths = [&truth.p, &truth.r, &truth.g0, &truth.g1, &truth.sin0, &truth.sin1];
+                let truths = [&truth.p, &truth.r, &truth.g0, &truth.g1, &truth.outer[0], &truth.outer[1]];
                 for (value, truth) in values.into_iter().zip(truths) {
                     worst = worst.max(units(value, truth));
                 }
                 if pair.rising {
-                    worst = worst.max(units(pair.sin2_half, &truth.sin2_half));
+                    worst = worst.max(units(pair.sin2_half, &truth.outer[2]));
                 }
-                worst = worst.max(units(pair.curve0, &truth.g1.over(&truth.sin0).expect("positive")));
-                worst = worst.max(units(pair.curve1, &truth.g0.over(&truth.sin1).expect("positive")));
+                worst = worst.max(units(pair.curve0, &truth.g1.over(&truth.outer[0]).expect("positive")));
+                worst = worst.max(units(pair.curve1, &truth.g0.over(&truth.outer[1]).expect("positive")));
                 compared += 1;
             }
         }
@@ -123,9 +123,9 @@ mod tests {
         for (phi0, phi1) in [(0.7, 1.4), (0.1, 1.5), (0.8, 0.9), (1e-9, 1.6), (0.7, 0.7000000001)] {
             let pair = Pair::precise(phi0, phi1).expect("an ordinary pair");
             let truth = Angles::new(phi0, phi1, 320).expect("enough bits");
-            let curve0 = truth.g1.over(&truth.sin0).expect("positive");
+            let curve0 = truth.g1.over(&truth.outer[0]).expect("positive");
             for (value, truth) in
-                [(pair.p, &truth.p), (pair.g1, &truth.g1), (pair.curve0, &curve0), (pair.sin2_half, &truth.sin2_half)]
+                [(pair.p, &truth.p), (pair.g1, &truth.g1), (pair.curve0, &curve0), (pair.sin2_half, &truth.outer[2])]
             {
                 worst = worst.max(units(value, truth));
             }

@@ -4,7 +4,8 @@ use super::pair::Pair;
 use super::poly::Bounds;
 use super::precision::Precision;
 use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
-use crate::family::{Shader, ShaderInputs};
+use crate::family::rows::tables;
+use crate::family::{Shader, ShaderInputs, outer};
 use crate::grid::Grid;
 
 /// Numbers of a pair in the table; the order is that of `read_pair`.
@@ -50,29 +51,20 @@ pub(super) fn shader() -> Shader {
     Shader {
         constants,
         fragments: vec![
+            outer::FRAGMENT,
             ("lib/bernstein.wgsl", include_str!("../../../shaders/lib/bernstein.wgsl")),
             ("cubic.wgsl", include_str!("../../../shaders/cubic.wgsl")),
         ],
     }
 }
 
-/// Pairs of the chunk, then the third and fourth axis.
+/// Pairs of the chunk, then the third and fourth axis; the last offset is 1 in the normalised chart.
 pub(super) fn inputs(grid: &Grid, normalised: bool, start: u64, len: u64) -> ShaderInputs {
-    let axes = grid.axes();
-    let (phi1, third, fourth) = (axes[1].values(), axes[2].values(), axes[3].values());
-    let nodes_per_pair = (third.len() * fourth.len()) as u64;
-    let (first, last) = (start / nodes_per_pair, (start + len.max(1) - 1) / nodes_per_pair);
-    let mut words = Vec::with_capacity((last - first + 1) as usize * PAIR_STRIDE + third.len() + fourth.len());
-    for pair in first..=last {
-        let (i0, i1) = ((pair / phi1.len() as u64) as usize, (pair % phi1.len() as u64) as usize);
-        words.extend(pair_words(axes[0].values()[i0], phi1[i1], normalised));
-    }
-    let third_at = words.len();
-    words.extend(third.iter().map(|v| curvature(*v)));
-    let fourth_at = words.len();
-    words.extend(fourth.iter().map(|v| curvature(*v)));
-    // The first pair's index wraps as the shader's own does.
-    ShaderInputs { words, offsets: [first as u32, third_at as u32, fourth_at as u32, u32::from(normalised)] }
+    let pair = |[phi0, phi1]: [f64; 2]| pair_words(phi0, phi1, normalised);
+    let words = |v| vec![curvature(v)];
+    let mut inputs = tables(grid, (start, len), pair, &[&words, &words]);
+    inputs.offsets[3] = u32::from(normalised);
+    inputs
 }
 
 fn curvature(value: f64) -> f32 {

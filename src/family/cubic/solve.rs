@@ -6,8 +6,9 @@ use super::precision::{Precision, Prepared};
 use super::root::{Data, bernstein};
 use super::{Code, table};
 use crate::error::{Error, Result};
-use crate::num::Interval;
+use crate::family::NO_VALUE;
 use crate::num::bernstein::{Quintic, least, least_error, least_interval};
+use crate::num::{Interval, climb};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::cmp::Ordering;
 
@@ -304,7 +305,7 @@ fn slow(datum: &ExactDatum) -> Result<Solutions> {
         }
         Some(Solutions { flags: code.flags(), roots, len: weighed.len(), chosen })
     };
-    exact::climb(datum, "a root or its margin", attempt).map(|(solutions, _)| solutions)
+    climb(datum, "a root or its margin", attempt).map(|(solutions, _)| solutions)
 }
 
 /// The scalars f0, f1, margin (0, 1, 2) of the chosen spiral of a datum that has one, each rounded to nearest f32 with proof.

@@ -4,10 +4,11 @@ use super::exact::{Ends, ExactDatum, truth};
 use super::filter::classify;
 use super::precision::{Precision, Prepared};
 use super::root::Data;
-use super::{CHARTS, Code};
+use super::{Code, Cubic};
 use crate::error::{Error, Result};
-use crate::family::{NO_VALUE, Table};
-use crate::grid::Grid;
+use crate::family::rows::{Rows, fill};
+use crate::family::{NO_VALUE, Table, chart_of};
+use crate::grid::{Grid, MAX_AXES};
 use crate::num::trig::sum_below_pi;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::f64::consts::PI;
@@ -22,11 +23,7 @@ pub(super) struct CubicTable<'g> {
 
 impl<'g> CubicTable<'g> {
     pub fn new(grid: &'g Grid, level: Level) -> Result<CubicTable<'g>> {
-        let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
-        let chart = CHARTS.iter().position(|c| c.axes == names).ok_or_else(|| {
-            let known: Vec<String> = CHARTS.iter().map(|c| c.axes.join(", ")).collect();
-            Error::Domain(format!("axes {} are no chart of `cubic`; it has: {}", names.join(", "), known.join(" | ")))
-        })?;
+        let chart = chart_of(&Cubic, grid)?;
         let (phi0, phi1) = (&grid.axes()[0], &grid.axes()[1]);
         for axis in [phi0, phi1] {
             check_angle(axis.name(), axis.values()[0])?;
@@ -41,6 +38,7 @@ impl<'g> CubicTable<'g> {
         let ends = if self.normalised { Ends::Normalised(u, v) } else { Ends::Curvature(u, v) };
         ExactDatum { phi0, phi1, ends }
     }
+}
 
     /// The scalars of a node, or none where there is no spiral.
     fn fill(&self, node: u64, code: Code, out: &mut [f32], by: impl Fn(&ExactDatum, &mut [f32]) -> Result<()>) -> Result<()> {
@@ -50,52 +48,28 @@ impl<'g> CubicTable<'g> {
         }
         by(&self.datum(node), out)
     }
+}
 
-    /// Fills the nodes of one row: all share the first three coordinates, the last runs over `last`.
-    #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, prepared: &Prepared, third: f64, last: &[f64], out: &mut [Code]) {
-        let pair = &prepared.pair;
-        let third = S::f64s::splat(simd, third);
-        let (curve0, curve1) = (S::f64s::splat(simd, pair.curve0), S::f64s::splat(simd, pair.curve1));
-        // A constant here, so that every bound folds into one.
-        let (width, precision) = (S::f64s::LEN, Precision::F64);
-        let mut padded = [0.0; 8];
-        for (values, codes) in last.chunks(width).zip(out.chunks_mut(width)) {
-            let fourth = if values.len() == width {
-                S::f64s::from_slice(simd, values)
-            } else {
-                // The last lanes repeat the row's last value; their codes are dropped.
-                padded[..values.len()].copy_from_slice(values);
-                padded[values.len()..width].fill(values[values.len() - 1]);
-                S::f64s::from_slice(simd, &padded[..width])
-            };
-            let data = if self.normalised {
-                Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1, precision }
-            } else {
-                Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth, precision }
-            };
-            classify(simd, prepared, &data).store(codes);
-        }
+impl Rows for CubicTable<'_> {
+    type Constants = Prepared;
+    const ANGLES: usize = 2;
+
+    fn constants(&self, [phi0, phi1, ..]: &[f64; MAX_AXES]) -> Option<Prepared> {
+        Prepared::new(*phi0, *phi1)
     }
 
     #[inline(always)]
-    fn rows<S: Simd>(&self, simd: S, start: u64, out: &mut [Code]) {
-        let axes = self.grid.axes();
-        let last = axes[3].values();
-        let mut done = 0;
-        let mut angles = None;
-        while done < out.len() {
-            let [i0, i1, i2, i3] = self.grid.index(start + done as u64);
-            let length = (last.len() - i3).min(out.len() - done);
-            let (codes, values) = (&mut out[done..done + length], &last[i3..i3 + length]);
-            if angles.is_none_or(|(at, _)| at != (i0, i1)) {
-                angles = Some(((i0, i1), Prepared::new(axes[0].values()[i0], axes[1].values()[i1])));
-            }
-            match angles {
-                Some((_, Some(prepared))) => self.row(simd, &prepared, axes[2].values()[i2], values, codes),
-                _ => codes.fill(Code::UNDECIDED),
-            }
-            done += length;
+    fn codes<S: Simd>(&self, simd: S, prepared: &Prepared, node: &[f64; MAX_AXES], fourth: S::f64s, out: &mut [Code]) {
+        let third = S::f64s::splat(simd, node[2]);
+        let (curve0, curve1) = (S::f64s::splat(simd, prepared.pair.curve0), S::f64s::splat(simd, prepared.pair.curve1));
+        // A constant here, so that every bound folds into one.
+        let precision = Precision::F64;
+        let data = if self.normalised {
+            Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1, precision }
+        } else {
+            Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth, precision }
+        };
+        classify(simd, prepared, &data).store(out);
         }
     }
 }
@@ -119,7 +93,7 @@ pub(super) fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
 
 impl Table for CubicTable<'_> {
     fn filter(&self, start: u64, out: &mut [Code]) {
-        dispatch!(self.level, simd => self.rows(simd, start, out));
+        dispatch!(self.level, simd => fill(simd, self, self.grid, start, out));
     }
 
     fn exact(&self, node: u64) -> Result<(Code, usize)> {

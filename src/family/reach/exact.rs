@@ -3,15 +3,9 @@
 use super::angle::{ExactAngle, factors};
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{EXACT, EXISTS, Kind, PAPER, THEOREM};
-use crate::error::{Error, Result};
 use crate::num::Interval;
 use crate::num::bernstein::{MOST_HALVINGS, positive};
 use std::cmp::Ordering::{Equal, Greater, Less};
-
-/// Precision of the first try, in bits.
-const FIRST_BITS: usize = 128;
-/// Documented cap: a verdict still open here is an error.
-pub(super) const MOST_BITS: usize = 16384;
 
 /// The segment of a case: `u`, `m > 0`.
 #[derive(Debug, Clone)]
@@ -25,23 +19,6 @@ impl Shape {
     pub fn q(&self, angle: &ExactAngle) -> Option<Interval> {
         angle.length.over(&self.u)
     }
-}
-
-/// Runs `attempt` with doubling precision until it succeeds; returns the bits that were needed.
-pub(super) fn climb<T>(coordinates: &str, what: &str, attempt: impl Fn(usize) -> Option<T>) -> Result<(T, usize)> {
-    let mut bits = FIRST_BITS;
-    while bits <= MOST_BITS {
-        if let Some(found) = attempt(bits) {
-            return Ok((found, bits));
-        }
-        bits *= 2;
-    }
-    Err(Error::Undecided { node: "-".into(), coordinates: coordinates.into(), what: what.into(), bits: MOST_BITS })
-}
-
-/// An end point in words, for errors.
-pub(super) fn place([theta, xi, eta]: &[f64; 3]) -> String {
-    format!("theta = {theta:?}, xi = {xi:?}, eta = {eta:?}")
 }
 
 /// One attempt at one case (0 or 1): its bits and its segment; `None` when something is undecided at this precision.

@@ -4,6 +4,7 @@ use super::angle::Angle;
 use super::filter::{Precision, SMALL, least_drawn_m};
 use super::poly::{LEAST_M, MONOTONE_M};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
+use crate::family::rows::tables;
 use crate::family::{Code, Shader, ShaderInputs};
 use crate::grid::Grid;
 
@@ -65,19 +66,8 @@ pub(super) fn shader(kind: Kind) -> Shader {
 
 /// Angles of the chunk, then the axes of ξ and η.
 pub(super) fn inputs(kind: Kind, grid: &Grid, start: u64, len: u64) -> ShaderInputs {
-    let axes = grid.axes();
-    let (theta, xi, eta) = (axes[0].values(), axes[1].values(), axes[2].values());
-    let nodes_per_angle = (xi.len() * eta.len()) as u64;
-    let (first, last) = (start / nodes_per_angle, (start + len.max(1) - 1) / nodes_per_angle);
-    let mut words = Vec::with_capacity((last - first + 1) as usize * ANGLE_STRIDE + xi.len() + eta.len());
-    for theta in &theta[first as usize..=last as usize] {
-        words.extend(angle_words(kind, *theta));
-    }
-    let xi_at = words.len();
-    words.extend(xi.iter().map(|v| coordinate(*v)));
-    let eta_at = words.len();
-    words.extend(eta.iter().map(|v| coordinate(*v)));
-    ShaderInputs { words, offsets: [first as u32, xi_at as u32, eta_at as u32, 0] }
+    let words = |v| vec![coordinate(v)];
+    tables(grid, (start, len), |[theta]| angle_words(kind, theta), &[&words, &words])
 }
 
 fn coordinate(value: f64) -> f32 {

@@ -1,12 +1,12 @@
 //! The exact answer for one end point: the segments of both cases and how far each is proved.
 
 use super::angle::{Angle, ExactAngle, check};
-use super::exact::{Shape, climb, judge, judge_shape, place};
+use super::exact::{Shape, judge, judge_shape};
 use super::filter::{Near, shape, sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::error::{Error, Result};
 use crate::family::{Code, NO_VALUE};
-use crate::num::Interval;
+use crate::num::{Interval, climb};
 use fearless_simd::{Level as SimdLevel, Simd, SimdBase, dispatch};
 
 /// An end point in units of the given radius r; the start is (0, 0) along (1, 0).
@@ -18,6 +18,12 @@ pub struct Datum {
     pub xi: f64,
     /// End point over r, to the left of it.
     pub eta: f64,
+}
+
+impl From<[f64; 3]> for Datum {
+    fn from([theta, xi, eta]: [f64; 3]) -> Datum {
+        Datum { theta, xi, eta }
+    }
 }
 
 /// How much is true of a segment; each level contains the next.
@@ -92,7 +98,7 @@ pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
             let q = shape.q(&*ExactAngle::cached(kind, theta, bits)?)?;
             Some(Some(Segment { m: shape.m.to_f64()?, q: q.to_f64()?, level: level(flags) }))
         };
-        let (segment, _) = climb(&place(&datum), "a segment", attempt)?;
+        let (segment, _) = climb(&Datum::from(datum), "a segment", attempt)?;
         match segment {
             Some(s) if !(s.m.is_finite() && s.q.is_finite()) => Err(Error::Domain(format!(
                 "the segment to xi = {xi:?}, eta = {eta:?} at theta = {theta:?} has m = {}, q = {}, beyond the range of doubles",
@@ -121,7 +127,7 @@ pub fn level_of_shape(kind: Kind, theta: f64, m: f64, q: f64) -> Result<Level> {
         let u = angle.length.over(&Interval::new(q, bits))?;
         judge_shape(kind, &angle, &Shape { u, m: Interval::new(m, bits) })
     };
-    climb(&format!("theta = {theta:?}, m = {m:?}, q = {q:?}"), "a segment's level", attempt).map(|(flags, _)| level(flags))
+    climb(&format_args!("theta = {theta:?}, m = {m:?}, q = {q:?}"), "a segment's level", attempt).map(|(flags, _)| level(flags))
 }
 
 fn level(flags: u8) -> Level {
@@ -166,7 +172,7 @@ fn from_intervals(
                     let value = if of_q { shape.q(&*ExactAngle::cached(kind, datum[0], bits)?)? } else { shape.m };
                     single(&value)
                 };
-                climb(&place(&datum), "a scalar", attempt)?.0
+                climb(&Datum::from(datum), "a scalar", attempt)?.0
             }
         };
     }

@@ -1,0 +1,188 @@
+//! The spiral between two ends that is the Möbius image of an involute of a circle (Kurnosenko 2026): any ends that some
+//! spiral joins, short or long, with increasing or decreasing curvature, with or without an inflection.
+//!
+//! ```
+//! use spiral_atlas::curve::{Chord, involute};
+//!
+//! // Fig. 5: the circles of curvature at the ends are concentric, with radii 2 : 1.
+//! let (k, pi) = (0.75f64.sqrt() / 2.0, std::f64::consts::PI);
+//! let chord = Chord { alpha: -2.0 * pi / 3.0, beta: pi, k1: k, k2: 2.0 * k };
+//! let found = involute(&chord, [0, 0])?;
+//! let curve = found.curve().expect("Q < 0 and omega = 30 degrees");
+//! assert!((curve.theta() - 2.478559516339784).abs() < 1e-12);
+//! assert!((curve.at(0.5).curvature - 0.5) > 0.0);
+//! # Ok::<(), spiral_atlas::Error>(())
+//! ```
+
+mod half;
+mod solve;
+mod turns;
+
+pub use solve::{Involute, InvolutePoint};
+pub use turns::Split;
+
+use super::placement::Ends;
+use super::vector::{Vector, add, turn};
+use crate::error::{Error, Result};
+use crate::family::any_spiral::Datum;
+use serde::Serialize;
+use std::f64::consts::PI;
+use std::fmt;
+
+/// Most turns about one end.
+const MOST_TURNS: u32 = 1000;
+
+/// Two ends seen from their chord: the curve starts at (-1, 0) and ends at (1, 0).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Chord {
+    /// Direction at the start, counter-clockwise from the chord, radians, -π to π.
+    pub alpha: f64,
+    /// Direction at the end.
+    pub beta: f64,
+    /// Signed curvature at the start times half the chord, positive to the left.
+    pub k1: f64,
+    /// Signed curvature at the end times half the chord.
+    pub k2: f64,
+}
+
+/// What is known of two ends and the turns that were asked for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Spiral {
+    /// The ends.
+    pub chord: Chord,
+    /// Turns about start and end that were asked for.
+    pub turns: [u32; 2],
+    /// `(k1 + sin α)(k2 - sin β) + sin²((α + β)/2)`: an invariant of the two circles of curvature, negative where they are disjoint.
+    pub q: f64,
+    /// `(α + β)/2`, and π for each turn, with the sign of k2 - k1; radians.
+    pub omega: f64,
+    /// The curve, or why there is none.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// Whether there is a spiral.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// The involute's image.
+    Curve {
+        /// The curve.
+        curve: Involute,
+        /// Whether it turns about its ends as asked.
+        split: Split,
+    },
+    /// No spiral of any kind joins the ends with so many turns.
+    None(WhyNone),
+}
+
+/// Why no spiral of any kind joins two ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WhyNone {
+    /// `k1 = k2`: the curvature can only stay as it is.
+    SameCurvature,
+    /// ω has not the sign of k2 - k1.
+    WrongSide,
+    /// Q > 0: the circles of curvature at the ends cross.
+    CirclesCross,
+    /// Q = 0: they touch, and only a curve of two arcs joins the ends.
+    CirclesTouch,
+}
+
+impl Spiral {
+    /// The curve, if there is one.
+    pub fn curve(&self) -> Option<&Involute> {
+        match &self.outcome {
+            Outcome::Curve { curve, .. } => Some(curve),
+            Outcome::None(_) => None,
+        }
+    }
+}
+
+/// Finds the involute's image between two ends with `turns[0]` turns about the start and `turns[1]` about the end (0, 0: a short
+/// spiral, which meets the line of the chord outside the chord nowhere inside). Only their sum is sure to be had:
+/// [`Outcome::Curve`] says whether the split is as asked.
+///
+/// Directions of exactly ±π (the double) are a half turn: they count as π where the curvature increases and as -π where it
+/// decreases, as (1) in the paper has it.
+///
+/// # Accuracy
+/// Existence is proved for the doubles given. θ, t0 and the factors of the map are correctly rounded from intervals; see
+/// [`Involute::at`] for points.
+///
+/// # Errors
+/// [`Error::Domain`] for a value that is not finite, an angle beyond ±π, a curvature beyond 1e100 or more than 1000 turns;
+/// [`Error::Undecided`] at the precision cap.
+///
+/// # Source
+/// Kurnosenko, arXiv 2603.29596, (2) to (6), with the sign of z0 in (6) corrected.
+pub fn involute(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
+    for (name, angle) in [("alpha", chord.alpha), ("beta", chord.beta)] {
+        if angle.is_nan() || angle.abs() > PI {
+            return Err(Error::Domain(format!("{name} is {angle:?}; it must be -pi to pi (radians)")));
+        }
+    }
+    for (name, k) in [("k1", chord.k1), ("k2", chord.k2)] {
+        if k.is_nan() || k.abs() > 1e100 {
+            return Err(Error::Domain(format!("{name} is {k:?}; it must be at most 1e100 in magnitude (times half the chord)")));
+        }
+    }
+    if let Some(n) = turns.iter().find(|n| **n > MOST_TURNS) {
+        return Err(Error::Domain(format!("{n} turns about an end are asked for; at most {MOST_TURNS} can be had")));
+    }
+    solve::solve(chord, turns)
+}
+
+impl Chord {
+    fn datum(&self) -> Datum {
+        let Chord { alpha, beta, k1, k2 } = *self;
+        Datum { alpha, beta, k1, k2 }
+    }
+}
+
+/// [`involute`] for ends anywhere in the plane, with what places the result there.
+///
+/// # Errors
+/// Those of [`involute`], and [`Error::Domain`] for coincident ends or lengths outside the range of doubles.
+pub fn involute_between(ends: &Ends, turns: [u32; 2]) -> Result<(Spiral, Frame)> {
+    let (chord, half_chord) = ends.chord()?;
+    Ok((involute(&chord, turns)?, Frame { start: ends.start, end: ends.end, half_chord }))
+}
+
+/// How the chord's frame lies in the user's.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Frame {
+    /// Image of (-1, 0).
+    pub start: [f64; 2],
+    /// Image of (1, 0).
+    pub end: [f64; 2],
+    /// Half the chord as a vector.
+    pub half_chord: [f64; 2],
+}
+
+impl Frame {
+    /// A point of the chord's frame in the user's; the ends are met exactly, and others seen from the nearer one.
+    pub fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let (near, origin): (Vector, f64) = if x <= 0.0 { (self.start, -1.0) } else { (self.end, 1.0) };
+        add(near, turn(self.half_chord, [x - origin, y]))
+    }
+}
+
+impl fmt::Display for WhyNone {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            WhyNone::SameCurvature => "the curvatures at both ends are the same, so that it could neither rise nor fall",
+            WhyNone::WrongSide => {
+                "omega, half the sum of the end directions and turns, has not the sign of k2 - k1: a spiral of rising curvature \
+                 bulges to the right at its start, and ever more to the left"
+            }
+            WhyNone::CirclesCross => {
+                "Q > 0: the circles of curvature at the ends cross, but those of a spiral lie apart or one in the other"
+            }
+            WhyNone::CirclesTouch => {
+                "Q = 0: the circles of curvature at the ends touch, so that only a curve of two arcs joins them"
+            }
+        })
+    }
+}

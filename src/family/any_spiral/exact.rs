@@ -1,0 +1,140 @@
+//! The top of the ladder for any spiral: intervals of growing precision.
+
+use super::arc::Equation;
+use super::fast::Fast;
+use super::pair::{Pair, side};
+use super::{Code, EXISTS, INFLECTION, RISING};
+use crate::error::Result;
+use crate::family::{NO_VALUE, outer};
+use crate::num::trig::two_sum;
+use crate::num::{Interval, climb};
+
+/// Angles against the chord and curvatures times half the chord, taken as exact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Datum {
+    pub alpha: f64,
+    pub beta: f64,
+    pub k1: f64,
+    pub k2: f64,
+}
+
+/// Scalars beyond this are stored as this: f32 ends soon after.
+const MOST: f32 = 1e38;
+
+/// The flags that plain comparisons decide, given whether a spiral exists.
+pub(super) fn flags(exists: bool, k1: f64, k2: f64) -> u8 {
+    let inflection = k1 < 0.0 && k2 > 0.0 || k1 > 0.0 && k2 < 0.0;
+    let set = |condition: bool, flag: u8| if condition { flag } else { 0 };
+    set(exists, EXISTS) | set(k1 < k2, RISING) | set(exists && inflection, INFLECTION)
+}
+
+impl Datum {
+    /// The data seen in a mirror along the chord.
+    pub fn mirrored(self) -> Datum {
+        Datum { alpha: -self.alpha, beta: -self.beta, k1: -self.k1, k2: -self.k2 }
+    }
+
+    /// Proves all flags; returns the bits that were needed.
+    ///
+    /// With `k1 ≠ k2` and `α + β ≠ 0` Q is never 0, so that some precision suffices: expanded, Q is a sum of `e^(±iα)`, `e^(±iβ)`,
+    /// `e^(±i(α-β))` and 1 with rational factors, that of `cos(α - β)` being -1/2, and by Lindemann and Weierstrass such a sum
+    /// is 0 only if all terms cancel, which needs α = β; then `Q = k1 k2 + (k2 - k1) sin α`, and `k1 k2 = k2 - k1 = 0`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Undecided`] at the precision cap.
+    pub fn code(&self) -> Result<(Code, usize)> {
+        let code = |exists| Code::new(flags(exists, self.k1, self.k2), 0);
+        let side = side(self.alpha, self.beta);
+        if side == 0.0 || side * self.k1 >= side * self.k2 {
+            return Ok((code(false), 0));
+        }
+        let this = if side < 0.0 { self.mirrored() } else { *self };
+        let (exists, bits) = climb(self, "the existence of a spiral", |bits| {
+            let (sin0, sin1, square) = this.sines(bits);
+            outer::holds(&[-&sin0, sin1, square], &Interval::new(this.k1, bits), &Interval::new(this.k2, bits))
+        })?;
+        Ok((code(exists), bits))
+    }
+
+    /// sin α, sin β, sin² ω.
+    fn sines(&self, bits: usize) -> (Interval, Interval, Interval) {
+        let ((sin0, cos0), (sin1, cos1)) = (Interval::sin_cos(self.alpha, bits), Interval::sin_cos(self.beta, bits));
+        // sin² ω = (1 - cos 2ω)/2; a sum of exactly 0 must give exactly 0.
+        let square = match side(self.alpha, self.beta) {
+            0.0 => Interval::new(0.0, bits),
+            _ => (&(&sin0 * &sin1) - &(&cos0 * &cos1)).plus(1.0).scale(0.5),
+        };
+        (sin0, sin1, square)
+    }
+
+    /// Q; where it is rational it comes out exactly.
+    pub fn q(&self, bits: usize) -> Interval {
+        let (k1, k2) = (Interval::new(self.k1, bits), Interval::new(self.k2, bits));
+        let (sin0, sin1, square) = self.sines(bits);
+        if self.alpha == self.beta {
+            return &(&k1 * &k2) + &(&(&k2 - &k1) * &sin0);
+        }
+        &(&(&k1 + &sin0) * &(&k2 - &sin1)) + &square
+    }
+
+    /// `(α + β)/2`.
+    pub fn omega(&self, bits: usize) -> Interval {
+        (&Interval::new(self.alpha, bits) + &Interval::new(self.beta, bits)).scale(0.5)
+    }
+
+    /// Q, ω, θ, t0 (0 to 3), each rounded to nearest f32 with proof.
+    ///
+    /// # Errors
+    /// [`crate::Error::Undecided`] at the precision cap.
+    pub fn scalars(&self, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+        let fast = Pair::new(self.alpha, self.beta).map(|pair| Fast::new(self, &pair));
+        self.fill(code, which, out, |which| match (which, &fast) {
+            (1, _) => self.rounded_omega(),
+            (_, fast) => fast.as_ref()?.scalar(which),
+        })
+    }
+
+    /// The same by intervals alone.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn exact_scalars(&self, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+        self.fill(code, which, out, |_| None)
+    }
+
+    /// Each scalar from doubles, where they can prove it, or from intervals.
+    fn fill(&self, code: Code, which: &[usize], out: &mut [f32], fast: impl Fn(usize) -> Option<f32>) -> Result<()> {
+        for (slot, which) in out.iter_mut().zip(which) {
+            *slot = if *which >= 2 && code.flags() & EXISTS == 0 {
+                NO_VALUE
+            } else {
+                let value = match fast(*which) {
+                    Some(value) => value,
+                    None => climb(self, "a scalar", |bits| self.scalar(*which, bits))?.0,
+                };
+                value.clamp(-MOST, MOST)
+            };
+        }
+        Ok(())
+    }
+
+    /// ω where the sum of the angles is a double: halving is exact, or the result underflows f32 anyway.
+    fn rounded_omega(&self) -> Option<f32> {
+        let (sum, low) = two_sum(self.alpha, self.beta);
+        (low == 0.0).then_some((0.5 * sum) as f32 + 0.0)
+    }
+
+    fn scalar(&self, which: usize, bits: usize) -> Option<f32> {
+        let q = self.q(bits);
+        if which == 0 {
+            return q.to_f32();
+        }
+        let omega = self.omega(bits);
+        if which == 1 {
+            return omega.to_f32();
+        }
+        let omega = if omega.approx() < 0.0 { -&omega } else { omega };
+        let arc = Equation::new(-&q, omega).solve()?;
+        if which == 2 { &arc.theta } else { &arc.t0 }.to_f32()
+    }
+}

@@ -1,0 +1,101 @@
+//! Any spiral at all: whether some curve of monotone curvature joins two ends, and the involute that does (Kurnosenko 2026).
+
+mod arc;
+mod exact;
+mod fast;
+mod pair;
+#[cfg(feature = "gpu")]
+mod shader;
+mod shape;
+mod table;
+
+pub(crate) use arc::{Arc, Equation};
+pub(crate) use exact::Datum;
+pub(crate) use shape::Shape;
+
+use super::{Chart, Code, Count, Family, Flag, Scalar, Table};
+use crate::error::Result;
+use crate::grid::Grid;
+
+/// The family of all spirals.
+#[derive(Debug, Clone, Copy)]
+pub struct AnySpiral;
+
+/// Bit of EXISTS.
+pub const EXISTS: u8 = 1;
+/// Bit of RISING.
+pub const RISING: u8 = 1 << 1;
+/// Bit of INFLECTION.
+pub const INFLECTION: u8 = 1 << 2;
+
+const FLAGS: &[Flag] = &[
+    Flag {
+        name: "EXISTS",
+        label: "some spiral",
+        doc: "some short spiral has these ends: Q < 0, and omega has the sign of k2 - k1, which is not 0; necessary and sufficient",
+    },
+    Flag { name: "RISING", label: "k1 < k2", doc: "k1 < k2: the curvature of a spiral with these ends increases (M = 1)" },
+    Flag {
+        name: "INFLECTION",
+        label: "with an inflection",
+        doc: "EXISTS, and k1 and k2 have opposite signs: every such spiral has an inflection strictly inside",
+    },
+];
+
+const SCALARS: &[Scalar] = &[
+    Scalar {
+        name: "Q",
+        doc: "(k1 + sin alpha)(k2 - sin beta) + sin^2((alpha + beta)/2), no unit; at every node; beyond +-1e38 stored as +-1e38",
+    },
+    Scalar { name: "omega", doc: "(alpha + beta)/2, radians; at every node" },
+    Scalar {
+        name: "theta",
+        doc: "half the range of the involute's parameter on the arc with the same Q and omega, radians, in (0, 4.5); where EXISTS",
+    },
+    Scalar { name: "t0", doc: "middle of that range, radians, above theta; where EXISTS; beyond 1e38 stored as 1e38" },
+];
+
+const CHARTS: &[Chart] = &[
+    Chart {
+        name: "chord",
+        axes: &["alpha", "beta", "k1", "k2"],
+        doc: "alpha, beta: directions at start and end against the chord, radians, counter-clockwise, from -pi to pi; k1, k2: signed end curvatures times half the chord",
+    },
+    Chart {
+        name: "curvature",
+        axes: &["phi0", "phi1", "kappa0", "kappa1"],
+        doc: "the axes of `cubic`: phi0 = -alpha, phi1 = beta, radians, each from -pi to pi; kappa0 = k1, kappa1 = k2",
+    },
+];
+
+impl Family for AnySpiral {
+    fn name(&self) -> &'static str {
+        "any-spiral"
+    }
+    fn title(&self) -> &'static str {
+        "spirals of any kind between two ends, and the involute that makes one (Kurnosenko)"
+    }
+    fn charts(&self) -> &'static [Chart] {
+        CHARTS
+    }
+    fn conventions(&self) -> &'static str {
+        "end points (-1, 0) and (1, 0); directions alpha and beta in radians, counter-clockwise from the chord; curvature positive to the left, \
+         increasing or decreasing along the curve; short spirals: no point strictly inside the curve lies on the chord's line outside the chord; \
+         the doubles nearest to +-pi lie just inside, so a half turn of falling curvature is written with the other sign than one of rising curvature"
+    }
+    fn flags(&self) -> &'static [Flag] {
+        FLAGS
+    }
+    fn nested(&self) -> &'static [&'static str] {
+        &["EXISTS", "INFLECTION"]
+    }
+    fn counts(&self) -> &'static [Count] {
+        &[]
+    }
+    fn scalars(&self) -> &'static [Scalar] {
+        SCALARS
+    }
+    fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
+        Ok(Box::new(table::AnyTable::new(grid)?))
+    }
+}
