@@ -37,7 +37,7 @@
 
 mod raw;
 
-pub use raw::parse_angle;
+pub use raw::{is_angle, parse_angle, parse_coordinate};
 
 use crate::atlas::Lookup;
 use crate::error::{Error, Result};

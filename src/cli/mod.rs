@@ -6,6 +6,7 @@
 mod adapters;
 mod backend;
 mod curve;
+mod datum;
 mod generate;
 mod info;
 mod output;

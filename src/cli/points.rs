@@ -3,21 +3,20 @@
 //! Rows are numbers, so a row is a line: a stray quotation mark spoils its own row alone, never the rest of the file.
 
 use super::Outcome;
+use super::datum::{Header, columns};
 use super::output::{json_error, stdout_error};
 use super::query::Answer;
 use spiral_atlas::atlas::Atlas;
-use spiral_atlas::family::cubic::Datum;
-use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::family::Family;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::Path;
 
 /// Longest line in bytes; no line of numbers comes near.
 const MAX_LINE: usize = 1 << 16;
-const COLUMNS: [&str; 4] = ["phi0", "phi1", "kappa0", "kappa1"];
 
 /// Answers for every row of a file, or of standard input for `-`.
-pub fn run(path: &Path, atlas: Option<&Atlas>) -> Result<Outcome> {
+pub fn run(family: &'static dyn Family, path: &Path, atlas: Option<&Atlas>) -> Result<Outcome> {
     let io = |source| Error::Io { path: path.to_owned(), source };
     let input: Box<dyn Read> =
         if path == Path::new("-") { Box::new(io::stdin()) } else { Box::new(std::fs::File::open(path).map_err(io)?) };
@@ -28,11 +27,11 @@ pub fn run(path: &Path, atlas: Option<&Atlas>) -> Result<Outcome> {
                 return Err(Error::Domain(format!(
                     "{}: it is empty; its first line must be {}",
                     path.display(),
-                    COLUMNS.join(",")
+                    columns(family)
                 )));
             }
             Some(Ok(line)) if line.trim().is_empty() => {}
-            Some(line) => break line.and_then(Header::parse),
+            Some(line) => break line.and_then(|line| Header::parse(family, line)),
         }
     };
     let header = header.map_err(|what| Error::Domain(format!("{}: line {}: {what}", path.display(), lines.number)))?;
@@ -48,7 +47,7 @@ pub fn run(path: &Path, atlas: Option<&Atlas>) -> Result<Outcome> {
             None => break,
             Some(Ok(line)) if line.trim().is_empty() => continue,
             Some(line) => {
-                line.and_then(|line| header.datum(line)).and_then(|d| Answer::new(&d, atlas).map_err(|e| e.to_string()))
+                line.and_then(|line| header.datum(line)).and_then(|d| Answer::new(family, d, atlas).map_err(|e| e.to_string()))
             }
         };
         let mut text = match answer {
@@ -119,67 +118,12 @@ impl Lines {
     }
 }
 
-/// Where the columns are.
-#[derive(Debug, PartialEq)]
-struct Header {
-    places: [usize; 4],
-    count: usize,
-}
-
-impl Header {
-    fn parse(line: &str) -> std::result::Result<Header, String> {
-        let cells: Vec<&str> = cells(line.trim_start_matches('\u{feff}')).collect();
-        let mut places = [0; 4];
-        for (place, column) in places.iter_mut().zip(COLUMNS) {
-            let mut found = cells.iter().enumerate().filter(|(_, cell)| **cell == column);
-            *place = match (found.next(), found.next()) {
-                (Some((i, _)), None) => i,
-                (Some(_), Some(_)) => return Err(format!("the header has two columns `{column}`")),
-                (None, _) => {
-                    return Err(format!("the header is {:?}; it must have the columns {}", line.trim(), COLUMNS.join(",")));
-                }
-            };
-        }
-        Ok(Header { places, count: cells.len() })
-    }
-
-    fn datum(&self, line: &str) -> std::result::Result<Datum, String> {
-        let count = cells(line).count();
-        if count != self.count {
-            return Err(format!("the row has {count} values; the header has {}", self.count));
-        }
-        let cell = |i: usize| cells(line).nth(self.places[i]).unwrap_or_default();
-        let angle = |i| parse_angle(cell(i)).map_err(|e| format!("{}: {e}", COLUMNS[i]));
-        let number = |i| cell(i).parse::<f64>().map_err(|_| format!("{}: {:?} is no number", COLUMNS[i], cell(i)));
-        Ok(Datum { phi0: angle(0)?, phi1: angle(1)?, kappa0: number(2)?, kappa1: number(3)? })
-    }
-}
-
-/// The cells of a line, without blanks and quotation marks around them.
-fn cells(line: &str) -> impl Iterator<Item = &str> {
-    line.split(',').map(|cell| cell.trim().trim_matches('"').trim())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn lines(text: &[u8]) -> Lines {
         Lines { input: BufReader::new(Box::new(io::Cursor::new(text.to_vec()))), number: 0, line: Vec::new() }
-    }
-
-    #[test]
-    fn headers_say_where_columns_are() {
-        let plain = Header::parse("phi0,phi1,kappa0,kappa1\r\n").unwrap();
-        assert_eq!(plain, Header { places: [0, 1, 2, 3], count: 4 });
-        let other = Header::parse("\u{feff}\"kappa1\", id ,phi1,\"phi0\",kappa0").unwrap();
-        assert_eq!(other, Header { places: [3, 2, 4, 0], count: 5 });
-        let datum = other.datum("4,\"x\",90deg,0.7 , \"-0.4\"").unwrap();
-        assert_eq!([datum.phi0, datum.phi1, datum.kappa0, datum.kappa1], [0.7, std::f64::consts::FRAC_PI_2, -0.4, 4.0]);
-        assert!(Header::parse("phi0,phi1,kappa0,kapa1").unwrap_err().contains("kapa1"));
-        assert!(Header::parse("phi0,phi1,kappa0,kappa1,phi0").unwrap_err().contains("two columns"));
-        assert!(plain.datum("1,2,3").unwrap_err().contains("3 values"));
-        assert!(plain.datum("1,2,3deg,4").unwrap_err().contains("kappa0: \"3deg\""));
     }
 
     #[test]

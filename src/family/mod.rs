@@ -2,14 +2,17 @@
 //!
 //! Adding one touches `family/<name>.rs`, `shaders/<name>.wgsl`, a recipe, tests, and the list in [`all`].
 
+mod answer;
 pub mod any_spiral;
 pub mod cubic;
 mod outer;
 pub mod reach;
 mod rows;
 
+pub use answer::{Answer, Value, Values};
+
 use crate::error::{Error, Result};
-use crate::grid::Grid;
+use crate::grid::{Axis, Grid, Spacing};
 
 /// The stored verdicts of one node: flags in the low byte, packed counts in the high byte.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -112,6 +115,11 @@ pub trait Family: Sync {
     /// # Errors
     /// [`crate::Error::Domain`], naming the axis, when the axes are no chart of this family or leave its domain.
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>>;
+    /// The exact answer for one datum, with its curves: coordinates as the axes of the chart with this index.
+    ///
+    /// # Errors
+    /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
+    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer>;
 }
 
 /// Which of a family's charts a grid has, as an index into [`Family::charts`].
@@ -121,6 +129,21 @@ fn chart_of(family: &dyn Family, grid: &Grid) -> Result<usize> {
         let known: Vec<String> = family.charts().iter().map(|c| c.axes.join(", ")).collect();
         Error::Domain(format!("axes {} are no chart of `{}`; it has: {}", names.join(", "), family.name(), known.join(" | ")))
     })
+}
+
+/// A datum with as many coordinates as it must have.
+fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
+    point.try_into().map_err(|_| Error::Domain(format!("the datum has {} coordinates; it must have {N}", point.len())))
+}
+
+/// The code of one datum, as a grid of one node has it.
+fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
+    let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
+    let grid = Grid::new(family.charts()[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
+    let table = family.table(&grid)?;
+    let mut code = [Code::UNDECIDED];
+    table.filter(0, &mut code);
+    if code[0] == Code::UNDECIDED { Ok(table.exact(0)?.0) } else { Ok(code[0]) }
 }
 
 /// A family on one grid.

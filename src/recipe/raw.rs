@@ -122,8 +122,19 @@ pub(super) fn unknown(what: &str, given: &str, known: &[&str]) -> String {
 }
 
 /// Whether the axes of this name are angles.
-fn is_angle(axis: &str) -> bool {
+pub fn is_angle(axis: &str) -> bool {
     ["alpha", "beta", "phi", "theta"].iter().any(|start| axis.starts_with(start))
+}
+
+/// Reads a coordinate of an axis: an angle as [`parse_angle`], or a number.
+///
+/// # Errors
+/// [`Error::Domain`], naming the axis and the text.
+pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
+    if is_angle(axis) {
+        return parse_angle(text).map_err(|e| Error::Domain(format!("{axis}: {e}")));
+    }
+    text.trim().parse().map_err(|_| Error::Domain(format!("{axis}: {text:?} is no number")))
 }
 
 /// Reads an angle: `40deg`, `0.7rad`, or radians alone, `0.7`.

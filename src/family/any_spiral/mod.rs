@@ -13,7 +13,8 @@ pub(crate) use arc::{Arc, Equation};
 pub(crate) use exact::Datum;
 pub(crate) use shape::Shape;
 
-use super::{Chart, Code, Count, Family, Flag, Scalar, Table};
+use super::{Answer, Chart, Code, Count, Family, Flag, Scalar, Table, coordinates, verdict};
+use crate::curve::{Chord, Involute, involute};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -97,5 +98,24 @@ impl Family for AnySpiral {
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::AnyTable::new(grid)?))
+    }
+    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+        let code = verdict(self, chart, point)?;
+        let [first, beta, k1, k2] = *coordinates(point)?;
+        let found = involute(&Chord { alpha: if chart == 0 { first } else { -first }, beta, k1, k2 }, [0, 0])?;
+        let other = CHARTS[1 - chart].axes.iter().zip([-first, beta, k1, k2]);
+        let invariants = [("Q", found.q), ("omega", found.omega)];
+        let solution = |curve: &Involute| {
+            let [rho, lambda] = curve.map();
+            let values =
+                [("theta", curve.theta()), ("t0", curve.t0()), ("rho", rho), ("lambda", lambda), ("length", curve.length())];
+            values.map(|(name, x)| (name, x.into())).to_vec()
+        };
+        Ok(Answer {
+            code,
+            derived: other.map(|(name, x)| (*name, x)).chain(invariants).map(|(name, x)| (name, x.into())).collect(),
+            solutions: found.curve().map(solution).into_iter().collect(),
+            chosen: found.curve().map(|_| 0),
+        })
     }
 }

@@ -13,7 +13,7 @@ mod table;
 
 pub use solve::{Datum, Root, Solutions, solve};
 
-use super::{Chart, Code, Count, Family, Flag, Scalar, Table};
+use super::{Answer, Chart, Code, Count, Family, Flag, Scalar, Table, coordinates};
 use crate::error::Result;
 use crate::grid::Grid;
 use fearless_simd::Level;
@@ -123,5 +123,8 @@ impl Family for Cubic {
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         self.table_at(grid, Level::new())
+    }
+    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+        solve::answer(chart, coordinates(point)?)
     }
 }

@@ -5,8 +5,9 @@ use super::filter::{Found, visit};
 use super::precision::{Precision, Prepared};
 use super::root::{Data, bernstein};
 use super::{Code, table};
+use crate::curve::CubicBezier;
 use crate::error::{Error, Result};
-use crate::family::NO_VALUE;
+use crate::family::Answer;
 use crate::num::bernstein::{Quintic, least, least_error, least_interval};
 use crate::num::{Interval, climb};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
@@ -97,19 +98,57 @@ impl Solutions {
 /// # Source
 /// Habib & Sakai, (3.4), (A.9), (A.10) and Theorem 3.1; the exact test replaces the theorem by necessary and sufficient signs.
 pub fn solve(datum: &Datum) -> Result<Solutions> {
-    for (name, value) in [("kappa0", datum.kappa0), ("kappa1", datum.kappa1)] {
+    let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
+    check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
+    solved(&ExactDatum { phi0, phi1, ends: Ends::Curvature(kappa0, kappa1) })
+}
+
+fn check(datum: [(&str, f64); 4]) -> Result<()> {
+    for (name, value) in &datum[2..] {
         if !value.is_finite() {
             return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
         }
     }
-    table::check_angle("phi0", datum.phi0)?;
-    table::check_angle("phi1", datum.phi1)?;
-    table::check_angles(datum.phi0, datum.phi1)?;
-    let datum = ExactDatum { phi0: datum.phi0, phi1: datum.phi1, ends: Ends::Curvature(datum.kappa0, datum.kappa1) };
-    match Solved::fast(&datum, Prepared::new(datum.phi0, datum.phi1)).filter(Solved::is_fine) {
-        Some(solved) => Ok(solved.solutions()),
-        None => slow(&datum),
+    for (name, angle) in &datum[..2] {
+        table::check_angle(name, *angle)?;
     }
+    table::check_angles(datum[0].1, datum[1].1)
+}
+
+fn solved(datum: &ExactDatum) -> Result<Solutions> {
+    match Solved::fast(datum, Prepared::new(datum.phi0, datum.phi1)).filter(Solved::is_fine) {
+        Some(solved) => Ok(solved.solutions()),
+        None => slow(datum),
+    }
+}
+
+/// [`solve`] for a datum of either chart.
+pub(super) fn answer(chart: usize, point: &[f64; 4]) -> Result<Answer> {
+    let [phi0, phi1, u, v] = *point;
+    let axes = super::CHARTS[chart].axes;
+    check(std::array::from_fn(|i| (axes[i], point[i])))?;
+    let ends = if chart == 0 { Ends::Curvature(u, v) } else { Ends::Normalised(u, v) };
+    let solved = solved(&ExactDatum { phi0, phi1, ends })?;
+    // What turns the curvatures into a and k.
+    let (a, k) = Datum { phi0, phi1, kappa0: 1.0, kappa1: 1.0 }.normalised();
+    let derived = if chart == 0 { [("a", u * a), ("k", v * k)] } else { [("kappa0", u / a), ("kappa1", v / k)] };
+    let solution = |root: &Root| {
+        vec![
+            ("f0", root.f0.into()),
+            ("f1", root.f1.into()),
+            ("theorem31", root.theorem31.into()),
+            ("spiral", root.spiral.into()),
+            ("margin", root.margin.into()),
+            ("control_points", CubicBezier::from_ratios(phi0, phi1, root.f0, root.f1).p.into()),
+        ]
+    };
+    let spirals = solved.roots().iter().filter(|root| root.spiral).count();
+    Ok(Answer {
+        code: Code::new(solved.flags, (solved.len | spirals << super::COUNTS[1].shift) as u8),
+        derived: derived.map(|(name, x)| (name, x.into())).to_vec(),
+        solutions: solved.roots().iter().map(solution).collect(),
+        chosen: solved.chosen,
+    })
 }
 
 /// A number known to lie from `low` to `high`.
@@ -336,6 +375,6 @@ pub(super) fn exact_scalars(datum: &ExactDatum, which: &[usize], out: &mut [f32]
         let ranges = [&w.root.x, &w.root.y, &w.margin];
         which.iter().map(|i| ranges[*i].to_f32()).collect::<Option<Vec<f32>>>()
     };
-    out.copy_from_slice(&exact::climb(datum, "a scalar", attempt)?.0);
+    out.copy_from_slice(&climb(datum, "a scalar", attempt)?.0);
     Ok(())
 }

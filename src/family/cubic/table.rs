@@ -38,7 +38,6 @@ impl<'g> CubicTable<'g> {
         let ends = if self.normalised { Ends::Normalised(u, v) } else { Ends::Curvature(u, v) };
         ExactDatum { phi0, phi1, ends }
     }
-}
 
     /// The scalars of a node, or none where there is no spiral.
     fn fill(&self, node: u64, code: Code, out: &mut [f32], by: impl Fn(&ExactDatum, &mut [f32]) -> Result<()>) -> Result<()> {
@@ -70,7 +69,6 @@ impl Rows for CubicTable<'_> {
             Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth, precision }
         };
         classify(simd, prepared, &data).store(out);
-        }
     }
 }
 

@@ -11,7 +11,7 @@ mod table;
 
 pub use solve::{Datum, Level, Reached, Segment, level_of_shape, solve};
 
-use super::{Chart, Count, Family, Flag, Scalar, Table};
+use super::{Answer, Chart, Count, Family, Flag, Scalar, Table, Value, coordinates, verdict};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -146,5 +146,21 @@ impl Family for Reach {
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::ReachTable::new(self.0, grid)?))
+    }
+    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+        let code = verdict(self, chart, point)?;
+        let reached = solve(self.0, &Datum::from(*coordinates(point)?))?;
+        let solution = |(case, segment): (u32, Segment)| {
+            vec![
+                ("case", Value::Whole(case)),
+                ("m", segment.m.into()),
+                ("q", segment.q.into()),
+                ("spiral", (segment.level >= Level::Exact).into()),
+                ("level", Value::Word(segment.level.name())),
+            ]
+        };
+        let cases = [(1, reached.case1), (2, reached.case2)];
+        let found = cases.into_iter().filter_map(|(case, segment)| Some((case, segment?)));
+        Ok(Answer { code, derived: vec![], solutions: found.map(solution).collect(), chosen: None })
     }
 }

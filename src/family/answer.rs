@@ -1,0 +1,63 @@
+//! The exact answer for one datum, in a form that fits every family: what `query` tells.
+
+use super::Code;
+
+/// All that a family knows of a datum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// The proved verdicts, as an atlas has them.
+    pub code: Code,
+    /// What else follows from the datum, by name: its coordinates in the family's other charts, invariants.
+    pub derived: Values,
+    /// The curves with these ends.
+    pub solutions: Vec<Values>,
+    /// Which of them the family's scalars describe.
+    pub chosen: Option<usize>,
+}
+
+/// Values by name, in the order in which they are told.
+pub type Values = Vec<(&'static str, Value)>;
+
+/// A value of an [`Answer`].
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// A finite number.
+    Number(f64),
+    /// A number of things, or a case.
+    Whole(u32),
+    /// Whether a condition holds.
+    Holds(bool),
+    /// One of a few words.
+    Word(&'static str),
+    /// Control points.
+    Points(Vec<[f64; 2]>),
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Value {
+        Value::Number(x)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(holds: bool) -> Value {
+        Value::Holds(holds)
+    }
+}
+
+impl<const N: usize> From<[[f64; 2]; N]> for Value {
+    fn from(points: [[f64; 2]; N]) -> Value {
+        Value::Points(points.to_vec())
+    }
+}
+
+impl Answer {
+    /// A derived number by name.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.derived.iter().find_map(|(n, value)| match value {
+            Value::Number(x) if *n == name => Some(*x),
+            _ => None,
+        })
+    }
+}
