@@ -30,7 +30,7 @@ fn the_papers_examples_have_the_papers_answers() {
         assert!(chosen["theorem31"] == true && chosen["spiral"] == true && chosen["margin"].as_f64().unwrap() > 0.0);
         assert_eq!(chosen["control_points"][3], serde_json::json!([1.0, 0.0]));
         let text = query(data, &[]).out;
-        assert!(text.contains("chosen: f0 = ") && text.contains("spiral: yes"), "{text}");
+        assert!(text.contains("chosen: f0 = ") && text.contains("spiral = yes"), "{text}");
     }
     let none = query(["0.7", "1.4", "0.4", "1.2"], &["--json"]).json();
     assert_eq!((&none["chosen"], &none["flags"]["SPIRAL"]), (&serde_json::Value::Null, &false.into()));
