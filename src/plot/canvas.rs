@@ -103,6 +103,16 @@ impl Canvas {
         Ok(png)
     }
 
+    /// Copies another sheet onto this one, its corner at a place; what lies beyond is cut off.
+    pub fn paste(&mut self, other: &Canvas, (left, top): (u32, u32)) {
+        let width = other.size.0.min(self.size.0.saturating_sub(left)) as usize * 3;
+        for row in 0..other.size.1.min(self.size.1.saturating_sub(top)) {
+            let from = row as usize * other.size.0 as usize * 3;
+            let to = ((top + row) as usize * self.size.0 as usize + left as usize) * 3;
+            self.pixels[to..to + width].copy_from_slice(&other.pixels[from..from + width]);
+        }
+    }
+
     /// Mixes a colour into a pixel; pixels beyond the sheet are ignored.
     pub fn blend(&mut self, x: i32, y: i32, color: Color, cover: f64) {
         let inside = |v: i32, n: u32| u32::try_from(v).is_ok_and(|v| v < n);
