@@ -11,7 +11,7 @@ pub mod grid;
 pub mod num;
 #[cfg(feature = "cli")]
 pub mod plot;
-#[cfg(feature = "cli")]
+#[cfg(feature = "recipe")]
 pub mod recipe;
 
 pub use error::{Error, Result};
