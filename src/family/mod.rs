@@ -65,8 +65,13 @@ pub struct Count {
 impl Count {
     /// Takes the number out of a `solutions` byte.
     pub fn of(&self, solutions: u8) -> u8 {
-        (solutions >> self.shift) & ((1u8 << self.bits) - 1)
+        unpack(solutions, self.shift, self.bits)
     }
+}
+
+/// The number in the bits `shift .. shift + bits` of a byte, whatever the two are.
+pub(crate) fn unpack(byte: u8, shift: u32, bits: u32) -> u8 {
+    byte.checked_shr(shift).unwrap_or(0) & (u8::MAX.checked_shr(8u32.saturating_sub(bits)).unwrap_or(0))
 }
 
 /// One optional f32 field.
