@@ -8,7 +8,7 @@ use super::{Region, Slice, grouped, region_colors};
 use crate::error::{Error, Result};
 
 /// Colours of outlines, in turn: they stand out from all region colours, and have a white rim on the dark ones.
-const OUTLINES: [Color; 3] = [[190, 30, 30], [0, 0, 0], [120, 60, 160]];
+const OUTLINES: [Color; 4] = [[190, 30, 30], [0, 0, 0], [120, 60, 160], [0, 100, 190]];
 
 /// Least side of a plot in pixels.
 pub(super) const LEAST_SIDE: i32 = 24;
