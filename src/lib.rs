@@ -15,3 +15,14 @@ pub mod plot;
 pub mod recipe;
 
 pub use error::{Error, Result};
+
+/// The examples of the pages compile and, where they need no file, run.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../README.md")]
+    struct Readme;
+    #[doc = include_str!("../docs/any-spiral.md")]
+    struct AnySpiral;
+    #[doc = include_str!("../docs/reach.md")]
+    struct Reach;
+}

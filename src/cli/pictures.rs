@@ -1,12 +1,12 @@
 //! Pictures of an atlas: from a plan of its recipe to the plain data that [`spiral_atlas::plot`] draws.
 
-use super::output::grouped;
+use super::output::{angle, grouped, short};
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::eval::{Backend, Job, evaluate};
 use spiral_atlas::family::{Family, Flag};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 use spiral_atlas::plot::{self, AxisView, Mark, Multiples, Region, Slice};
-use spiral_atlas::recipe::{PictureKind, PicturePlan, Recipe};
+use spiral_atlas::recipe::{PictureKind, PicturePlan, Recipe, is_angle};
 use spiral_atlas::{Error, Result, family};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -62,7 +62,15 @@ pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
 ///
 /// # Errors
 /// As [`draw`].
-pub fn side_by_side(title: &str, slices: Vec<Slice>) -> Result<Vec<u8>> {
+pub fn side_by_side(title: &str, mut slices: Vec<Slice>) -> Result<Vec<u8>> {
+    // The legend counts all panels together.
+    for slice in &mut slices {
+        let share = |region: &Region| {
+            let yes = region.mask.iter().filter(|m| **m).count();
+            format!("; {} {:.1} %", region.label, 100.0 * yes as f64 / region.mask.len() as f64)
+        };
+        slice.note += &slice.regions.iter().map(share).collect::<String>();
+    }
     let count = slices.len() as u32;
     let labels = |slice: &Slice| slice.regions.iter().chain(&slice.outlines).map(|r| r.label.clone()).collect::<Vec<_>>();
     if slices.iter().any(|slice| labels(slice) != labels(&slices[0])) {
@@ -81,7 +89,11 @@ pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
     let axes = atlas.grid().axes();
     let place = |(axis, nodes): &(usize, Vec<usize>)| match nodes[..] {
         [node] => place(&axes[*axis], node),
-        _ => format!("any of {} {}", nodes.len(), plot::symbol(axes[*axis].name())),
+        [.., last] => {
+            let (axis, count) = (&axes[*axis], nodes.len());
+            format!("any of {count} {} from {} to {}", plot::symbol(axis.name()), value(axis, nodes[0]), value(axis, last))
+        }
+        [] => String::new(),
     };
     let places: Vec<String> = plan.at.iter().map(place).collect();
     let title = format!("{}: {}", atlas.about().name, places.join(", "));
@@ -92,12 +104,7 @@ pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
     }
     slice.title = title.trim_end_matches([':', ' ']).to_owned();
     let (x, y) = (slice.x.values.len() as u64, slice.y.values.len() as u64);
-    let shares = slice.regions.iter().map(|region| {
-        let yes = region.mask.iter().filter(|m| **m).count();
-        format!("{} {:.1} %", region.label, 100.0 * yes as f64 / region.mask.len() as f64)
-    });
-    let shares = shares.collect::<Vec<_>>().join(", ");
-    slice.note = format!("{} × {} = {} nodes, each proved: {shares}", grouped(x), grouped(y), grouped(x * y));
+    slice.note = format!("{} × {} = {} nodes, each proved", grouped(x), grouped(y), grouped(x * y));
     slice.marks = plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect();
     Ok(slice)
 }
@@ -237,6 +244,10 @@ fn view(axis: &Axis) -> AxisView {
 
 /// `φ₀ = 0.7`, with as many digits as a reader wants.
 fn place(axis: &Axis, node: usize) -> String {
-    let rounded = format!("{:.4}", axis.values()[node]);
-    format!("{} = {}", plot::symbol(axis.name()), rounded.trim_end_matches('0').trim_end_matches('.'))
+    format!("{} = {}", plot::symbol(axis.name()), value(axis, node))
+}
+
+fn value(axis: &Axis, node: usize) -> String {
+    let x = axis.values()[node];
+    if is_angle(axis.name()) { angle(x) } else { short(x) }
 }

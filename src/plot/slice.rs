@@ -8,7 +8,7 @@ use super::{Region, Slice, grouped, region_colors};
 use crate::error::{Error, Result};
 
 /// Colours of outlines, in turn: they stand out from all region colours, and have a white rim on the dark ones.
-const OUTLINES: [Color; 3] = [[190, 30, 30], [0, 0, 0], [120, 60, 160]];
+const OUTLINES: [Color; 4] = [[190, 30, 30], [0, 0, 0], [120, 60, 160], [0, 100, 190]];
 
 /// Least side of a plot in pixels.
 pub(super) const LEAST_SIDE: i32 = 24;
@@ -159,21 +159,15 @@ impl Panel<'_> {
                 let label = canvas.fit(style.em, &mark.label, room - 3.0 * radius);
                 let level = at[1].clamp(f64::from(rect.top) + style.em, f64::from(rect.bottom) - style.em);
                 let start = [at[0] + side * radius * 2.2, level];
-                let width = canvas.text_width(style.em, &label);
-                canvas.shade(plate(start[0] - anchor * width, level, width, style.em).meet(&rect), WHITE, 0.88);
+                // A white rim, legible on every colour.
+                let rim = Pen { color: WHITE, ..Pen::new(style.em, anchor) };
+                for i in 0..16 {
+                    let (sin, cos) = (std::f64::consts::PI * f64::from(i) / 8.0).sin_cos();
+                    canvas.text([start[0] + style.em * 0.2 * cos, level + style.em * 0.2 * sin], rim, &label);
+                }
                 canvas.text(start, Pen::new(style.em, anchor), &label);
             }
         }
-    }
-}
-
-/// A little more than a text covers, so that it is legible on colours.
-fn plate(left: f64, level: f64, width: f64, em: f64) -> Rect {
-    Rect {
-        left: (left - em * 0.3).round() as i32,
-        right: (left + width + em * 0.3).round() as i32,
-        top: (level - em * 0.7).round() as i32,
-        bottom: (level + em * 0.75).round() as i32,
     }
 }
 

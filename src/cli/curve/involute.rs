@@ -111,14 +111,14 @@ impl Found for Told {
 
     fn figure(&self) -> Result<CurveFigure> {
         let curve = self.spiral.curve().ok_or_else(|| Error::Domain("no spiral of any kind has these ends".into()))?;
-        let samples = self.drawn(curve);
+        let (samples, q) = (self.drawn(curve), self.spiral.q);
         let slope = |w: &[Sample]| [0.5 * (w[0].s + w[1].s), (w[1].curvature - w[0].curvature) / (w[1].s - w[0].s)];
         Ok(CurveFigure {
-            title: format!("Image of an involute: θ = {:.6}, t₀ = {:.6}", curve.theta(), curve.t0()),
+            title: format!("Image of an involute: θ = {:.3}°, t₀ = {:.5}", curve.theta().to_degrees(), curve.t0()),
             note: format!(
-                "Q = {:.6e}, ω = {:.6}, length {:.6}",
-                self.spiral.q,
-                self.spiral.omega,
+                "Q = {}, ω = {:.3}°, length {:.5}",
+                if q.abs() < 1e-3 || q.abs() > 1e6 { format!("{q:.5e}") } else { format!("{q:.5}") },
+                self.spiral.omega.to_degrees(),
                 self.length.unwrap_or_default()
             ),
             curve: samples.iter().map(|s| s.point).collect(),

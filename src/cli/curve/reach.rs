@@ -53,7 +53,13 @@ impl Found for Told {
         let curvatures = if request.base == Base::Line { [0.0, bent] } else { [bent, 0.0] };
         let end = added.control_points.last().copied().unwrap_or(request.start);
         Ok(CurveFigure {
-            title: format!("{}: m = {:.6}, q = {:.6}, θ = {:.4}", level_words(added.level), added.m, added.q, request.theta),
+            title: format!(
+                "{}: m = {:.6}, q = {:.6}, θ = {}",
+                level_words(added.level),
+                added.m,
+                added.q,
+                output::angle(request.theta)
+            ),
             note: format!("{}, case {}: (ξ, η) = ({:.6}, {:.6})", self.kind.name(), added.case, added.xi, added.eta),
             curve: jets.iter().map(|(_, jet)| [x + jet.point[0], y + jet.point[1]]).collect(),
             control: added.control_points.clone(),
