@@ -5,7 +5,9 @@
 mod answer;
 pub mod any_spiral;
 pub mod cubic;
+mod hermite;
 mod outer;
+pub mod ph_quintic;
 pub mod reach;
 mod rows;
 
@@ -204,7 +206,7 @@ pub struct ShaderInputs {
 
 /// Every family, in the order in which they are listed to users.
 pub fn all() -> &'static [&'static dyn Family] {
-    &[&cubic::Cubic, &any_spiral::AnySpiral, &reach::Reach(reach::Kind::Cubic), &reach::Reach(reach::Kind::Ph)]
+    &[&cubic::Cubic, &ph_quintic::PhQuintic, &any_spiral::AnySpiral, &reach::Reach(reach::Kind::Cubic), &reach::Reach(reach::Kind::Ph)]
 }
 
 /// The family of a name.
