@@ -8,6 +8,7 @@ pub mod cubic;
 mod outer;
 pub mod reach;
 mod rows;
+pub mod trig_quintic;
 
 pub use answer::{Answer, Value, Values};
 
@@ -199,7 +200,13 @@ pub struct ShaderInputs {
 
 /// Every family, in the order in which they are listed to users.
 pub fn all() -> &'static [&'static dyn Family] {
-    &[&cubic::Cubic, &any_spiral::AnySpiral, &reach::Reach(reach::Kind::Cubic), &reach::Reach(reach::Kind::Ph)]
+    &[
+        &cubic::Cubic,
+        &any_spiral::AnySpiral,
+        &reach::Reach(reach::Kind::Cubic),
+        &reach::Reach(reach::Kind::Ph),
+        &trig_quintic::TrigQuintic,
+    ]
 }
 
 /// The family of a name.
