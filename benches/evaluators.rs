@@ -7,7 +7,7 @@ use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Chunk, Job, evaluate};
 use spiral_atlas::family::cubic::{ANY_SPIRAL, Cubic, Datum, SPIRAL, solve};
 use spiral_atlas::family::{Code, Family, Table};
-use spiral_atlas::grid::{Axis, Grid, Spacing};
+use spiral_atlas::grid::{Axis, Grid, MAX_AXES, Spacing};
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -181,7 +181,7 @@ fn answers(grid: &Grid, codes: &[Code], line: impl Fn(&str, f64, usize)) -> Outc
     Ok(())
 }
 
-fn datum([phi0, phi1, kappa0, kappa1]: [f64; 4]) -> Datum {
+fn datum([phi0, phi1, kappa0, kappa1, _]: [f64; MAX_AXES]) -> Datum {
     Datum { phi0, phi1, kappa0, kappa1 }
 }
 
@@ -196,8 +196,8 @@ fn lookups(line: impl Fn(&str, f64, usize)) -> Outcome<()> {
     writer.finish()?;
     let atlas = Atlas::open(&path)?;
 
-    let indices: Vec<[usize; 4]> = random(grid.len()).map(|node| grid.index(node)).take(SAMPLE).collect();
-    let at = || each(&indices, |index| atlas.at(index));
+    let indices: Vec<[usize; MAX_AXES]> = random(grid.len()).map(|node| grid.index(node)).take(SAMPLE).collect();
+    let at = || each(&indices, |index| atlas.at(&index[..4]));
     line("atlas lookup by index", best(50, at), SAMPLE);
     let mut unit = random(1 << 53).map(|bits| bits as f64 / (1u64 << 53) as f64);
     let mut between =

@@ -4,8 +4,8 @@ use crate::error::{Error, Result};
 use crate::num::log_space;
 use serde::{Deserialize, Serialize};
 
-/// Most axes a grid may have; shaders get the shape as one `vec4<u32>`.
-pub const MAX_AXES: usize = 4;
+/// Most axes a grid may have.
+pub const MAX_AXES: usize = 5;
 /// Most values one axis may have: indices fit `u32` with room for carries.
 pub const MAX_COUNT: usize = 1 << 24;
 /// Most nodes of a grid: byte offsets of every field fit 53 bits, so that JSON readers keep them.

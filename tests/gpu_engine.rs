@@ -51,7 +51,7 @@ impl<'g> Hash<'g> {
         let index = self.grid.index(node);
         let mix = |hash: u32, x: u32| (hash ^ x).wrapping_mul(16777619);
         let entries = (0..4).map(|axis| Hash::entry(axis, index[axis]));
-        let hash = entries.chain(index.map(|i| i as u32)).fold(self.salt, mix);
+        let hash = entries.chain(index[..4].iter().map(|i| *i as u32)).fold(self.salt, mix);
         Code(((hash >> 16) ^ hash) as u16)
     }
 }

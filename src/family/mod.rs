@@ -10,6 +10,7 @@ mod outer;
 pub mod ph_quintic;
 pub mod reach;
 mod rows;
+pub mod trig_quintic;
 
 pub use answer::{Answer, Value, Values};
 
@@ -206,7 +207,14 @@ pub struct ShaderInputs {
 
 /// Every family, in the order in which they are listed to users.
 pub fn all() -> &'static [&'static dyn Family] {
-    &[&cubic::Cubic, &ph_quintic::PhQuintic, &any_spiral::AnySpiral, &reach::Reach(reach::Kind::Cubic), &reach::Reach(reach::Kind::Ph)]
+    &[
+        &cubic::Cubic,
+        &ph_quintic::PhQuintic,
+        &any_spiral::AnySpiral,
+        &reach::Reach(reach::Kind::Cubic),
+        &reach::Reach(reach::Kind::Ph),
+        &trig_quintic::TrigQuintic,
+    ]
 }
 
 /// The family of a name.

@@ -1,4 +1,4 @@
-//! Signs and least values of quintics in Bernstein form on [0, 1], with proof.
+//! Signs of polynomials and least values of quintics in Bernstein form on [0, 1], with proof.
 
 use super::{Interval, Number};
 use std::cmp::Ordering;
@@ -37,32 +37,32 @@ impl Certain for Interval {
 
 /// Splits at `t`: the coefficients on `[0, t]` and on `[t, 1]` (de Casteljau).
 ///
-/// At `t = 1/2` each step adds two numbers of at most the largest coefficient's size and halves exactly, so five steps
-/// are off by at most 5 units of 2^-53 of the largest coefficient, and pass on errors of the input undiminished but not grown.
+/// At `t = 1/2` each step adds two numbers of at most the largest coefficient's size and halves exactly, so the `K - 1` steps
+/// are off by at most `K - 1` units of 2^-53 of the largest coefficient, and pass on errors of the input undiminished but not grown.
 #[inline]
-pub fn halve<N: Number>(c: &Quintic<N>) -> (Quintic<N>, Quintic<N>) {
+pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
     let (mut left, mut right) = (c.clone(), c.clone());
-    for step in 1..6 {
+    for step in 1..K {
         left[step - 1] = right[0].clone();
-        for i in 0..6 - step {
+        for i in 0..K - step {
             right[i] = right[i].add(&right[i + 1]).times(0.5);
         }
     }
-    left[5] = right[0].clone();
+    left[K - 1] = right[0].clone();
     (left, right)
 }
 
-/// Whether the quintic is positive on [0, 1] (`Some(true)`), negative somewhere (`Some(false)`), or not decided.
+/// Whether the polynomial is positive on [0, 1] (`Some(true)`), negative somewhere (`Some(false)`), or not decided.
 ///
 /// # Arguments
 /// - `error`: how far each coefficient may be from the truth (0 for intervals).
-/// - `rounding`: error added by each halving: 5 units of 2^-53 of the largest coefficient for doubles, 0 for intervals.
+/// - `rounding`: error added by each halving: `K - 1` units of 2^-53 of the largest coefficient for doubles, 0 for intervals.
 /// - `depth`: most halvings of a piece before giving up.
 ///
-/// Coefficients bound the quintic from below on their piece (convex hull); the outer two are its values there.
+/// Coefficients bound the polynomial from below on their piece (convex hull); the outer two are its values there.
 /// A zero is never decided: the truth at a tie needs more than this test.
-pub fn positive<N: Certain>(c: &Quintic<N>, error: f64, rounding: f64, depth: u32) -> Option<bool> {
-    if [&c[0], &c[5]].iter().any(|v| v.certain_sign(error) == Some(Ordering::Less)) {
+pub fn positive<N: Certain, const K: usize>(c: &[N; K], error: f64, rounding: f64, depth: u32) -> Option<bool> {
+    if [&c[0], &c[K - 1]].iter().any(|v| v.certain_sign(error) == Some(Ordering::Less)) {
         return Some(false);
     }
     if c.iter().all(|v| v.certain_sign(error) == Some(Ordering::Greater)) {

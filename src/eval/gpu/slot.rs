@@ -5,7 +5,7 @@ use super::program::Program;
 use super::{GROUP_SIZE, Settings};
 use crate::error::Result;
 use crate::family::{Code, ShaderInputs};
-use crate::grid::{Grid, MAX_AXES};
+use crate::grid::Grid;
 use bytemuck::{Pod, Zeroable};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Instant;
@@ -28,20 +28,20 @@ pub(super) struct Params {
 impl Params {
     /// The chunk of `count` nodes from `start` on.
     pub(super) fn new(grid: &Grid, start: u64, count: u32, offsets: [u32; 4]) -> Params {
-        let mut shape = [1; MAX_AXES];
-        for (slot, n) in shape.iter_mut().zip(grid.shape()) {
-            *slot = n as u32;
+        // Shaders have four digits: of five axes the first two are one to them.
+        let mut shape = [1; 4];
+        for (slot, n) in shape.iter_mut().zip(&grid.shape()[grid.axes().len().saturating_sub(4)..]) {
+            *slot = *n as u32;
         }
-        Params {
-            shape,
-            // At most 2^24 each.
-            first: grid.index(start).map(|i| i as u32),
-            one: digits(&shape, 1),
-            hop: digits(&shape, 2 * GROUP_SIZE - 2),
-            offsets,
-            count,
-            padding: [0; 3],
+        let mut first = digits(&shape, 0);
+        let mut rest = start;
+        for (slot, n) in first.iter_mut().zip(&shape).skip(1).rev() {
+            *slot = (rest % u64::from(*n)) as u32;
+            rest /= u64::from(*n);
         }
+        // It wraps, as the shaders' own arithmetic does.
+        first[0] = rest as u32;
+        Params { shape, first, one: digits(&shape, 1), hop: digits(&shape, 2 * GROUP_SIZE - 2), offsets, count, padding: [0; 3] }
     }
 }
 

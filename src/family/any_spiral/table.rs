@@ -29,7 +29,7 @@ impl<'g> AnyTable<'g> {
     }
 
     fn datum(&self, node: u64) -> Datum {
-        let [first, beta, k1, k2] = self.grid.node(node);
+        let [first, beta, k1, k2, _] = self.grid.node(node);
         Datum { alpha: self.sign * first, beta, k1, k2 }
     }
 }

@@ -28,7 +28,7 @@ impl<'g> CubicTable<'g> {
     }
 
     fn datum(&self, node: u64) -> ExactDatum {
-        let [phi0, phi1, u, v] = self.grid.node(node);
+        let [phi0, phi1, u, v, _] = self.grid.node(node);
         let ends = if self.normalised { Ends::Normalised(u, v) } else { Ends::Curvature(u, v) };
         ExactDatum { phi0, phi1, ends }
     }

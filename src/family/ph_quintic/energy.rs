@@ -92,7 +92,8 @@ fn series<N: Real>(speed: &[N; 5], c: &[N; 4], turn: &[N; 3]) -> Option<N> {
     }
     // Each of the terms left out is at most 64 · 2^-m · Σ|e|/(m + 1).
     let most = e.iter().fold(number(0.0), |sum, e| sum.add(&e.size()));
-    let tail = (0..terms).step_by(500).fold(most.times(64.0), |tail, from| tail.times(2f64.powi(-(500.min(terms - from) as i32))));
+    let tail =
+        (0..terms).step_by(500).fold(most.times(64.0), |tail, from| tail.times(2f64.powi(-(500.min(terms - from) as i32))));
     let c0 = middle(speed);
     sum.add(&tail).over(&c0.mul(&c0).mul(&c0))
 }

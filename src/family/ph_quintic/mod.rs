@@ -48,7 +48,12 @@ const FLAGS: &[Flag] = &[
 ];
 
 const COUNTS: &[Count] = &[
-    Count { name: "solutions", doc: "number of different solutions A, B > 0; 7 stands for 7 and more (3 are the most seen)", shift: 0, bits: 3 },
+    Count {
+        name: "solutions",
+        doc: "number of different solutions A, B > 0; 7 stands for 7 and more (3 are the most seen)",
+        shift: 0,
+        bits: 3,
+    },
     Count { name: "spirals", doc: "number of solutions whose curve is a spiral; 7 stands for 7 and more", shift: 3, bits: 3 },
 ];
 

@@ -27,7 +27,7 @@ impl<'g> PhTable<'g> {
     }
 
     fn datum(&self, node: u64) -> Datum {
-        let [phi0, phi1, kappa0, kappa1] = self.grid.node(node);
+        let [phi0, phi1, kappa0, kappa1, ..] = self.grid.node(node);
         Datum { phi0, phi1, kappa0, kappa1 }
     }
 

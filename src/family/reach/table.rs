@@ -30,7 +30,7 @@ impl<'g> ReachTable<'g> {
     }
 
     fn datum(&self, node: u64) -> [f64; 3] {
-        let [theta, xi, eta, _] = self.grid.node(node);
+        let [theta, xi, eta, ..] = self.grid.node(node);
         [theta, xi, eta]
     }
 }

@@ -1,0 +1,80 @@
+//! The f64 step: proves the verdicts of a vector of nodes, or leaves them undecided. The shader does the same in f32.
+
+use super::frame::FRAME_ERRORS;
+use super::plain::{flags, printed_ratio};
+use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
+use super::{END_RISES, PRINTED_RATIO, SPIRAL};
+use crate::family::Code;
+use crate::num::Lanes;
+use crate::num::bernstein::positive;
+use fearless_simd::{Simd, SimdBase};
+
+/// 2^-53.
+pub(super) const UNIT: f64 = 0.5 * f64::EPSILON;
+/// m, ratio and their inverses stay below this, so that nothing overflows or underflows: a coefficient has eight factors of
+/// each, and one of `(4 + p)⁴ > 2^-208`.
+const MOST: f64 = (1u64 << 40) as f64;
+/// Halvings: a feature that deeper ones would show is hidden by the error anyway.
+const DEPTH: u32 = 40;
+
+/// Relative error of the numerator's coefficients against the sums of their terms' absolute values, given the errors of the frame.
+///
+/// The first side is `3(my)²`; then as [`hodograph`] and [`numerator`] count; one more for the Bernstein factor. Second order
+/// is covered by the last 3.
+pub(super) const fn coefficient_error([y, last, square]: [f64; 3], of_m: f64, of_pq: f64) -> f64 {
+    let first = 2.0 * (y + of_m + 1.0) + 2.0;
+    let sides = if first > last { first } else { last };
+    4.0 * (sides + 5.0 + of_pq) + square + 48.0 + 1.0 + 3.0
+}
+
+/// Whether m and the ratio are small enough, and large enough.
+pub(super) fn is_ordinary(m: f64, ratio: f64) -> bool {
+    [m, ratio].iter().all(|v| (1.0 / MOST..=MOST).contains(v))
+}
+
+/// Error of the numerator's coefficients, relative to the sums of absolute terms.
+pub(super) const ERROR: f64 = coefficient_error(FRAME_ERRORS, 0.0, 1.0) * UNIT;
+
+/// The sign of the numerator from Bernstein coefficients and the sums of absolute values of their terms.
+pub(super) fn decide(value: &[f64; K], size: &[f64; K], relative: f64) -> Option<bool> {
+    let error = size.iter().fold(0.0f64, |most, s| most.max(*s)) * relative;
+    let largest = value.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    positive(value, error, largest * ((K - 1) as f64 * UNIT), DEPTH)
+}
+
+/// The codes of a vector of nodes that share ratio, θ, m and p.
+#[inline(always)]
+pub(super) fn classify<S: Simd>(simd: S, frame: &Frame<f64>, [ratio, m, p]: [f64; 3], q: S::f64s, out: &mut [Code]) {
+    let mut known = [0u8; 8];
+    for (flag, q) in known.iter_mut().zip(q.as_slice()).take(out.len()) {
+        *flag = flags(ratio, m, *q);
+    }
+    let mut open = known.iter().take(out.len()).any(|f| f & END_RISES != 0);
+    if open && !is_ordinary(m, ratio) {
+        open = false;
+    }
+    debug_assert_eq!(known[0] & PRINTED_RATIO != 0, printed_ratio(ratio, m));
+    let splat = |x: f64| Lanes::<S>::splat(simd, x);
+    let forms = open.then(|| {
+        let frame = Frame { y: splat(frame.y), last: splat(frame.last), square: splat(frame.square) };
+        let hodograph = hodograph(&frame, &splat(m), &splat(p), &Lanes(q));
+        [-1.0, 1.0].map(|sign| numerator(&hodograph, &frame.square, sign))
+    });
+    for (lane, code) in out.iter_mut().enumerate() {
+        let flags = known[lane];
+        if flags & END_RISES == 0 {
+            *code = Code::new(flags, 0);
+            continue;
+        }
+        let Some([value, size]) = &forms else {
+            *code = Code::UNDECIDED;
+            continue;
+        };
+        let at = |c: &[Lanes<S>; K]| std::array::from_fn(|i| c[i].0.as_slice()[lane] * BERNSTEIN[i]);
+        *code = match decide(&at(value), &at(size), ERROR) {
+            Some(true) => Code::new(flags | SPIRAL, 0),
+            Some(false) => Code::new(flags, 0),
+            None => Code::UNDECIDED,
+        };
+    }
+}

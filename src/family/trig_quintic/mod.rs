@@ -1,0 +1,108 @@
+//! Spirals among the quintic trigonometric Bézier curves of Misro, Ramli and Ali, from a straight line to a circle.
+
+mod exact;
+mod filter;
+mod frame;
+mod plain;
+mod poly;
+#[cfg(feature = "gpu")]
+mod shader;
+mod table;
+mod threshold;
+
+pub use exact::Shape;
+
+use super::{Answer, Chart, Count, Family, Flag, NO_VALUE, Scalar, Table, coordinates, verdict};
+use crate::error::Result;
+use crate::grid::Grid;
+
+/// The family of quintic trigonometric curves with the control points (3), (9).
+#[derive(Debug, Clone, Copy)]
+pub struct TrigQuintic;
+
+/// Bit of END_RISES.
+pub const END_RISES: u8 = 1;
+/// Bit of SPIRAL.
+pub const SPIRAL: u8 = 1 << 1;
+/// Bit of PRINTED_RATIO.
+pub const PRINTED_RATIO: u8 = 1 << 2;
+/// Bit of END_CURVATURE_AS_PRINTED.
+pub const END_CURVATURE_AS_PRINTED: u8 = 1 << 3;
+
+const FLAGS: &[Flag] = &[
+    Flag {
+        name: "END_RISES",
+        label: "curvature does not fall at the end",
+        doc: "kappa'(1) >= 0, that is 9 ratio >= 20 (1 + q); necessary for a spiral, and by no means sufficient",
+    },
+    Flag { name: "SPIRAL", label: "spiral", doc: "the curvature is monotone on the whole curve: necessary and sufficient" },
+    Flag {
+        name: "PRINTED_RATIO",
+        label: "condition as printed",
+        doc: "ratio >= (6 + m)/2, for m = 1 the 7/2 that the paper takes: a condition for polynomial curves, which says nothing here",
+    },
+    Flag {
+        name: "END_CURVATURE_AS_PRINTED",
+        label: "end curvature as printed",
+        doc: "with (9) as printed the curvature at the end, 15/((4 + q)^2 r), is within a hundredth of the 1/r it should be",
+    },
+];
+
+const SCALARS: &[Scalar] = &[Scalar {
+    name: "threshold",
+    doc: "the least ratio from 1/64 on from which all ratios up to 64 give spirals, for this theta, m, p, q (whatever the node's own ratio); \
+          none where 64 gives no spiral; no unit",
+}];
+
+const CHARTS: &[Chart] = &[Chart {
+    name: "shape",
+    axes: &["ratio", "theta", "m", "p", "q"],
+    doc: "ratio: s / tan(theta/2) of (9), above 0; theta: angle from the start to the end tangent, radians, in (0, pi/2); m: u0/u1, above 0; \
+          p, q: shape parameters at start and end, in (-4, 1]",
+}];
+
+impl Family for TrigQuintic {
+    fn name(&self) -> &'static str {
+        "trig-quintic"
+    }
+    fn title(&self) -> &'static str {
+        "quintic trigonometric Bezier spirals from a line to a circle (Misro, Ramli & Ali)"
+    }
+    fn charts(&self) -> &'static [Chart] {
+        CHARTS
+    }
+    fn conventions(&self) -> &'static str {
+        "start point (0, 0), start direction (1, 0), curvature 0 at the start and positive to the left; end direction (cos theta, sin theta); \
+         basis (2), control points (3) with (9); angles in radians; the radius scales out of every field: a curve has the end curvature 1/r when \
+         (9) is taken with 15 r / (4 + q)^2 in place of r"
+    }
+    fn flags(&self) -> &'static [Flag] {
+        FLAGS
+    }
+    fn nested(&self) -> &'static [&'static str] {
+        &["END_RISES", "SPIRAL"]
+    }
+    fn counts(&self) -> &'static [Count] {
+        &[]
+    }
+    fn scalars(&self) -> &'static [Scalar] {
+        SCALARS
+    }
+    fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
+        Ok(Box::new(table::TrigTable::new(grid)?))
+    }
+    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+        let code = verdict(self, chart, point)?;
+        let shape = Shape::from(*coordinates(point)?);
+        let threshold = threshold::least_ratio(&shape)?;
+        let mut derived =
+            vec![("s", (shape.ratio * (0.5 * shape.theta).tan()).into()), ("scale", (15.0 / (4.0 + shape.q).powi(2)).into())];
+        if threshold != NO_VALUE {
+            derived.push(("threshold", f64::from(threshold).into()));
+        }
+        Ok(Answer { code, derived, solutions: Vec::new(), chosen: None })
+    }
+}
+
+#[cfg(test)]
+mod tests;

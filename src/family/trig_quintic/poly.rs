@@ -1,0 +1,162 @@
+//! The polynomials of the family, on any numbers: the sides of the control polygon, the hodograph, the numerator of κ'.
+//!
+//! # The curve in τ
+//! With `τ = tan(πt/4)`, `S = sin(πt/2) = 2τ/V` and `C = cos(πt/2) = (1-τ²)/V`, `V = 1 + τ²`, the basis (2) of Misro, Ramli and Ali
+//! becomes rational. Summed from the end, `z = P0 + Σ ΔPi Gi` with `Gi = g(i+1) + .. + g5`; here `g0 + g1 = (1-S)³(1+3S)` and
+//! `g4 + g5 = (1-C)³(1+3C)` are free of p and q, so p enters through `G0' = C(1-S)³(4 + p - 5pS)` alone and q through
+//! `G4' = S(1-C)³(4 + q - 5qC)`. All `V⁵ Gi'` (derivative by πt/2) are of degree 10 with non-negative coefficients in
+//! `τ^i (1-τ)^(10-i)`, for p and q in [-4, 1]: the rows of [`hodograph`], divided by 8.
+//!
+//! # Forms
+//! A list c stands for `Σ ci τ^i (1-τ)^(n-i)`: products are plain convolutions, and Bernstein coefficients are `ci / C(n, i)`.
+//!
+//! # Curvature
+//! By τ, `z'` is a constant times `A / V⁶`, so κ one times `X V⁶ / D^(3/2)`, `X = A × A'` (degree 18), `D = |A|²` (degree 20). That is
+//! of degree 0 as a form in (τ, 1-τ), so κ' has the sign of the form of degree 38 with the coefficients `Σ (2i - 3j + 12a) Xi Dj Va`,
+//! `i + j + a = k + 1`. X0 and X1 vanish, because the first two sides are parallel; so κ'(0) = 0 always, and a factor τ is left
+//! out: degree 37.
+//!
+//! # Sides
+//! (3) with (9) are sums of products of `u0 = mu1`, `u1` and `u2 + iv2 = d e^(iθ/2)`. Over `d² cos²(θ/2)/15` they are 3m²y², 3my², `y(2y + mω)`, `3yω`, `3ω²`
+//! with `ω = 1 + i tan(θ/2)` and `y = u1/(d cos(θ/2)) = ratio / (4 cos²(θ/2))`. Their upward parts are taken in units of
+//! `tan(θ/2)`; so X loses a positive factor, and D takes the square of it.
+
+use crate::num::Number;
+use std::array::from_fn;
+
+/// Number of coefficients of the numerator.
+pub(super) const K: usize = 38;
+/// Sides up to this have no upward part, and so the first coefficients of the hodograph.
+const LEVEL: usize = 3;
+
+/// What follows from the ratio and the angle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame<N> {
+    /// `y = ratio / (2(1 + cos θ))`.
+    pub y: N,
+    /// `3 (1 - tan²(θ/2)) = 6 cos θ / (1 + cos θ)`: the last side's forward part; its upward part is 6.
+    pub last: N,
+    /// `tan²(θ/2)`.
+    pub square: N,
+}
+
+/// The hodograph A.
+pub(super) struct Hodograph<N> {
+    /// Forward.
+    pub x: [N; 11],
+    /// Upward in units of `tan(θ/2)`, from coefficient [`LEVEL`] on; those before are 0.
+    pub y: [N; 8],
+}
+
+/// Of the curve with these shape parameters: sums of positive terms in all that follows from the parameters.
+///
+/// Counting roundings, with those of the sides (s), `4 + p`, `1 - p`, `4 + q`, `1 - q` (one each): at most s + 6.
+pub(super) fn hodograph<N: Number>(frame: &Frame<N>, m: &N, p: &N, q: &N) -> Hodograph<N> {
+    let y = &frame.y;
+    let my = m.mul(y);
+    let sides = [my.mul(&my).times(3.0), my.mul(y).times(3.0), y.times(2.0).add(m).mul(y), y.times(3.0), frame.last.clone()];
+    let up = [my, y.times(3.0), y.times(0.0).plus(6.0)];
+    let [p4, p1, q4, q1] = [p.plus(4.0), p.times(-1.0).plus(1.0), q.plus(4.0), q.times(-1.0).plus(1.0)];
+    let q9 = q1.times(16.0).add(&q4.times(4.0));
+    // What the last three sides add from coefficient 3 on.
+    let tail = |[s2, s3, s4]: [&N; 3]| {
+        [
+            s2.times(17.0),
+            s2.times(84.0),
+            s2.times(168.0).add(&s3.times(12.0)),
+            s2.times(168.0).add(&s3.times(60.0)),
+            s2.times(68.0).add(&s3.times(120.0)).add(&s4.mul(&q1).times(8.0)),
+            s3.times(120.0).add(&s4.mul(&q1).times(24.0)),
+            s3.times(48.0).add(&s4.mul(&q9)),
+            s4.mul(&q4).times(4.0),
+        ]
+    };
+    let [s0, s1, s2, s3, s4] = &sides;
+    let [a, b, c, d, e, f, g, h] = tail([s2, s3, s4]);
+    let x = [
+        s0.mul(&p4).times(0.125),
+        s0.mul(&p1.add(&p4.times(0.25))).add(&s1.times(3.0)),
+        s0.mul(&p1).times(3.0).add(&s1.times(15.0)),
+        s0.mul(&p1).times(2.0).add(&s1.times(30.0)).add(&a),
+        s1.times(30.0).add(&b),
+        s1.times(12.0).add(&c),
+        d,
+        e,
+        f,
+        g,
+        h,
+    ];
+    Hodograph { x, y: tail([&up[0], &up[1], &up[2]]) }
+}
+
+/// `X2 .. X18`: `Xk = Σ (j - i) Ai × Aj` over `i < j`, `i + j = k + 1`. With `sign` 1 instead of -1 the sums of the
+/// absolute values of their terms.
+fn turning<N: Number>(a: &Hodograph<N>, sign: f64) -> [N; 17] {
+    from_fn(|k| {
+        let s = k + 3;
+        let term = |i: usize| {
+            let j = s - i;
+            let forward = a.x[i].mul(&a.y[j - LEVEL]);
+            let cross = if i < LEVEL { forward } else { forward.add(&a.x[j].mul(&a.y[i - LEVEL]).times(sign)) };
+            cross.times((j - i) as f64)
+        };
+        // i < j <= 10 and j >= LEVEL, so that there is something upward.
+        sum((s.saturating_sub(10)..s.div_ceil(2)).filter(|i| s - i >= LEVEL).map(term)).unwrap_or_else(|| a.x[0].times(0.0))
+    })
+}
+
+/// `D0 .. D20`: sums of positive terms.
+fn speed<N: Number>(a: &Hodograph<N>, square: &N) -> [N; 21] {
+    let convolve = |v: &[N], k: usize| {
+        let n = v.len() - 1;
+        let pairs = |i: usize| v[i].mul(&v[k - i]).times(if 2 * i == k { 1.0 } else { 2.0 });
+        sum((k.saturating_sub(n)..=k / 2).map(pairs))
+    };
+    from_fn(|k| {
+        let forward = convolve(&a.x, k).unwrap_or_else(|| a.x[0].times(0.0));
+        let upward = k.checked_sub(2 * LEVEL).filter(|k| *k <= 14).and_then(|k| convolve(&a.y, k));
+        upward.map_or(forward.clone(), |upward| forward.add(&upward.mul(square)))
+    })
+}
+
+/// The coefficients of the numerator, or, with `sign` 1 instead of -1, the sums of the absolute values of their terms.
+///
+/// Counting roundings, with h those of the hodograph and t those of the square: products of two have 2h + 1, X three more for
+/// difference, factor and up to five terms (2h + 8 in all), D with the square 2h + t + 3 and up to 8 terms (2h + t + 11), the
+/// sums below at most 21 terms, a factor and a product (24), and four terms at last: 4h + t + 48.
+pub(super) fn numerator<N: Number>(a: &Hodograph<N>, square: &N, sign: f64) -> [N; K] {
+    let (turning, speed) = (turning(a, sign), speed(a, square));
+    // Σ Xi Dj and Σ (2i - 3j) Xi Dj over i + j = s + 2.
+    let both: [(N, N); 37] = from_fn(|s| {
+        let range = s.saturating_sub(20)..=s.min(16);
+        let products = range.map(|i| (turning[i].mul(&speed[s - i]), 2.0 * (i + 2) as f64 - 3.0 * (s - i) as f64));
+        let weighed = |factor: f64| if sign > 0.0 { factor.abs() } else { factor };
+        let pairs = products.map(|(product, factor)| (product.clone(), product.times(weighed(factor))));
+        pairs.reduce(|(a, b), (c, d)| (a.add(&c), b.add(&d))).unwrap_or_else(|| (square.times(0.0), square.times(0.0)))
+    });
+    // V = (1, 2, 2): index s - 2 of `both` is the sum s; the coefficient of τ^(i+1) takes the sums i+2, i+1 and i.
+    from_fn(|i| {
+        let first = both.get(i).map(|(_, b)| b.clone());
+        let second = i.checked_sub(1).and_then(|s| both.get(s)).map(|(a, b)| b.times(2.0).add(&a.times(24.0)));
+        let third = i.checked_sub(2).and_then(|s| both.get(s)).map(|(a, b)| b.times(2.0).add(&a.times(48.0)));
+        sum([first, second, third].into_iter().flatten()).unwrap_or_else(|| square.times(0.0))
+    })
+}
+
+fn sum<N: Number>(terms: impl Iterator<Item = N>) -> Option<N> {
+    terms.reduce(|a, b| a.add(&b))
+}
+
+/// `L / C(37, i)`, L the least common multiple of these binomials (lcm(1..38)/38): whole numbers, so that Bernstein
+/// coefficients are exact multiples.
+pub(super) const BERNSTEIN: [f64; K] = {
+    let mut factors = [0.0; K];
+    let (mut i, mut binomial) = (0u64, 1u64);
+    while i < K as u64 {
+        factors[i as usize] = (140_603_459_396_400 / binomial) as f64;
+        i += 1;
+        // Exact: C(37, i).
+        binomial = binomial * (K as u64 - i) / i;
+    }
+    factors
+};

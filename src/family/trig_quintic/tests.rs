@@ -1,0 +1,62 @@
+use super::exact::{Shape, judge};
+use super::plain::{PRINTED_Q, end_slope, flags, printed_ratio};
+use super::threshold::{exact_least_ratio, least_ratio};
+use super::*;
+use crate::num::Interval;
+use std::cmp::Ordering::{Equal, Greater, Less};
+
+fn shape(ratio: f64, degrees: f64, m: f64, p: f64, q: f64) -> Shape {
+    Shape { ratio, theta: degrees.to_radians(), m, p, q }
+}
+
+#[test]
+fn thresholds_are_those_of_other_programs() {
+    // To 8 digits, by bisection with 40 digits.
+    let known = [
+        (42.0, 1.0, 0.0, 0.0, 5.6303171),
+        (42.0, 3.293, 1.0, 1.0, 5.2813167),
+        (42.0, 1.8, 1.0, 1.0, 5.3284153),
+        (25.1, 0.439, -0.73, -0.49, 7.0047367),
+        (42.2, 5.825, -2.64, -2.84, 6.6562683),
+        (33.4, 2.744, -0.34, 0.3, 4.6442234),
+        (77.7, 5.851, 0.85, -0.52, 3.0527806),
+        (7.3, 1.295, -0.29, -1.21, 7.0134814),
+        (42.0, 1.0, 1.0, 1.0, 5.4832),
+    ];
+    for (degrees, m, p, q, threshold) in known {
+        let this = shape(1.0, degrees, m, p, q);
+        let found = least_ratio(&this).unwrap();
+        assert!((f64::from(found) - threshold).abs() < 1e-4 * threshold, "{degrees} {m} {p} {q}: {found}");
+        assert_eq!(found, exact_least_ratio(&this).unwrap());
+    }
+}
+
+#[test]
+fn comparisons_are_exact_at_their_ties() {
+    assert!(printed_ratio(3.5, 1.0) && !printed_ratio(3.5f64.next_down(), 1.0) && !printed_ratio(3.5, 1.0f64.next_up()));
+    assert!(printed_ratio(3.0, 5e-324) == false && printed_ratio(3.0f64.next_up(), 5e-324));
+    assert_eq!(end_slope(2.5, 0.125), Equal);
+    assert_eq!(end_slope(2.5, 0.125f64.next_up()), Less);
+    assert_eq!(end_slope(2.5f64.next_up(), 0.125), Greater);
+    assert_eq!(end_slope(f64::MAX, 1.0), Greater);
+    assert_eq!(end_slope(5e-324, -1.0), Greater);
+}
+
+#[test]
+fn printed_end_curvatures_change_between_neighbouring_doubles() {
+    let near = |q: f64| {
+        let square = Interval::new(q, 400).plus(4.0).square();
+        let (low, high) = (square.scale(101.0).plus(-1500.0).sign(), square.scale(99.0).plus(-1500.0).sign());
+        low == Some(Greater) && high == Some(Less)
+    };
+    let [low, high] = PRINTED_Q;
+    assert!(near(low) && near(high) && !near(low.next_down()) && !near(high.next_up()));
+    assert_eq!([low, low.next_down()].map(|q| flags(1.0, 1.0, q) & END_CURVATURE_AS_PRINTED), [END_CURVATURE_AS_PRINTED, 0]);
+}
+
+#[test]
+fn a_tie_at_the_end_is_decided() {
+    // κ'(1) = 0 exactly.
+    let flags = judge(&shape(2.5, 42.0, 1.0, 0.0, 0.125), 128);
+    assert_eq!(flags, Some(END_RISES));
+}
