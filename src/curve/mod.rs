@@ -28,6 +28,7 @@ mod figure;
 mod involute;
 mod jet;
 mod length;
+mod ph;
 mod placement;
 pub mod reach;
 mod spiral;
@@ -42,6 +43,7 @@ pub use involute::{
 };
 pub use jet::Jet;
 pub use length::arc_length;
+pub use ph::{PhAnswer, PhOutcome, PhSolution, ph_spiral};
 pub use placement::{Ends, Placement, direction_of};
 pub use spiral::{Answer, Outcome, Solution, spiral};
 pub use why::{Turn, Waver, Which, Why};

@@ -158,6 +158,25 @@ impl Placement {
         mapped
     }
 
+    /// The same relative to the user's start point, free of the rounding of far-away coordinates: what to differentiate.
+    pub fn to_user_local(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let origin = if self.reversed { 1.0 } else { -1.0 };
+        let mut mapped: Vec<_> = points.iter().map(|z| self.step(origin, *z)).collect();
+        self.put_in_order(&mut mapped);
+        mapped
+    }
+
+    /// The normalised datum and what was done to get it, in words.
+    pub(super) fn described(&self, datum: &Datum) -> String {
+        let Datum { phi0, phi1, kappa0, kappa1 } = datum;
+        let unit = self.unit();
+        let mut text = format!(
+            "normalised: phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = {kappa0:?}, kappa1 = {kappa1:?}; half chord {unit:?}"
+        );
+        text += if self.mirrored { ", mirrored" } else { "" };
+        text + if self.reversed { ", reversed (what is called 0 belongs to the end)" } else { "" }
+    }
+
     /// The curve of a datum and one root (f0, f1), in the user's frame and direction of travel.
     pub fn place(&self, datum: &Datum, f0: f64, f1: f64) -> CubicBezier {
         let mut p = CubicBezier::from_ratios(datum.phi0, datum.phi1, f0, f1).p.map(|z| self.user_point(z));

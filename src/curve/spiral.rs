@@ -149,13 +149,6 @@ impl fmt::Display for Answer {
             }
             (Outcome::Chosen(_), None) => writeln!(f, "no such solution")?,
         }
-        let Datum { phi0, phi1, kappa0, kappa1 } = self.datum;
-        write!(
-            f,
-            "normalised: phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = {kappa0:?}, kappa1 = {kappa1:?}; half chord {:?}",
-            self.placement.unit()
-        )?;
-        f.write_str(if self.placement.mirrored { ", mirrored" } else { "" })?;
-        f.write_str(if self.placement.reversed { ", reversed (phi0, kappa0, f0 belong to the end)" } else { "" })
+        write!(f, "{}", self.placement.described(&self.datum))
     }
 }

@@ -128,21 +128,29 @@ impl Why {
 
     /// Explains a proved "no". In double precision, so within rounding of a boundary it may name the neighbouring reason.
     pub(super) fn no_spiral(ends: &Ends, datum: &Datum, placement: &Placement, solutions: &[Solution]) -> Why {
-        let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
-        if let Some(why) = bends(ends, placement) {
-            return why;
+        if let Some((which, curvature)) = bends(ends, placement).next() {
+            let turn = placement.turn();
+            return if curvature == 0.0 { Why::Straight { which } } else { Why::Inflection { which, curvature, turn } };
         }
+        match Why::no_spiral_at_all(datum) {
+            Some(why) => why,
+            None if solutions.is_empty() => no_root(datum),
+            None => Why::NotMonotone { roots: solutions.iter().map(Waver::from).collect() },
+        }
+    }
+
+    /// What forbids a spiral of any kind.
+    pub(super) fn no_spiral_at_all(datum: &Datum) -> Option<Why> {
+        let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
         if kappa0 == kappa1 {
-            return Why::EqualCurvatures { kappa: kappa0 };
+            return Some(Why::EqualCurvatures { kappa: kappa0 });
         }
         if phi0 >= phi1 {
-            return Why::AnglesOrder { phi0, phi1 };
+            return Some(Why::AnglesOrder { phi0, phi1 });
         }
         match least_end_curvature(phi0, phi1, kappa0) {
-            None => Why::StartTooSharp { kappa0, bound: phi0.sin() },
-            Some(bound) if kappa1 <= bound => Why::NotNested { kappa1, bound },
-            Some(_) if solutions.is_empty() => no_root(datum),
-            Some(_) => Why::NotMonotone { roots: solutions.iter().map(Waver::from).collect() },
+            None => Some(Why::StartTooSharp { kappa0, bound: phi0.sin() }),
+            Some(bound) => (kappa1 <= bound).then_some(Why::NotNested { kappa1, bound }),
         }
     }
 }
@@ -153,12 +161,12 @@ impl From<&Solution> for Waver {
     }
 }
 
-fn bends(ends: &Ends, placement: &Placement) -> Option<Why> {
+/// The ends whose curvature is 0 or against the turn that the directions ask for, and that curvature.
+pub(super) fn bends(ends: &Ends, placement: &Placement) -> impl Iterator<Item = (Which, f64)> {
     let turn = placement.turn();
-    let with_turn = |curvature: f64| if turn == Turn::Left { curvature } else { -curvature };
+    let with_turn = move |curvature: f64| if turn == Turn::Left { curvature } else { -curvature };
     let both = [(Which::Start, ends.start_curvature), (Which::End, ends.end_curvature)];
-    let (which, curvature) = both.into_iter().find(|(_, curvature)| with_turn(*curvature) <= 0.0)?;
-    Some(if curvature == 0.0 { Why::Straight { which } } else { Why::Inflection { which, curvature, turn } })
+    both.into_iter().filter(move |(_, curvature)| with_turn(*curvature) <= 0.0)
 }
 
 /// The paper's discriminant in the angle-free coordinates: `c0 = (9 - 3/k)/a²`, `c1 = 1/(k a²)`, `c2 = 6/a`, (A.3) to (A.5).

@@ -69,6 +69,23 @@ fn involutes_join_any_ends_with_a_spiral() {
 }
 
 #[test]
+fn ph_quintics_join_straight_ends_too() {
+    let folder = Folder::new("");
+    let figure = folder.text("ph.png");
+    let straight = |more: &[&str]| {
+        let ends = ["curve", "--family", "ph-quintic", "--from", "0,0", "--to", "200,0", "--start-direction=-25deg"];
+        let rest = ["--end-direction", "50deg", "--start-curvature", "0", "--end-curvature"];
+        run(ends.into_iter().chain(rest).chain(more.iter().copied()))
+    };
+    let json = straight(&["0.012", "--json", "--figure", &figure]).json();
+    let chosen = &json["solutions"][json["chosen"].as_u64().unwrap() as usize];
+    assert_eq!((&chosen["control_points"][0], &chosen["spiral"]), (&serde_json::json!([0.0, 0.0]), &true.into()), "{json}");
+    assert!(number(&chosen["length"]) > 200.0 && std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    let none = straight(&["0.02"]);
+    assert!(none.code == Some(0) && none.out.contains("no PH quintic spiral: "), "{}", none.out);
+}
+
+#[test]
 fn segments_are_added_to_lines_and_arcs() {
     let folder = Folder::new("");
     let figure = folder.text("segment.png");

@@ -2,6 +2,7 @@
 
 mod cubic;
 mod involute;
+mod ph;
 mod reach;
 
 use super::{Outcome, output};
@@ -17,8 +18,8 @@ const SAMPLES: usize = 801;
 
 /// Find a transition curve of monotone curvature, anywhere in the plane, in any unit of length.
 ///
-/// Between two ends (`cubic`, `involute`): two points, two directions of travel, two signed curvatures, positive to the left. `cubic`:
-/// of several spirals the one with the largest margin. `involute`: the image of an involute of a circle, which exists whenever any
+/// Between two ends (`cubic`, `ph-quintic`, `involute`): two points, two directions of travel, two signed curvatures, positive to the
+/// left. `cubic`: of several spirals the one with the largest margin. `ph-quintic`: that of least bending energy. `involute`: the image of an involute of a circle, which exists whenever any
 /// spiral does; with --turns it goes round its ends.
 ///
 /// Added to the end of a line or of an arc (`reach-cubic`, `reach-ph`): a segment between curvature 0 and 1/radius that turns by an
@@ -94,6 +95,7 @@ const REACH: &str = "For `reach-cubic` and `reach-ph`";
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Family {
     Cubic,
+    PhQuintic,
     Involute,
     ReachCubic,
     ReachPh,
@@ -119,6 +121,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
     let found: Box<dyn Found> = match args.family {
         Family::Cubic => Box::new(cubic::find(&args.ends(&[]))?),
+        Family::PhQuintic => Box::new(ph::find(&args.ends(&[]))?),
         Family::Involute => {
             let ends = args.ends(&["--turns", "--samples"]);
             Box::new(involute::find(&ends, args.turns.unwrap_or_default(), args.samples.unwrap_or(101))?)

@@ -96,7 +96,7 @@ impl Family for PhQuintic {
         FLAGS
     }
     fn nested(&self) -> &'static [&'static str] {
-        &["SOLVABLE", "ANY_SPIRAL", "SPIRAL"]
+        &["ANY_SPIRAL", "SPIRAL"]
     }
     fn counts(&self) -> &'static [Count] {
         COUNTS

@@ -1,0 +1,153 @@
+//! The PH quintic spiral between two given ends, anywhere in the plane.
+
+use super::placement::{Ends, Placement};
+use super::why::{Why, bends};
+use crate::error::{Error, Result};
+use crate::family::cubic::Datum;
+use crate::family::ph_quintic::{Quintic, solve};
+use serde::Serialize;
+use std::fmt;
+
+/// All that is known of two ends.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhAnswer {
+    /// What was asked.
+    pub ends: Ends,
+    /// The normalised data.
+    pub datum: Datum,
+    /// How the normalised frame lies in the user's.
+    pub placement: Placement,
+    /// Every PH quintic of this family that matches the ends, spirals or not, by increasing A.
+    pub solutions: Vec<PhSolution>,
+    /// The chosen one, or why there is none.
+    #[serde(flatten)]
+    pub outcome: PhOutcome,
+}
+
+/// Whether there is a PH quintic spiral.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PhOutcome {
+    /// Index, into [`PhAnswer::solutions`], of the spiral of least bending energy.
+    Chosen(usize),
+    /// There is none; in words, with numbers.
+    Why(String),
+}
+
+/// One PH quintic that matches the ends, in the user's units.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhSolution {
+    /// A of the normalised curve; see [`Quintic::a`].
+    pub a: f64,
+    /// B of the normalised curve.
+    pub b: f64,
+    /// Whether its curvature is monotone: necessary and sufficient.
+    pub spiral: bool,
+    /// Scale-free distance from losing it; see [`Quintic::margin`].
+    pub margin: f64,
+    /// Arc length.
+    pub length: f64,
+    /// Bending energy: the integral of the squared curvature over arc length, 1 / length.
+    pub energy: f64,
+    /// Bézier control points in the user's direction of travel; the curve starts and ends exactly where asked.
+    pub control_points: Vec<[f64; 2]>,
+    /// The same relative to the start point: what to differentiate when the coordinates are far from the origin.
+    pub local_control_points: Vec<[f64; 2]>,
+}
+
+/// Finds the PH quintic spiral of least bending energy between two ends, or says why there is none. Straight ends (curvature 0) are
+/// welcome.
+///
+/// # Accuracy
+/// As [`super::spiral`]: existence is proved for the normalised doubles in [`PhAnswer::datum`]. End points are the user's, exactly; end
+/// directions and curvatures of [`PhSolution::local_control_points`] are the user's to about 1e-14 over the length of the end's
+/// tangent in half chords; length and energy to 2^-36 relative, usually a few ulp.
+///
+/// # Errors
+/// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control point leaves the range of doubles. That
+/// no spiral exists is no error but [`PhOutcome::Why`].
+pub fn ph_spiral(ends: &Ends) -> Result<PhAnswer> {
+    let (datum, placement) = Placement::normalise(ends)?;
+    let answer = |solutions, outcome| PhAnswer { ends: *ends, datum, placement, solutions, outcome };
+    if let Some(why) = Why::no_convex_arc(&datum, &placement) {
+        return Ok(answer(Vec::new(), PhOutcome::Why(why.to_string())));
+    }
+    let solved = solve(&datum)?;
+    let solutions = solved.all().iter().map(|q| PhSolution::new(&placement, q)).collect::<Result<Vec<_>>>()?;
+    let outcome = match solved.chosen_index() {
+        Some(i) => PhOutcome::Chosen(i),
+        None => PhOutcome::Why(why(ends, &datum, &placement, &solutions)),
+    };
+    Ok(answer(solutions, outcome))
+}
+
+impl PhAnswer {
+    /// The chosen spiral, if there is one.
+    pub fn chosen(&self) -> Option<&PhSolution> {
+        match self.outcome {
+            PhOutcome::Chosen(i) => self.solutions.get(i),
+            PhOutcome::Why(_) => None,
+        }
+    }
+}
+
+impl PhSolution {
+    fn new(placement: &Placement, quintic: &Quintic) -> Result<PhSolution> {
+        let Quintic { a, b, spiral, margin, length, energy, control_points, .. } = quintic;
+        let (user, local) = (placement.to_user(control_points), placement.to_user_local(control_points));
+        if let Some([x, y]) = user.iter().chain(&local).find(|p| !(p[0].is_finite() && p[1].is_finite())) {
+            return Err(Error::Domain(format!(
+                "a control point of the solution with A = {a:?}, B = {b:?} is ({x:?}, {y:?}), outside the range of doubles (change the \
+                 unit of length)"
+            )));
+        }
+        Ok(PhSolution {
+            a: *a,
+            b: *b,
+            spiral: *spiral,
+            margin: *margin,
+            length: length * placement.unit(),
+            energy: energy / placement.unit(),
+            control_points: user,
+            local_control_points: local,
+        })
+    }
+}
+
+/// Explains a proved "no", in double precision: within rounding of a boundary it may name the neighbouring reason.
+fn why(ends: &Ends, datum: &Datum, placement: &Placement, solutions: &[PhSolution]) -> String {
+    if let Some((which, curvature)) = bends(ends, placement).find(|(_, curvature)| *curvature != 0.0) {
+        let turn = placement.turn();
+        return format!(
+            "the {which} curvature {curvature:?} is against the turn to the {turn} that the directions ask for: the curve would have an inflection, \
+             and this family has none"
+        );
+    }
+    if let Some(why) = Why::no_spiral_at_all(datum) {
+        return why.to_string();
+    }
+    if solutions.is_empty() {
+        return "some spiral has these ends, but no PH quintic with A, B > 0 (see `--family involute`)".into();
+    }
+    let margins: Vec<String> = solutions.iter().map(|s| format!("{:?}", s.margin)).collect();
+    format!("the curvature of no PH quintic with these ends is monotone: margins {}", margins.join(", "))
+}
+
+impl fmt::Display for PhAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.outcome, self.chosen()) {
+            (PhOutcome::Why(why), _) => writeln!(f, "no PH quintic spiral: {why}")?,
+            (_, Some(PhSolution { a, b, margin, length, energy, control_points, .. })) => {
+                writeln!(
+                    f,
+                    "PH quintic spiral A = {a:?}, B = {b:?}, margin {margin:?}, length {length:?}, bending energy {energy:?}; control points"
+                )?;
+                for [x, y] in control_points {
+                    writeln!(f, "  ({x:?}, {y:?})")?;
+                }
+            }
+            (PhOutcome::Chosen(_), None) => writeln!(f, "no such solution")?,
+        }
+        write!(f, "{}", self.placement.described(&self.datum))
+    }
+}

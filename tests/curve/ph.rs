@@ -1,0 +1,115 @@
+//! PH quintic spirals between ends anywhere: end data, monotone curvature, the hodograph, length and energy, reasons.
+
+use super::EPS;
+use proptest::prelude::*;
+use spiral_atlas::curve::{Ends, Jet, PhOutcome, PhSolution, arc_length, ph_spiral};
+use std::f64::consts::PI;
+
+/// A spiral's ends in some position: turned, scaled and moved, mirrored and travelled backwards or not.
+fn ends([phi0, phi1, kappa0, kappa1]: [f64; 4], turned: f64, half: f64, mirrored: bool, reversed: bool) -> Ends {
+    let at = |x: f64| [3.0 + x * half * turned.cos(), -2.0 + x * half * turned.sin()];
+    let side = if mirrored { -1.0 } else { 1.0 };
+    let (first, last) = ((-side * phi0, side * kappa0 / half), (side * phi1, side * kappa1 / half));
+    if reversed {
+        return Ends {
+            start: at(1.0),
+            end: at(-1.0),
+            start_direction: turned + last.0 + PI,
+            end_direction: turned + first.0 + PI,
+            start_curvature: -last.1,
+            end_curvature: -first.1,
+        };
+    }
+    Ends {
+        start: at(-1.0),
+        end: at(1.0),
+        start_direction: turned + first.0,
+        end_direction: turned + last.0,
+        start_curvature: first.1,
+        end_curvature: last.1,
+    }
+}
+
+/// How far, relative to the curvature's own size, the curve is from its ends, and whether its curvature is monotone at 400 points.
+fn check(ends: &Ends, found: &PhSolution) -> (f64, bool) {
+    let jet = |t: f64| Jet::of_bezier(&found.local_control_points, t);
+    let (first, last) = (jet(0.0), jet(1.0));
+    let turn = |jet: &Jet, direction: f64| (jet.direction() - direction).sin().abs();
+    let sharp = ends.start_curvature.abs().max(ends.end_curvature.abs());
+    let off = [
+        turn(&first, ends.start_direction),
+        turn(&last, ends.end_direction),
+        (first.curvature() - ends.start_curvature).abs() / sharp,
+        (last.curvature() - ends.end_curvature).abs() / sharp,
+    ];
+    let growth = (ends.end_curvature - ends.start_curvature).signum();
+    let curvatures: Vec<f64> = (0..=400).map(|i| growth * jet(f64::from(i) / 400.0).curvature()).collect();
+    (off.into_iter().fold(0.0, f64::max), curvatures.windows(2).all(|w| w[0] <= w[1] + 1e-12 * sharp))
+}
+
+#[test]
+fn meets_its_ends_in_every_orientation() {
+    let mut straight = 0;
+    for datum in
+        [[0.7, 1.4, 0.4, 4.0], [0.1, 1.5, 0.035, 100.0], [0.8, 0.9, 0.6, 0.874], [0.4, 0.9, 0.0, 2.0], [0.9, 1.7, 0.5, 4.0]]
+    {
+        for (mirrored, reversed) in [(false, false), (true, false), (false, true), (true, true)] {
+            let ends = ends(datum, 0.3, 2.0, mirrored, reversed);
+            let answer = ph_spiral(&ends).unwrap();
+            let found = answer.chosen().unwrap_or_else(|| panic!("{datum:?}: {answer}"));
+            assert_eq!((found.control_points[0], found.control_points[5]), (ends.start, ends.end));
+            let (off, monotone) = check(&ends, found);
+            assert!(off < 1e-12 && monotone, "{datum:?}, {off}");
+            // The end curvature asked for is missed by another: the check can fail.
+            let sharper = 1.000_001;
+            let [start_curvature, end_curvature] = [ends.start_curvature, ends.end_curvature].map(|k| k * sharper);
+            assert!(check(&Ends { start_curvature, end_curvature, ..ends }, found).0 > 1e-8);
+            let jet = |t: f64| Jet::of_bezier(&found.local_control_points, t);
+            let length = arc_length(|t| jet(t).speed(), 0.0, 1.0);
+            let energy = arc_length(|t| jet(t).curvature().powi(2) * jet(t).speed(), 0.0, 1.0);
+            assert!((found.length / length - 1.0).abs() < 1e-10 && (found.energy / energy - 1.0).abs() < 1e-10, "{found:?}");
+            // A Pythagorean hodograph: the speed is a quartic, so its fifth differences vanish.
+            let speeds: Vec<f64> = (0..=5).map(|i| jet(f64::from(i) / 5.0).speed()).collect();
+            let fifth = [-1.0, 5.0, -10.0, 10.0, -5.0, 1.0].iter().zip(&speeds).map(|(c, s)| c * s).sum::<f64>();
+            assert!(fifth.abs() <= 400.0 * EPS * speeds.iter().sum::<f64>(), "{fifth}");
+            straight += usize::from(ends.start_curvature == 0.0 || ends.end_curvature == 0.0);
+        }
+    }
+    assert_eq!(straight, 4);
+}
+
+#[test]
+fn no_spiral_has_a_reason_with_numbers() {
+    let why = |datum| match ph_spiral(&ends(datum, 0.3, 2.0, false, false)).unwrap().outcome {
+        PhOutcome::Why(why) => why,
+        PhOutcome::Chosen(i) => panic!("solution {i} was chosen for {datum:?}"),
+    };
+    assert!(why([0.7, 1.4, 0.4, 1.2]).contains("must exceed 1.46") && why([0.7, 1.4, 0.8, 4.0]).contains("sin(phi0)"));
+    assert!(why([0.7, 1.4, 0.4, -2.0]).contains("the end curvature -1.0 is against the turn to the left"));
+    assert!(why([-0.7, 1.4, 0.4, 2.0]).contains("opposite sides") && why([2.0, 1.5, 0.4, 2.0]).contains("below pi"));
+    assert!(why([1.4, 0.7, 0.4, 2.0]).contains("phi0 >= phi1"));
+    assert!(why([0.7, 1.4, 0.4, 1.7]).contains("margins -"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, rng_seed: proptest::test_runner::RngSeed::Fixed(6), ..ProptestConfig::default() })]
+
+    #[test]
+    fn whatever_is_returned_has_what_is_claimed(
+        (phi0, phi1) in (0.05..1.3f64, 0.1..1.6f64), (x, y) in (0.0..1.0f64, 0.0..1.0f64), turned in -3.0..3.0f64, half in 0.1..50.0f64,
+        mirrored: bool, reversed: bool,
+    ) {
+        let kappa0 = x * phi0.sin();
+        let kappa1 = phi1.sin() * (1.0 + 20.0 * y * y);
+        let ends = ends([phi0, phi1, kappa0, kappa1], turned, half, mirrored, reversed);
+        let answer = ph_spiral(&ends).unwrap();
+        for solution in &answer.solutions {
+            let (off, monotone) = check(&ends, solution);
+            // Control points are rounded at the size of the chord; a curvature feels that over the square of its leg.
+            let leg = solution.a.min(solution.b).powi(2) / 5.0;
+            prop_assert!(off < 100.0 * EPS / (leg * leg), "{off}: {answer:?}");
+            prop_assert!(monotone || !solution.spiral, "{answer:?}");
+        }
+        prop_assert_eq!(answer.chosen().is_some(), answer.solutions.iter().any(|s| s.spiral));
+    }
+}
