@@ -9,6 +9,7 @@ pub mod family;
 pub mod files;
 pub mod grid;
 pub mod num;
+pub mod path;
 #[cfg(feature = "cli")]
 pub mod plot;
 #[cfg(feature = "recipe")]

@@ -3,7 +3,7 @@
 use super::vector::{Vector, cross, length, scale, sub};
 
 /// Halvings at most: then an interval is narrower than a double near 1.
-const DEPTH: u32 = 53;
+pub(super) const DEPTH: u32 = 53;
 
 /// Parameters in (0, 1), increasing, where the curvature of the cubic with these control points has an extremum.
 ///
@@ -36,11 +36,11 @@ fn numerator(q: &[Vector; 3]) -> Vec<f64> {
     rising.iter().zip(&falling).map(|(r, f)| r - 1.5 * f).collect()
 }
 
-fn derivative(b: &[f64]) -> Vec<f64> {
+pub(super) fn derivative(b: &[f64]) -> Vec<f64> {
     b.windows(2).map(|w| (b.len() - 1) as f64 * (w[1] - w[0])).collect()
 }
 
-fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
+pub(super) fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
     let (m, n) = (a.len() - 1, b.len() - 1);
     let coefficient = |k: usize| {
         let terms = (k.saturating_sub(n)..=k.min(m)).map(|i| choose(m, i) * choose(n, k - i) * a[i] * b[k - i]);
@@ -54,7 +54,7 @@ fn choose(n: usize, k: usize) -> f64 {
 }
 
 /// Halves until the coefficients change sign at most once, then bisects. A touching zero is no change.
-fn sign_changes(b: &[f64], lo: f64, hi: f64, depth: u32, roots: &mut Vec<f64>) {
+pub(super) fn sign_changes(b: &[f64], lo: f64, hi: f64, depth: u32, roots: &mut Vec<f64>) {
     let signs: Vec<bool> = b.iter().filter(|c| **c != 0.0).map(|c| *c > 0.0).collect();
     if signs.windows(2).all(|w| w[0] == w[1]) {
         return;
@@ -82,7 +82,7 @@ fn last_sign(b: &[f64]) -> Option<bool> {
 }
 
 /// De Casteljau at 1/2.
-fn halves(b: &[f64]) -> (Vec<f64>, Vec<f64>) {
+pub(super) fn halves(b: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut row = b.to_vec();
     let (mut left, mut right) = (vec![row[0]], vec![row[row.len() - 1]]);
     while row.len() > 1 {

@@ -93,8 +93,9 @@ impl PhAnswer {
 
 impl PhSolution {
     fn new(placement: &Placement, quintic: &Quintic) -> Result<PhSolution> {
-        let Quintic { a, b, spiral, margin, length, energy, control_points, .. } = quintic;
-        let (user, local) = (placement.to_user(control_points), placement.to_user_local(control_points));
+        let Quintic { a, b, spiral, margin, length, energy, curve } = quintic;
+        let control_points = curve.control_points();
+        let (user, local) = (placement.to_user(&control_points), placement.to_user_local(&control_points));
         if let Some([x, y]) = user.iter().chain(&local).find(|p| !(p[0].is_finite() && p[1].is_finite())) {
             return Err(Error::Domain(format!(
                 "a control point of the solution with A = {a:?}, B = {b:?} is ({x:?}, {y:?}), outside the range of doubles (change the \

@@ -3,6 +3,7 @@
 use super::curves::Curves;
 use super::pair::Pair;
 use super::truth::{self, Margin, Measures, Truth, chosen, measure};
+use crate::curve::PhQuintic;
 use crate::error::Result;
 use crate::family::cubic::Datum;
 use crate::family::hermite::check;
@@ -16,10 +17,8 @@ pub struct Quintic {
     pub a: f64,
     /// `|w2| = B`; the end's speed is B².
     pub b: f64,
-    /// The pre-image `w = w0 (1-t)² + 2 w1 t(1-t) + w2 t²` as (real, imaginary); the curve's derivative is w².
-    pub preimage: [[f64; 2]; 3],
-    /// Bézier control points.
-    pub control_points: [[f64; 2]; 6],
+    /// The curve itself.
+    pub curve: PhQuintic,
     /// Whether its curvature is monotone: necessary and sufficient.
     pub spiral: bool,
     /// Bending energy, the integral of the squared curvature over arc length, times half the chord.
@@ -114,25 +113,13 @@ fn quintic<N: Real>(datum: &Datum, curves: &Curves<N>, pair: &Pair<N>, measures:
     let quarter = 4.0 * pair.sin.approx();
     let bends = [datum.kappa0 * a.powi(3) / quarter, datum.kappa1 * b.powi(3) / quarter];
     debug_assert!(curves.scale.iter().all(|p| *p > 0.0));
-    let preimage = preimage(datum, [a, b], bends);
-    let control_points = control_points(&preimage);
-    Some(Quintic { a, b, preimage, control_points, spiral, energy, length, margin: known(&measures.margin, 2f64.powi(-31))? })
+    let curve = PhQuintic::between([-1.0, 0.0], [1.0, 0.0], preimage(datum, [a, b], bends));
+    Some(Quintic { a, b, curve, spiral, energy, length, margin: known(&measures.margin, 2f64.powi(-31))? })
 }
 
 fn preimage(datum: &Datum, [a, b]: [f64; 2], [start, end]: [f64; 2]) -> [[f64; 2]; 3] {
     let ((s0, c0), (s1, c1)) = ((0.5 * datum.phi0).sin_cos(), (0.5 * datum.phi1).sin_cos());
     [[a * c0, -a * s0], [start * c1 + end * c0, start * s1 - end * s0], [b * c1, b * s1]]
-}
-
-/// (5) of the paper, from both ends, so that both are met.
-fn control_points(w: &[[f64; 2]; 3]) -> [[f64; 2]; 6] {
-    let fifth = |x: [f64; 2], y: [f64; 2]| [0.2 * (x[0] * y[0] - x[1] * y[1]), 0.2 * (x[0] * y[1] + x[1] * y[0])];
-    let [w0, w1, w2] = *w;
-    let add = |p: [f64; 2], d: [f64; 2], sign: f64| [p[0] + sign * d[0], p[1] + sign * d[1]];
-    let (p0, p5) = ([-1.0, 0.0], [1.0, 0.0]);
-    let p1 = add(p0, fifth(w0, w0), 1.0);
-    let p4 = add(p5, fifth(w2, w2), -1.0);
-    [p0, p1, add(p1, fifth(w0, w1), 1.0), add(p4, fifth(w1, w2), -1.0), p4, p5]
 }
 
 /// [`solve`] in the form of every family.
@@ -147,8 +134,8 @@ pub(super) fn answer(point: &[f64; 4]) -> Result<Answer> {
             ("energy", q.energy.into()),
             ("length", q.length.into()),
             ("margin", q.margin.into()),
-            ("preimage", q.preimage.into()),
-            ("control_points", q.control_points.into()),
+            ("preimage", q.curve.preimage.into()),
+            ("control_points", q.curve.control_points().into()),
         ]
     };
     let all = solutions.all.iter().map(solution).collect();

@@ -1,0 +1,369 @@
+//! Pythagorean-hodograph quintics: the one type that every maker of them gives.
+//!
+//! With the pre-image `w = w0 (1-t)² + 2 w1 t(1-t) + w2 t²` of complex numbers the curve's derivative is `w²`, so its speed `σ = |w|²`, its
+//! arc length, unit tangent, curvature and offsets are polynomials or quotients of them (Farouki et al., (2)-(9)).
+
+use super::extrema::{self, product, sign_changes};
+use super::jet::Jet;
+use crate::family::ph_quintic::energy_integral;
+use crate::num::{Ball, Interval, Real};
+use num_complex::Complex64;
+use serde::Serialize;
+
+/// A Pythagorean-hodograph quintic for t in [0, 1], anywhere in the plane, in any unit of length.
+///
+/// A pre-image and its negative give the same curve: compare curves by control points.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PhQuintic {
+    /// The point at t = 0.
+    pub start: [f64; 2],
+    /// The point at t = 1: `start + ∫ w²`, to a few roundings.
+    pub end: [f64; 2],
+    /// Bernstein coefficients of w as (real, imaginary), in square roots of lengths.
+    pub preimage: [[f64; 2]; 3],
+}
+
+/// A rational curve of degree 9 in homogeneous coordinates, as Bernstein coefficients.
+///
+/// The point at t is `numerator(t) / weight(t)`. Where all weights are positive, `numerator[i] / weight[i]` are its control points.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Offset {
+    /// X and Y.
+    pub numerator: Vec<[f64; 2]>,
+    /// W.
+    pub weight: Vec<f64>,
+}
+
+impl Offset {
+    /// The point at t; NaN where the weight is 0, which is where the path stands still.
+    pub fn point(&self, t: f64) -> [f64; 2] {
+        let component = |i: usize| self.numerator.iter().map(|p| p[i]).collect::<Vec<_>>();
+        let weight = value(self.weight.clone(), t);
+        [0, 1].map(|i| value(component(i), t) / weight)
+    }
+}
+
+impl PhQuintic {
+    /// From where it starts and its pre-image.
+    ///
+    /// ```
+    /// use spiral_atlas::curve::PhQuintic;
+    /// let straight = PhQuintic::new([1.0, 2.0], [[2.0, 0.0]; 3]);
+    /// assert_eq!((straight.end, straight.length(), straight.curvature(0.3)), ([5.0, 2.0], 4.0, 0.0));
+    /// ```
+    pub fn new(start: [f64; 2], preimage: [[f64; 2]; 3]) -> PhQuintic {
+        let [w0, w1, w2] = complex(&preimage);
+        // (5): the sum of all legs.
+        let chord = (w0 * w0 + w0 * w1 + (2.0 * w1 * w1 + w0 * w2) / 3.0 + w1 * w2 + w2 * w2) / 5.0;
+        PhQuintic { start, end: [start[0] + chord.re, start[1] + chord.im], preimage }
+    }
+
+    /// With both ends as given, exactly; `end - start` must be `∫ w²` to a few roundings.
+    pub fn between(start: [f64; 2], end: [f64; 2], preimage: [[f64; 2]; 3]) -> PhQuintic {
+        PhQuintic { start, end, preimage }
+    }
+
+    /// Whether no number in it is infinite or NaN.
+    pub fn is_finite(&self) -> bool {
+        let numbers = self.preimage.iter().flatten().chain(&self.start).chain(&self.end);
+        numbers.chain(&self.speed_coefficients()).all(|x| x.is_finite())
+    }
+
+    /// Bézier control points: (5), from both ends, so that both are exact.
+    pub fn control_points(&self) -> [[f64; 2]; 6] {
+        let [w0, w1, w2] = complex(&self.preimage);
+        let add = |p: [f64; 2], leg: Complex64, sign: f64| [p[0] + sign * 0.2 * leg.re, p[1] + sign * 0.2 * leg.im];
+        let p1 = add(self.start, w0 * w0, 1.0);
+        let p4 = add(self.end, w2 * w2, -1.0);
+        [self.start, p1, add(p1, w0 * w1, 1.0), add(p4, w1 * w2, -1.0), p4, self.end]
+    }
+
+    /// The point at t; exact at 0 and 1.
+    pub fn point(&self, t: f64) -> [f64; 2] {
+        let mut p = self.control_points();
+        for last in (1..p.len()).rev() {
+            for i in 0..last {
+                p[i] = super::vector::lerp(p[i], p[i + 1], t);
+            }
+        }
+        p[0]
+    }
+
+    /// Point and derivatives at t; the derivatives come from the pre-image, so they do not suffer far from the origin.
+    pub fn jet(&self, t: f64) -> Jet {
+        let ([w, w1], w2) = (self.image(t), self.bend());
+        let pair = |z: Complex64| [z.re, z.im];
+        Jet { point: self.point(t), first: pair(w * w), second: pair(2.0 * w * w1), third: pair(2.0 * (w1 * w1 + w * w2)) }
+    }
+
+    /// Direction of travel at t as a vector of length 1; NaN where the speed is zero.
+    pub fn tangent(&self, t: f64) -> [f64; 2] {
+        let [w, _] = self.image(t);
+        let unit = w / w.norm();
+        let tangent = unit * unit;
+        [tangent.re, tangent.im]
+    }
+
+    /// Parametric speed σ at t, length per unit of t.
+    pub fn speed(&self, t: f64) -> f64 {
+        self.image(t)[0].norm_sqr()
+    }
+
+    /// Bernstein coefficients of the speed σ: (6).
+    pub fn speed_coefficients(&self) -> [f64; 5] {
+        let [w0, w1, w2] = complex(&self.preimage);
+        let re = |a: Complex64, b: Complex64| a.re * b.re + a.im * b.im;
+        [w0.norm_sqr(), re(w0, w1), (2.0 * w1.norm_sqr() + re(w0, w2)) / 3.0, re(w1, w2), w2.norm_sqr()]
+    }
+
+    /// Bernstein coefficients of h, where the curvature is `h / σ²`: (14).
+    pub fn turn_coefficients(&self) -> [f64; 3] {
+        let [w0, w1, w2] = complex(&self.preimage);
+        let im = |a: Complex64, b: Complex64| a.re * b.im - a.im * b.re;
+        [4.0 * im(w0, w1), 2.0 * im(w0, w2), 4.0 * im(w1, w2)]
+    }
+
+    /// Bernstein coefficients of the arc length from the start: (8).
+    pub fn length_coefficients(&self) -> [f64; 6] {
+        let mut lengths = [0.0; 6];
+        for (k, speed) in self.speed_coefficients().iter().enumerate() {
+            lengths[k + 1] = lengths[k] + 0.2 * speed;
+        }
+        lengths
+    }
+
+    /// Arc length: (9).
+    pub fn length(&self) -> f64 {
+        0.2 * self.speed_coefficients().iter().sum::<f64>()
+    }
+
+    /// Arc length from the start to t.
+    pub fn length_to(&self, t: f64) -> f64 {
+        value(self.length_coefficients(), t)
+    }
+
+    /// Where the arc length from the start is `s`: the inverse of [`PhQuintic::length_to`], 0 below it and 1 above.
+    ///
+    /// # Accuracy
+    /// The length at the result is `s` to a few roundings of the whole length. Newton's method, kept inside a bracket: where the curve
+    /// stands still it becomes bisection.
+    pub fn parameter_at(&self, s: f64) -> f64 {
+        let lengths = self.length_coefficients();
+        if s <= 0.0 || s >= lengths[5] {
+            return if s > 0.0 { 1.0 } else { 0.0 };
+        }
+        let (mut low, mut high, mut t) = (0.0, 1.0, s / lengths[5]);
+        for _ in 0..100 {
+            let off = value(lengths, t) - s;
+            if off == 0.0 {
+                break;
+            }
+            if off < 0.0 {
+                low = t;
+            } else {
+                high = t;
+            }
+            let newton = t - off / self.speed(t);
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let step = (next - t).abs();
+            t = next;
+            if step <= 2.0 * f64::EPSILON * t {
+                break;
+            }
+        }
+        t
+    }
+
+    /// Signed curvature at t, positive to the left: (4); NaN where the speed is zero.
+    pub fn curvature(&self, t: f64) -> f64 {
+        let [w, slope] = self.image(t);
+        let speed = w.norm();
+        (2.0 * ((w / speed).conj() * (slope / speed)).im) / speed / speed
+    }
+
+    /// The parameters in (0, 1), increasing, where the curvature has an extremum: the sign changes of `σh' - 2hσ'`.
+    ///
+    /// # Accuracy
+    /// As [`super::CubicBezier::curvature_extrema`].
+    pub fn curvature_extrema(&self) -> Vec<f64> {
+        let unit = self.scaled().0;
+        let (speed, turn) = (unit.speed_coefficients(), unit.turn_coefficients());
+        let rising = product(&speed, &extrema::derivative(&turn));
+        let falling = product(&turn, &extrema::derivative(&speed));
+        changes(&rising.iter().zip(&falling).map(|(r, f)| r - 2.0 * f).collect::<Vec<_>>())
+    }
+
+    /// The largest curvature by size, and where: `(t, |κ|)`. NaN or infinite where the curve stands still.
+    pub fn greatest_curvature(&self) -> (f64, f64) {
+        let candidates = [0.0, 1.0].into_iter().chain(self.curvature_extrema());
+        let sizes = candidates.map(|t| (t, self.curvature(t).abs()));
+        sizes.fold((0.0, 0.0), |best, next| if next.1 > best.1 || next.1.is_nan() { next } else { best })
+    }
+
+    /// The parameters in (0, 1), increasing, where the curvature changes its sign.
+    pub fn inflections(&self) -> Vec<f64> {
+        changes(&self.scaled().0.turn_coefficients())
+    }
+
+    /// The least speed over [0, 1], and where: `(t, σ)`.
+    pub fn least_speed(&self) -> (f64, f64) {
+        let turns = changes(&extrema::derivative(&self.speed_coefficients()));
+        let all = [0.0, 1.0].into_iter().chain(turns).map(|t| (t, self.speed(t)));
+        all.fold((0.0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+    }
+
+    /// Whether it stands still nowhere: its least speed is above 1e-12 of its mean speed.
+    pub fn is_regular(&self) -> bool {
+        self.least_speed().1 > 1e-12 * self.length()
+    }
+
+    /// How far the tangent turns from start to end, counted with sign and whole turns, radians.
+    pub fn rotation(&self) -> f64 {
+        turned(&self.roots(), 0.0, 1.0)
+    }
+
+    /// `∫|κ| ds`: how far the tangent turns, to either side, radians.
+    ///
+    /// # Accuracy
+    /// A few roundings: between inflections it is twice the sum of the angles under which the roots of w see the piece. A stationary point,
+    /// a root on the piece itself, turns nothing.
+    pub fn absolute_rotation(&self) -> f64 {
+        let roots = self.roots();
+        let mut ends = self.inflections();
+        ends.insert(0, 0.0);
+        ends.push(1.0);
+        ends.windows(2).map(|w| turned(&roots, w[0], w[1]).abs()).sum()
+    }
+
+    /// Bending energy `∫κ² ds`, 1 / length; infinite for a curve that stands still somewhere and is no straight line.
+    ///
+    /// # Accuracy
+    /// 2^-40, relative, proved: an enclosure by Taylor series with remainder in doubles, and where those do not suffice in intervals of up to
+    /// 256 bits. Infinite is also what is closer to a stationary point than these can tell.
+    pub fn bending_energy(&self) -> f64 {
+        let (unit, size) = self.scaled();
+        if unit.turn_coefficients() == [0.0; 3] {
+            return 0.0;
+        }
+        let energy = unit.energy::<Ball>(53).or_else(|| unit.energy::<Interval>(128)).or_else(|| unit.energy::<Interval>(256));
+        energy.map_or(f64::INFINITY, |e| e / size)
+    }
+
+    /// The curve at signed distance `d` to the left, `r + d i t`: rational of degree 9, weight σ.
+    pub fn offset(&self, d: f64) -> Offset {
+        let speed = self.speed_coefficients();
+        let [w0, w1, w2] = complex(&self.preimage);
+        let hodograph = [w0 * w0, w0 * w1, (2.0 * w1 * w1 + w0 * w2) / 3.0, w1 * w2, w2 * w2];
+        // i w² is (-Im, Re).
+        let normal = [hodograph.map(|z| -z.im), hodograph.map(|z| z.re)];
+        let points = self.control_points();
+        let component = |i: usize| {
+            let moved = product(&speed, &points.map(|p| p[i]));
+            moved.into_iter().zip(product(&normal[i], &[1.0; 6])).map(|(p, n)| p + d * n).collect::<Vec<_>>()
+        };
+        let (x, y) = (component(0), component(1));
+        Offset { numerator: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(), weight: product(&speed, &[1.0; 6]) }
+    }
+
+    /// An upper bound of |κ|, infinite where the curve nearly stands still: h and σ in Bernstein form on `2^halvings` pieces.
+    ///
+    /// # Accuracy
+    /// Never below the truth. With w at most about 1, σ and h are computed to 2^-46; what is added to |h| exceeds that, and as pieces with σ below
+    /// 1e-6 of its coefficients count as infinite, the last factor exceeds what it makes of σ².
+    pub fn curvature_bound(&self, halvings: u32) -> f64 {
+        let (unit, size) = self.scaled();
+        let (speed, turn) = (unit.speed_coefficients(), unit.turn_coefficients());
+        let floor = 1e-6 * speed.iter().fold(0.0, |most: f64, s| most.max(s.abs()));
+        bound(&speed, &turn, floor, halvings) * (1.0 + 1e-7) / size
+    }
+
+    /// w and w' at t.
+    fn image(&self, t: f64) -> [Complex64; 2] {
+        let [w0, w1, w2] = complex(&self.preimage);
+        let (a, b) = (w0 * (1.0 - t) + w1 * t, w1 * (1.0 - t) + w2 * t);
+        [a * (1.0 - t) + b * t, 2.0 * ((w1 - w0) * (1.0 - t) + (w2 - w1) * t)]
+    }
+
+    /// w''.
+    fn bend(&self) -> Complex64 {
+        let [w0, w1, w2] = complex(&self.preimage);
+        2.0 * ((w2 - w1) - (w1 - w0))
+    }
+
+    /// The same shape with coefficients of w near 1, and the power of two that lengths were divided by.
+    fn scaled(&self) -> (PhQuintic, f64) {
+        let most = self.preimage.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
+        if !(most.is_finite() && most > 0.0) {
+            return (*self, 1.0);
+        }
+        let root = most.log2().round().clamp(-500.0, 500.0).exp2();
+        let preimage = self.preimage.map(|w| w.map(|x| x / root));
+        (PhQuintic { preimage, ..*self }, root * root)
+    }
+
+    /// The roots of w that are finite.
+    fn roots(&self) -> Vec<Complex64> {
+        let [c, w1, w2] = complex(&self.preimage);
+        let (a, b) = ((w2 - w1) - (w1 - c), w1 - c);
+        let root = (b * b - a * c).sqrt();
+        // The sum that does not cancel.
+        let q = if (b.conj() * root).re < 0.0 { root - b } else { -(b + root) };
+        let none = Complex64::new(0.0, 0.0);
+        let other = if q == none { none } else { c / q };
+        [q / a, if q == none && a == none { q / a } else { other }].into_iter().filter(|z| z.is_finite()).collect()
+    }
+
+    /// `∫ h²/σ³`, if known to 2^-40.
+    fn energy<N: Real>(&self, bits: usize) -> Option<f64> {
+        let w = self.preimage.map(|z| z.map(|x| N::of(x, bits)));
+        let re = |i: usize, j: usize| w[i][0].mul(&w[j][0]).add(&w[i][1].mul(&w[j][1]));
+        let im = |i: usize, j: usize| w[i][0].mul(&w[j][1]).sub(&w[i][1].mul(&w[j][0]));
+        let middle = re(1, 1).times(2.0).add(&re(0, 2)).over(&N::of(3.0, bits))?;
+        let speed = [re(0, 0), re(0, 1), middle, re(1, 2), re(2, 2)];
+        let turn = [im(0, 1).times(4.0), im(0, 2).times(2.0), im(1, 2).times(4.0)];
+        let energy = energy_integral(speed, turn)?;
+        let value = energy.approx();
+        (value.is_finite() && energy.sub(&energy.middle()).most() <= 2f64.powi(-40) * value).then_some(value)
+    }
+}
+
+fn complex(w: &[[f64; 2]; 3]) -> [Complex64; 3] {
+    w.map(|[re, im]| Complex64::new(re, im))
+}
+
+/// The value of a Bernstein form (de Casteljau).
+fn value(mut c: impl AsMut<[f64]>, t: f64) -> f64 {
+    let c = c.as_mut();
+    for last in (1..c.len()).rev() {
+        for i in 0..last {
+            c[i] = (1.0 - t) * c[i] + t * c[i + 1];
+        }
+    }
+    c.first().copied().unwrap_or(0.0)
+}
+
+fn changes(c: &[f64]) -> Vec<f64> {
+    let mut roots = Vec::new();
+    // A NaN has no sign; infinite coefficients would be halved for ever.
+    if c.iter().all(|x| x.is_finite()) {
+        sign_changes(c, 0.0, 1.0, extrema::DEPTH, &mut roots);
+    }
+    roots
+}
+
+/// Twice the angles under which the roots see the way from `a` to `b`.
+fn turned(roots: &[Complex64], a: f64, b: f64) -> f64 {
+    let angle = |z: &Complex64| ((b - z) * (a - z).conj()).arg();
+    2.0 * roots.iter().filter(|z| z.im != 0.0).map(angle).sum::<f64>()
+}
+
+/// The largest of `|h|/σ²` over pieces, from the largest |h| and the least σ among the coefficients of each.
+fn bound(speed: &[f64], turn: &[f64], floor: f64, halvings: u32) -> f64 {
+    if halvings == 0 {
+        let least = speed.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = turn.iter().fold(0.0f64, |most, h| most.max(h.abs()));
+        return if least > floor { (most + 1e-12) / (least * least) } else { f64::INFINITY };
+    }
+    let ((s0, s1), (h0, h1)) = (extrema::halves(speed), extrema::halves(turn));
+    bound(&s0, &h0, floor, halvings - 1).max(bound(&s1, &h1, floor, halvings - 1))
+}
