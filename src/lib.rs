@@ -26,4 +26,6 @@ mod pages {
     struct AnySpiral;
     #[doc = include_str!("../docs/reach.md")]
     struct Reach;
+    #[doc = include_str!("../docs/path.md")]
+    struct Path;
 }

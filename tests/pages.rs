@@ -12,7 +12,7 @@ fn pages() -> Vec<PathBuf> {
     [Path::new(ROOT).join("README.md")].into_iter().chain(pages).collect()
 }
 
-/// The arguments of every `query` and `curve` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
+/// The arguments of every `query`, `curve` and `path` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
 fn commands(text: &str) -> Vec<Vec<String>> {
     let blocks = text.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     let lines = blocks.flat_map(|block| block.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
@@ -21,7 +21,7 @@ fn commands(text: &str) -> Vec<Vec<String>> {
         let rest = line.strip_prefix("cargo run --release -- ").or_else(|| line.strip_prefix("spiral-atlas "))?;
         Some(rest.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
     });
-    arguments.filter(|a| a[0] == "query" || a[0] == "curve").collect()
+    arguments.filter(|a| ["query", "curve", "path"].contains(&a[0].as_str())).collect()
 }
 
 /// The share of pixels that differ clearly. Libraries of mathematics may differ in a last bit, and so may a pixel of a curve's rim.
@@ -36,6 +36,10 @@ fn difference(a: &[u8], b: &[u8]) -> f64 {
 fn commands_work_and_draw_the_figures() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir_all(folder.path().join("docs/figures")).unwrap();
+    std::fs::create_dir(folder.path().join("examples")).unwrap();
+    for example in std::fs::read_dir(Path::new(ROOT).join("examples")).unwrap().map(|entry| entry.unwrap()) {
+        std::fs::copy(example.path(), folder.path().join("examples").join(example.file_name())).unwrap();
+    }
     std::fs::write(folder.path().join("data.csv"), "phi0,phi1,kappa0,kappa1\n0.7,1.4,0.4,4\n").unwrap();
     let mut run = 0;
     for page in pages() {

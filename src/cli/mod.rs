@@ -10,6 +10,7 @@ mod datum;
 mod generate;
 mod info;
 mod output;
+mod path;
 mod pictures;
 mod points;
 mod query;
@@ -41,6 +42,7 @@ enum Command {
     Adapters(adapters::Args),
     Query(query::Args),
     Curve(curve::Args),
+    Path(path::Args),
     /// Print shell completions.
     #[command(after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]
     Completions {
@@ -67,6 +69,7 @@ pub fn main() -> ExitCode {
         Command::Adapters(args) => adapters::run(&args),
         Command::Query(args) => query::run(&args),
         Command::Curve(args) => curve::run(&args),
+        Command::Path(args) => path::run(&args),
         Command::Completions { shell } => completions(shell),
     };
     match done {

@@ -92,6 +92,16 @@ impl Motion {
         [self.start_time, self.start_time + self.length() / self.speed]
     }
 
+    /// Its path.
+    pub fn spans(&self) -> &[PhQuintic] {
+        &self.spans
+    }
+
+    /// Where it is at a time: at the start before it starts, at the end once it has arrived.
+    pub fn at(&self, time: f64) -> [f64; 2] {
+        self.state(time).point
+    }
+
     fn state(&self, time: f64) -> State {
         let travelled = (self.speed * (time - self.start_time)).clamp(0.0, self.length());
         let i = self.lengths.partition_point(|s| *s <= travelled).clamp(1, self.spans.len()) - 1;

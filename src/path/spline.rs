@@ -248,3 +248,27 @@ fn slopes(chords: &[Complex64], closed: bool) -> Vec<Complex64> {
     }
     system.solve(&right)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From hopeless starts there is no curve, and the span is named.
+    #[test]
+    fn says_when_newton_fails() {
+        let chords = [Complex64::new(1.0, 0.0), Complex64::new(0.0, 1.0), Complex64::new(1.0, 0.5)];
+        for close in [None, Some(-1.0)] {
+            let problem = Problem { chords: &chords, close };
+            for start in [0.0, f64::NAN, 1e200] {
+                let mut z = vec![Complex64::new(start, 0.0); 3];
+                let error = problem.newton(&mut z).expect_err("no start at all").to_string();
+                assert!(error.contains("did not converge") && error.contains("points["), "{error}");
+            }
+            // What it calls a solution is looked at again.
+            let mut z = problem.roots(false);
+            assert!(problem.newton(&mut z).is_ok() && problem.verified(&z, 1).is_ok());
+            z[1] *= 1.0 + 1e-9;
+            assert!(problem.verified(&z, 1).is_err());
+        }
+    }
+}

@@ -142,7 +142,7 @@ fn turns_back(figure: &CurveFigure) -> impl Fn(f64) -> bool {
 }
 
 /// Least and greatest of some numbers.
-fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(super) fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
 }
 
@@ -195,6 +195,11 @@ fn window(figure: &CurveFigure, rect: Rect) -> Result<[Scale; 2]> {
             y = bounds([y.0, y.1, centre[1] - radius.abs(), centre[1] + radius.abs()].into_iter());
         }
     }
+    same_scales(x, y, rect)
+}
+
+/// Axes that hold these bounds, the same scale in both directions.
+pub(super) fn same_scales(x: (f64, f64), y: (f64, f64), rect: Rect) -> Result<[Scale; 2]> {
     let (width, height) = (f64::from(rect.width()), f64::from(rect.height()));
     // Length of a pixel, with some air around.
     let pixel = 1.1 * ((x.1 - x.0) / width).max((y.1 - y.0) / height);

@@ -1,4 +1,4 @@
-//! PNG pictures: slices of an atlas, small multiples of slices, curves with their curvature.
+//! PNG pictures: slices of an atlas, small multiples of slices, curves with their curvature, paths with graphs.
 //!
 //! Everything here is plain data in, PNG bytes out; the same data give the same bytes.
 //! [`crate::files::write_file`] puts them on disk.
@@ -8,11 +8,13 @@ mod canvas;
 mod curve;
 mod legend;
 mod multiples;
+mod paths;
 mod scale;
 mod slice;
 
 pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
 pub use multiples::{Multiples, multiples_png};
+pub use paths::{Lines, PathsFigure, paths_png};
 pub use slice::{montage_png, slice_png};
 
 /// One axis of a slice.

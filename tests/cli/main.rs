@@ -10,6 +10,7 @@ mod failures;
 mod files;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod path;
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};

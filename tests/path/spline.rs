@@ -102,7 +102,7 @@ fn ten_thousand_points_at_once() {
 #[test]
 fn random_points_give_a_right_curve_or_an_error() {
     let mut noise = Noise(11);
-    let (mut fine, mut failed) = (0, 0);
+    let mut fine = 0;
     for i in 0..600 {
         let closed = i % 2 == 0;
         // From nearly even to hopeless.
@@ -122,13 +122,11 @@ fn random_points_give_a_right_curve_or_an_error() {
                 assert!(jumps(&found, closed) < 1e-9, "{} {pts:?}", jumps(&found, closed));
             }
             Err(e) => {
-                failed += 1;
                 assert!(e.to_string().contains("did not converge") && e.to_string().contains("points["), "{e}");
             }
         }
     }
-    println!("{fine} converged, {failed} did not");
-    assert!(fine > 350 && failed > 0);
+    assert!(fine > 350, "{fine}");
 }
 
 #[test]

@@ -1,0 +1,57 @@
+//! `path equal-length`.
+
+use super::{Files, Found, Outcome, Paths, angle, figure};
+use serde::Deserialize;
+use spiral_atlas::path::{EqualLength, equal_length};
+use spiral_atlas::{Error, Result};
+
+/// Join points and directions by paths of one given length, so that vehicles of one speed arrive at the same time.
+///
+/// Input: {"length": L, "paths": [{"start": [x, y], "end": [x, y], "start_direction": angle, "end_direction": angle}, ..]}.
+///
+/// Each path is the one of least absolute rotation of four; `paper` is the index of the one that the paper takes, of its two.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png")]
+pub struct Args {
+    #[command(flatten)]
+    files: Files,
+    /// Take the better of the paper's two solutions, not the best of four.
+    #[arg(long)]
+    paper: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Input {
+    length: f64,
+    paths: Vec<Ends>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Ends {
+    start: [f64; 2],
+    end: [f64; 2],
+    #[serde(deserialize_with = "angle")]
+    start_direction: f64,
+    #[serde(deserialize_with = "angle")]
+    end_direction: f64,
+}
+
+pub fn run(args: &Args) -> Result<Outcome> {
+    let input: Input = args.files.read()?;
+    if input.paths.is_empty() {
+        return Err(args.files.blame(Error::Domain("`paths` is empty; give the ends of one at least".into())));
+    }
+    let path = |(i, ends): (usize, &Ends)| {
+        let Ends { start, end, start_direction, end_direction } = *ends;
+        let choice = equal_length(&EqualLength { start, end, start_direction, end_direction, length: input.length })
+            .map_err(|e| args.files.blame(Error::Domain(format!("paths[{i}]: {e}"))))?;
+        let paper = EqualLength::paper(&choice);
+        Ok(Found::chosen(&choice, if args.paper { paper } else { choice.best }, Some(paper)))
+    };
+    let paths = input.paths.iter().enumerate().map(path).collect::<Result<Vec<_>>>()?;
+    let paths = Paths { paths };
+    let title = format!("Paths of length {}", input.length);
+    args.files.finish(&paths, || figure::curves(&paths.paths.iter().map(Found::curves).collect::<Vec<_>>(), &title))
+}

@@ -1,0 +1,97 @@
+//! What the path tools draw.
+
+use spiral_atlas::curve::PhQuintic;
+use spiral_atlas::path::Motion;
+use spiral_atlas::plot::{self, CurveFigure, Graph, Lines, PathsFigure};
+use spiral_atlas::{Error, Result};
+
+const SIZE: (u32, u32) = (1500, 900);
+/// Samples of a path, about.
+const SAMPLES: usize = 2000;
+
+/// Parameters of a span.
+fn steps(spans: usize) -> impl Iterator<Item = f64> + Clone {
+    let n = (SAMPLES / spans.max(1)).max(8);
+    (0..=n).map(move |i| i as f64 / n as f64)
+}
+
+fn points(spans: &[PhQuintic]) -> Vec<[f64; 2]> {
+    spans.iter().flat_map(|c| steps(spans.len()).map(|t| c.point(t))).collect()
+}
+
+/// A function of the arc length along spans.
+fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2]> {
+    let mut from = 0.0;
+    let mut all = Vec::new();
+    for c in spans {
+        all.extend(steps(spans.len()).map(|t| [from + c.length_to(t), f(c, t)]));
+        from += c.length();
+    }
+    all
+}
+
+/// One path with its polygon, its curvature and the derivative of that.
+pub fn curve(spans: &[PhQuintic], title: &str) -> Result<Vec<u8>> {
+    let length: f64 = spans.iter().map(PhQuintic::length).sum();
+    let energy: f64 = spans.iter().map(PhQuintic::bending_energy).sum();
+    if !energy.is_finite() {
+        return Err(Error::Domain("the path stands still somewhere, where it has no curvature".into()));
+    }
+    let figure = CurveFigure {
+        title: title.into(),
+        note: format!("length {length:.6}, bending energy {energy:.6}"),
+        curve: points(spans),
+        control: if spans.len() <= 20 { spans.iter().flat_map(PhQuintic::control_points).collect() } else { Vec::new() },
+        circles: Vec::new(),
+        parameter: "s".into(),
+        curvature: Graph { label: "κ".into(), points: along(spans, PhQuintic::curvature) },
+        derivative: Graph { label: "dκ/ds".into(), points: along(spans, |c, t| c.jet(t).curvature_ds()) },
+    };
+    plot::curve_png(&figure, SIZE)
+}
+
+/// Several paths and their curvatures; one as in [`curve`].
+pub fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
+    if let [one] = paths {
+        return curve(one, title);
+    }
+    let figure = PathsFigure {
+        title: title.into(),
+        note: "dots: starts".into(),
+        paths: paths.iter().map(|spans| points(spans)).collect(),
+        graph: Lines {
+            across: "s".into(),
+            up: "κ".into(),
+            lines: paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect(),
+        },
+        level: None,
+    };
+    plot::paths_png(&figure, SIZE)
+}
+
+/// The paths of several motions and the separation of each pair over time.
+pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<u8>> {
+    let mut lines = Vec::new();
+    for (i, a) in motions.iter().enumerate() {
+        for b in &motions[i + 1..] {
+            let (from, to) = (a.times()[0].max(b.times()[0]), a.times()[1].min(b.times()[1]));
+            let n = SAMPLES / 4;
+            let time = |k: usize| from + (to - from) * k as f64 / n as f64;
+            let apart = |t: f64| {
+                let (p, q) = (a.at(t), b.at(t));
+                (p[0] - q[0]).hypot(p[1] - q[1])
+            };
+            if from < to {
+                lines.push((0..=n).map(|k| [time(k), apart(time(k))]).collect());
+            }
+        }
+    }
+    let figure = PathsFigure {
+        title: format!("{} vehicles, {} pairs", motions.len(), lines.len()),
+        note: format!("dots: starts; red: the minimum {minimum}"),
+        paths: motions.iter().map(|m| points(m.spans())).collect(),
+        graph: Lines { across: "time".into(), up: "separation".into(), lines },
+        level: Some(minimum),
+    };
+    plot::paths_png(&figure, SIZE)
+}

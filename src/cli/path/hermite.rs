@@ -1,0 +1,25 @@
+//! `path hermite`.
+
+use super::{Files, Found, Outcome, Paths, figure};
+use spiral_atlas::Result;
+use spiral_atlas::path::{Hermite, hermite};
+
+/// Join two points with given derivatives: the curve of least absolute rotation of the four there are.
+///
+/// Input: {"start": [x, y], "end": [x, y], "start_derivative": [x, y], "end_derivative": [x, y]}.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  echo '{\"start\": [0, 0], \"end\": [1, 0], \"start_derivative\": [1, 1], \"end_derivative\": [1, -1]}' |\n      \
+                        spiral-atlas path hermite - --figure hermite.png"
+)]
+pub struct Args {
+    #[command(flatten)]
+    files: Files,
+}
+
+pub fn run(args: &Args) -> Result<Outcome> {
+    let ends: Hermite = args.files.read()?;
+    let choice = hermite(&ends).map_err(|e| args.files.blame(e))?;
+    let paths = vec![Found::chosen(&choice, choice.best, None)];
+    args.files.finish(&Paths { paths }, || figure::curve(&[*choice.best()], "Hermite interpolant"))
+}

@@ -1,0 +1,182 @@
+//! `path`: path planning with Pythagorean-hodograph quintics. JSON in, JSON out, and a picture.
+
+mod equal_length;
+mod figure;
+mod hermite;
+mod separation;
+mod spline;
+
+use super::{Outcome, output};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer, Serialize};
+use spiral_atlas::curve::PhQuintic;
+use spiral_atlas::path::Choice;
+use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::{Error, Result};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Plan paths of Pythagorean-hodograph quintics: through ends, through points, of equal length, and apart from each other.
+///
+/// Each tool reads JSON from a file, or from standard input for `-`, and prints JSON. What the first three print has `paths`, which
+/// `separation` reads. Any unit of length; angles are radians, or degrees when written like "40deg".
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
+)]
+pub struct Args {
+    #[command(subcommand)]
+    tool: Tool,
+}
+
+#[derive(clap::Subcommand)]
+enum Tool {
+    Hermite(hermite::Args),
+    EqualLength(equal_length::Args),
+    Spline(spline::Args),
+    Separation(separation::Args),
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Outcome> {
+    match &args.tool {
+        Tool::Hermite(args) => hermite::run(args),
+        Tool::EqualLength(args) => equal_length::run(args),
+        Tool::Spline(args) => spline::run(args),
+        Tool::Separation(args) => separation::run(args),
+    }
+}
+
+/// What a tool works on and where it draws.
+#[derive(clap::Args)]
+struct Files {
+    /// JSON file, or `-` for standard input.
+    input: PathBuf,
+    /// Draw the paths with their curvature, or their separation over time.
+    #[arg(long, value_name = "FILE.png")]
+    figure: Option<PathBuf>,
+}
+
+impl Files {
+    /// What stands in the input.
+    fn read<T: DeserializeOwned>(&self) -> Result<T> {
+        if let Some(path) = self.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
+            return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
+        }
+        let io = |source| Error::Io { path: self.input.clone(), source };
+        let mut text = String::new();
+        if self.input == Path::new("-") {
+            std::io::stdin().read_to_string(&mut text).map_err(io)?;
+        } else {
+            text = std::fs::read_to_string(&self.input).map_err(io)?;
+        }
+        serde_json::from_str(&text).map_err(|e| self.blame(Error::Domain(e.to_string())))
+    }
+
+    /// An error of what was read here.
+    fn blame(&self, error: Error) -> Error {
+        let name = if self.input == Path::new("-") { "standard input".into() } else { self.input.display().to_string() };
+        Error::Domain(format!("{name}: {error}"))
+    }
+
+    /// Draws, if asked to, and prints.
+    fn finish(&self, found: &impl Serialize, figure: impl FnOnce() -> Result<Vec<u8>>) -> Result<Outcome> {
+        output::print_json(found)?;
+        if let Some(path) = &self.figure {
+            let png = figure().map_err(|e| Error::Domain(format!("{} was not drawn: {e}", path.display())))?;
+            spiral_atlas::files::write_file(path, &png)?;
+        }
+        Ok(Outcome::Fine)
+    }
+}
+
+/// A span as it is printed.
+#[derive(Serialize)]
+struct Span {
+    #[serde(flatten)]
+    curve: PhQuintic,
+    control_points: [[f64; 2]; 6],
+}
+
+/// A path as it is printed.
+#[derive(Serialize)]
+struct Found {
+    length: f64,
+    /// Null where the path stands still.
+    bending_energy: f64,
+    absolute_rotation: f64,
+    greatest_curvature: f64,
+    spans: Vec<Span>,
+    #[serde(flatten)]
+    choice: Option<Others>,
+}
+
+/// All curves among which one was chosen.
+#[derive(Serialize)]
+struct Others {
+    candidates: Vec<Candidate>,
+    best: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    paper: Option<usize>,
+}
+
+#[derive(Serialize)]
+struct Candidate {
+    absolute_rotation: f64,
+    regular: bool,
+    length: f64,
+    greatest_curvature: f64,
+    preimage: [[f64; 2]; 3],
+}
+
+impl Found {
+    fn new(spans: &[PhQuintic]) -> Found {
+        let sum = |f: fn(&PhQuintic) -> f64| spans.iter().map(f).sum();
+        let most = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
+        Found {
+            length: sum(PhQuintic::length),
+            bending_energy: sum(PhQuintic::bending_energy),
+            absolute_rotation: sum(PhQuintic::absolute_rotation),
+            greatest_curvature: spans.iter().map(|s| s.greatest_curvature().1).fold(0.0, most),
+            spans: spans.iter().map(|c| Span { curve: *c, control_points: c.control_points() }).collect(),
+            choice: None,
+        }
+    }
+
+    /// One of several.
+    fn chosen(choice: &Choice, taken: usize, paper: Option<usize>) -> Found {
+        let candidate = |c: &spiral_atlas::path::Candidate| Candidate {
+            absolute_rotation: c.absolute_rotation,
+            regular: c.regular,
+            length: c.curve.length(),
+            greatest_curvature: c.curve.greatest_curvature().1,
+            preimage: c.curve.preimage,
+        };
+        let candidates = choice.candidates.iter().map(candidate).collect();
+        Found { choice: Some(Others { candidates, best: choice.best, paper }), ..Found::new(&[choice.candidates[taken].curve]) }
+    }
+
+    fn curves(&self) -> Vec<PhQuintic> {
+        self.spans.iter().map(|s| s.curve).collect()
+    }
+}
+
+/// Paths as they are printed.
+#[derive(Serialize)]
+struct Paths {
+    paths: Vec<Found>,
+}
+
+/// An angle: a number, or text like `40deg`.
+fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "an angle: a number of radians, or text like \"40deg\"")]
+    enum Angle {
+        Number(f64),
+        Text(String),
+    }
+    match Angle::deserialize(from)? {
+        Angle::Number(x) => Ok(x),
+        Angle::Text(text) => parse_angle(&text).map_err(serde::de::Error::custom),
+    }
+}

@@ -1,0 +1,98 @@
+//! `path separation`.
+
+use super::{Files, Outcome, figure};
+use serde::{Deserialize, Serialize};
+use spiral_atlas::curve::PhQuintic;
+use spiral_atlas::path::{Motion, Separation, Verdict, separations};
+use spiral_atlas::{Error, Result};
+
+/// Prove whether vehicles keep a minimum distance while under way, and tell how near they come.
+///
+/// Input: {"paths": [{"spans": [{"start": [x, y], "preimage": [[u, v], ..]}, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools print it;
+/// other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of the minimum.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03"
+)]
+pub struct Args {
+    #[command(flatten)]
+    files: Files,
+    /// The distance to keep.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0.0, allow_hyphen_values = true)]
+    minimum: f64,
+}
+
+#[derive(Deserialize)]
+struct Input {
+    paths: Vec<Path>,
+}
+
+#[derive(Deserialize)]
+struct Path {
+    spans: Vec<Span>,
+    #[serde(default = "one")]
+    speed: f64,
+    #[serde(default)]
+    start_time: f64,
+}
+
+#[derive(Deserialize)]
+struct Span {
+    start: [f64; 2],
+    end: Option<[f64; 2]>,
+    preimage: [[f64; 2]; 3],
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[derive(Serialize)]
+struct Output {
+    minimum: f64,
+    /// Of all pairs: the worst.
+    verdict: Verdict,
+    pairs: Vec<Pair>,
+}
+
+#[derive(Serialize)]
+struct Pair {
+    first: usize,
+    second: usize,
+    #[serde(flatten)]
+    found: Separation,
+}
+
+/// The span, if its end is where its pre-image leads.
+fn curve(span: &Span) -> Result<PhQuintic> {
+    let curve = PhQuintic::new(span.start, span.preimage);
+    let Some(end) = span.end else { return Ok(curve) };
+    let size = span.preimage.iter().flatten().map(|x| x * x).sum::<f64>() + span.start.iter().map(|x| x.abs()).sum::<f64>();
+    let off = (curve.end[0] - end[0]).hypot(curve.end[1] - end[1]);
+    if off <= 1e-10 * size {
+        return Ok(PhQuintic::between(span.start, end, span.preimage));
+    }
+    Err(Error::Domain(format!("`end` is {end:?}, but the pre-image leads to {:?}", curve.end)))
+}
+
+fn motion(path: &Path) -> Result<Motion> {
+    let curve = |(i, span): (usize, &Span)| curve(span).map_err(|e| Error::Domain(format!("spans[{i}]: {e}")));
+    let spans = path.spans.iter().enumerate().map(curve).collect::<Result<Vec<_>>>()?;
+    Motion::new(spans, path.speed, path.start_time)
+}
+
+pub fn run(args: &Args) -> Result<Outcome> {
+    let input: Input = args.files.read()?;
+    let blame = |e| args.files.blame(e);
+    if input.paths.len() < 2 {
+        return Err(blame(Error::Domain(format!("`paths` has {} paths; it takes two to be apart", input.paths.len()))));
+    }
+    let named = |(i, path): (usize, &Path)| motion(path).map_err(|e| blame(Error::Domain(format!("paths[{i}]: {e}"))));
+    let motions = input.paths.iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
+    let found = separations(&motions, args.minimum)?;
+    let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);
+    let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);
+    let pairs = found.iter().map(|(first, second, found)| Pair { first: *first, second: *second, found: *found }).collect();
+    let output = Output { minimum: args.minimum, verdict, pairs };
+    args.files.finish(&output, || figure::separations(&motions, args.minimum))
+}

@@ -1,0 +1,123 @@
+//! Several paths in one plane, with graphs beside them.
+
+use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
+use super::canvas::{Canvas, Color, GREY, Point, Rect};
+use super::curve::{bounds, same_scales};
+use super::legend::Heading;
+use super::scale::Scale;
+use super::slice::check_room;
+use crate::error::{Error, Result};
+
+/// Colours that stay apart for colour-blind readers (Okabe and Ito, 2008).
+const COLORS: [Color; 7] =
+    [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [86, 180, 233], [230, 159, 0], [60, 60, 60]];
+const LEVEL: Color = [200, 30, 30];
+
+/// Graphs over a common axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lines {
+    /// What stands below.
+    pub across: String,
+    /// What stands beside.
+    pub up: String,
+    /// The graphs.
+    pub lines: Vec<Vec<[f64; 2]>>,
+}
+
+/// What [`paths_png`] draws.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathsFigure {
+    /// Heading.
+    pub title: String,
+    /// Small print below the heading; may be empty.
+    pub note: String,
+    /// Points of each path, in order; a dot marks the first.
+    pub paths: Vec<Vec<[f64; 2]>>,
+    /// Graphs; where there is one for each path, in its colour.
+    pub graph: Lines,
+    /// A value of the graphs to mark with a line.
+    pub level: Option<f64>,
+}
+
+/// Draws a figure of `size` (width, height) pixels: the paths on the left, to one scale in both directions, the graphs on the right.
+///
+/// # Errors
+/// [`Error::Domain`] when a number is not finite, there is nothing to draw or it has no extent, or the size is 0, too large, or too small.
+pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
+    let mut canvas = Canvas::new(size)?;
+    let finite = |lines: &[Vec<Point>]| lines.iter().flatten().flatten().all(|v| v.is_finite());
+    for (name, lines) in [("paths", &figure.paths), ("graphs", &figure.graph.lines)] {
+        if lines.iter().all(Vec::is_empty) || !finite(lines) {
+            return Err(Error::Domain(format!("paths figure: the {name} must have points, all finite")));
+        }
+    }
+    let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 64.0).max(10.0);
+    let style = Style { em, slack: em * 0.8 };
+    let sheet = canvas.rect().grown(-style.px(1.2));
+    let heading = Heading::new(&canvas, &figure.title, &figure.note, style, sheet.width());
+    let bottom = sheet.bottom - style.below() - style.px(1.6);
+    let body = Rect { top: sheet.top + heading.height(style) + style.px(0.3), bottom, ..sheet };
+    let middle = body.left + body.width() * 54 / 100;
+    heading.draw(&mut canvas, style, sheet);
+    draw_paths(&mut canvas, figure, style, Rect { right: middle, ..body })?;
+    draw_lines(&mut canvas, figure, style, Rect { left: middle + style.px(1.2), ..body })?;
+    canvas.into_png()
+}
+
+/// Room for the numbers and the name on the left.
+fn narrowed(canvas: &mut Canvas, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
+    let left = rect.left + width_left(canvas, y, style, rect.height()) + style.px(1.6);
+    let rect = Rect { left, ..rect };
+    check_room(canvas, rect)?;
+    Ok(rect)
+}
+
+/// Axes and frame with their names.
+fn finish(canvas: &mut Canvas, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
+    draw_below(canvas, x, style, rect, true);
+    draw_left(canvas, y, style, rect, true);
+    label_below(canvas, style, rect, style.below(), names[0]);
+    let left = width_left(canvas, y, style, rect.height());
+    label_left(canvas, style, rect, left, names[1]);
+}
+
+fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
+    check_room(canvas, area)?;
+    let values = |i: usize| bounds(figure.paths.iter().flatten().map(|p| p[i]));
+    let [_, y] = same_scales(values(0), values(1), area)?;
+    let rect = narrowed(canvas, &y, style, area)?;
+    let [x, y] = same_scales(values(0), values(1), rect)?;
+    canvas.frame(rect, GREY);
+    for (path, color) in figure.paths.iter().zip(COLORS.into_iter().cycle()) {
+        let places: Vec<Point> = path.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect();
+        canvas.line(&places, style.em * 0.18, color, rect);
+        if let Some(first) = places.first() {
+            canvas.line(&[*first, *first], style.em * 0.6, color, rect);
+        }
+    }
+    finish(canvas, [&x, &y], ["x", "y"], style, rect);
+    Ok(())
+}
+
+fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
+    check_room(canvas, area)?;
+    let Lines { across, up, lines } = &figure.graph;
+    let (from, to) = bounds(lines.iter().flatten().map(|p| p[0]));
+    let (lo, hi) = bounds(lines.iter().flatten().map(|p| p[1]).chain(figure.level));
+    let x = Scale::new(across, from, to, false)?;
+    // A constant has no extent but rounding noise.
+    let most = lo.abs().max(hi.abs());
+    let air = if hi - lo > 1e-9 * most { (hi - lo) * 0.07 } else { most.max(1e-300) * 0.2 };
+    let y = Scale::new(up, lo - air, hi + air, false)?;
+    let rect = narrowed(canvas, &y, style, area)?;
+    canvas.frame(rect, GREY);
+    let places = |points: &[Point]| points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect::<Vec<_>>();
+    for (line, color) in lines.iter().zip(COLORS.into_iter().cycle()) {
+        canvas.line(&places(line), style.em * 0.12, color, rect);
+    }
+    if let Some(level) = figure.level {
+        canvas.line(&places(&[[from, level], [to, level]]), style.em * 0.16, LEVEL, rect);
+    }
+    finish(canvas, [&x, &y], [across, up], style, rect);
+    Ok(())
+}

@@ -1,0 +1,120 @@
+//! `path`: JSON in, JSON and pictures out, mistakes by name.
+
+use super::{Folder, Said, fine, program, run};
+use serde_json::{Value, json};
+use std::io::Write;
+use std::process::Stdio;
+
+const SWARM: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/swarm.json");
+
+/// Runs a tool on standard input.
+fn piped(args: &[&str], input: &str) -> Said {
+    let mut child =
+        program().arg("path").args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    child.wait_with_output().unwrap().into()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Figures 3 and 4 of the paper: six vehicles, all pairs.
+#[test]
+fn a_swarm_arrives_together_and_keeps_its_distance() {
+    let folder = Folder::new("");
+    let (swarm, apart) = (folder.text("swarm.png"), folder.text("apart.png"));
+    let paths = fine(["path", "equal-length", SWARM, "--figure", &swarm]);
+    let found = paths.json();
+    let all = found["paths"].as_array().unwrap();
+    assert_eq!(all.len(), 6);
+    assert!(all.iter().all(|p| (number(&p["length"]) - 2.25).abs() < 1e-13 && p["candidates"].as_array().unwrap().len() == 4));
+    let separation = piped(&["separation", "-", "--minimum", "0.0225", "--figure", &apart], &paths.out).json();
+    let pairs = separation["pairs"].as_array().unwrap();
+    assert_eq!((pairs.len(), &separation["verdict"]), (15, &json!("kept")));
+    let least = pairs.iter().map(|p| number(&p["closest"]["at_least"])).fold(f64::INFINITY, f64::min);
+    let verdict = |minimum: f64| piped(&["separation", "-", "--minimum", &minimum.to_string()], &paths.out).json();
+    assert_eq!((&verdict(least - 1e-8)["verdict"], &verdict(least + 1e-8)["verdict"]), (&json!("kept"), &json!("violated")));
+    for figure in [swarm, apart] {
+        assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"), "{figure}");
+    }
+    // A later start of one vehicle is another question.
+    let mut late = found.clone();
+    late["paths"][0]["start_time"] = json!(0.4);
+    late["paths"][0]["speed"] = json!(2.0);
+    let late = piped(&["separation", "-"], &late.to_string()).json();
+    assert_ne!(late["pairs"][0]["closest"], pairs[0]["closest"]);
+    assert_eq!(late["pairs"][14]["closest"]["at_most"], pairs[14]["closest"]["at_most"]);
+}
+
+#[test]
+fn interpolants_and_splines() {
+    let folder = Folder::new("");
+    let figure = folder.text("path.png");
+    let ends = r#"{"start": [0, 0], "end": [1, 0], "start_derivative": [1, 1], "end_derivative": [1, -1]}"#;
+    let found = piped(&["hermite", "-", "--figure", &figure], ends).json();
+    let path = &found["paths"][0];
+    assert!((number(&path["absolute_rotation"]) - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    assert_eq!((&path["spans"][0]["control_points"][5], &path["best"]), (&json!([1.0, 0.0]), &json!(0)));
+    std::fs::remove_file(&figure).unwrap();
+    std::fs::write(folder.at("points.json"), r#"{"points": [[0, 0], [1, 1], [2, 0]], "closed": true}"#).unwrap();
+    let found = fine(["path", "spline", &folder.text("points.json"), "--figure", &figure]).json();
+    assert_eq!(found["paths"][0]["spans"].as_array().unwrap().len(), 3);
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    // Degrees and radians say the same.
+    let swarm = |angle: &str| {
+        let ends = format!(r#"{{"start": [0, 0], "end": [1, 0], "start_direction": {angle}, "end_direction": 0.3}}"#);
+        piped(&["equal-length", "-", "--paper"], &format!(r#"{{"length": 1.2, "paths": [{ends}]}}"#)).out
+    };
+    assert!(!swarm("0.5").is_empty());
+    assert_eq!(swarm("\"45deg\""), swarm(&45f64.to_radians().to_string()));
+}
+
+#[test]
+fn mistakes_are_named() {
+    let cases: &[(&[&str], &str, &[&str])] = &[
+        (&["hermite", "-"], "{", &["standard input", "EOF", "line 1"]),
+        (&["hermite", "-"], r#"{"start": [0, 0]}"#, &["standard input", "missing field `end`"]),
+        (
+            &["hermite", "-"],
+            r#"{"start": [0, 0], "end": [1, 0], "start_derivative": [0, 0], "end_derivative": [1, 0]}"#,
+            &["standard input", "`start_derivative` is 0"],
+        ),
+        (&["spline", "-"], r#"{"points": [[0, 0], [1, 0], [1, 0]]}"#, &["points[1] and points[2]", "[1.0, 0.0]"]),
+        (&["spline", "-"], r#"{"points": [[0, 0], [1e999, 0]]}"#, &["out of range"]),
+        (&["spline", "-"], r#"{"point": []}"#, &["unknown field `point`"]),
+        (
+            &["equal-length", "-"],
+            r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": 0.1, "end_direction": "5deg"}]}"#,
+            &["paths[0]", "`length` is 2.0", "distance 3.0"],
+        ),
+        (
+            &["equal-length", "-"],
+            r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": "4dg", "end_direction": 0}]}"#,
+            &["4dg"],
+        ),
+        (&["equal-length", "-"], r#"{"length": 2, "paths": []}"#, &["`paths` is empty"]),
+        (&["separation", "-"], r#"{"paths": []}"#, &["0 paths"]),
+        (
+            &["separation", "-"],
+            r#"{"paths": [{"spans": [{"start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
+            &["paths[0]", "spans[0]", "`end` is [7.0, 0.0]", "[1.0, 0.0]"],
+        ),
+        (
+            &["separation", "-"],
+            r#"{"paths": [{"speed": 0, "spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
+            &["paths[0]", "`speed` is 0.0"],
+        ),
+        (&["separation", "missing.json"], "", &["missing.json", "No such file"]),
+        (&["spline", "-", "--figure", "x.jpg"], "{}", &["x.jpg", ".png"]),
+    ];
+    for (args, input, parts) in cases {
+        let said = run_or_pipe(args, input);
+        assert_eq!((said.code, &said.out[..]), (Some(1), ""), "{args:?} {input}");
+        assert!(parts.iter().all(|part| said.err.contains(part)), "{args:?} {input}: {}", said.err);
+    }
+}
+
+fn run_or_pipe(args: &[&str], input: &str) -> Said {
+    if input.is_empty() { run(["path"].iter().chain(args)) } else { piped(args, input) }
+}
