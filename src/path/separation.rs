@@ -30,7 +30,10 @@ pub struct Motion {
     start_time: f64,
     /// Bound of its acceleration.
     acceleration: f64,
+    /// Bound of its coordinates, lengths and legs.
     size: f64,
+    /// How far the end of a span is from where its pre-image leads.
+    mismatch: f64,
 }
 
 /// Where a vehicle is: point, velocity, and bounds of their errors.
@@ -79,7 +82,9 @@ impl Motion {
         // Coefficients of lengths are at most the sum of |w|², and so are legs.
         let sizes = |s: &PhQuintic| s.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
         let size = far + length + spans.iter().map(sizes).fold(0.0, f64::max);
-        Ok(Motion { spans, lengths, speed, start_time, acceleration, size })
+        let mismatch = |s: &PhQuintic| distance(PhQuintic::new(s.start, s.preimage).end, s.end);
+        let mismatch = spans.iter().map(mismatch).fold(0.0, f64::max);
+        Ok(Motion { spans, lengths, speed, start_time, acceleration, size, mismatch })
     }
 
     /// Length of the path.
@@ -110,6 +115,7 @@ impl Motion {
         // Along the path by what the parameter misses, and the roundings of lengths, times and points. Spans are summed up one by one.
         let missed = (span.length_to(t) - local.min(span.length())).abs();
         let off = missed
+            + self.mismatch
             + ROUNDINGS * self.size
             + f64::EPSILON * (self.spans.len() as f64 * self.length() + 4.0 * self.speed * (time.abs() + self.start_time.abs()));
         let tangent = span.tangent(t);

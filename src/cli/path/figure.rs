@@ -2,7 +2,7 @@
 
 use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::Motion;
-use spiral_atlas::plot::{self, CurveFigure, Graph, Lines, PathsFigure};
+use spiral_atlas::plot::{self, Lines, PathsFigure};
 use spiral_atlas::{Error, Result};
 
 const SIZE: (u32, u32) = (1500, 900);
@@ -30,40 +30,17 @@ fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2
     all
 }
 
-/// One path with its polygon, its curvature and the derivative of that.
-pub fn curve(spans: &[PhQuintic], title: &str) -> Result<Vec<u8>> {
-    let length: f64 = spans.iter().map(PhQuintic::length).sum();
-    let energy: f64 = spans.iter().map(PhQuintic::bending_energy).sum();
-    if !energy.is_finite() {
-        return Err(Error::Domain("the path stands still somewhere, where it has no curvature".into()));
-    }
-    let figure = CurveFigure {
-        title: title.into(),
-        note: format!("length {length:.6}, bending energy {energy:.6}"),
-        curve: points(spans),
-        control: if spans.len() <= 20 { spans.iter().flat_map(PhQuintic::control_points).collect() } else { Vec::new() },
-        circles: Vec::new(),
-        parameter: "s".into(),
-        curvature: Graph { label: "κ".into(), points: along(spans, PhQuintic::curvature) },
-        derivative: Graph { label: "dκ/ds".into(), points: along(spans, |c, t| c.jet(t).curvature_ds()) },
-    };
-    plot::curve_png(&figure, SIZE)
-}
-
-/// Several paths and their curvatures; one as in [`curve`].
+/// Paths and their curvatures.
 pub fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
-    if let [one] = paths {
-        return curve(one, title);
+    let lines: Vec<_> = paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect();
+    if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
+        return Err(Error::Domain("a path stands still somewhere, where it has no curvature".into()));
     }
     let figure = PathsFigure {
         title: title.into(),
         note: "dots: starts".into(),
         paths: paths.iter().map(|spans| points(spans)).collect(),
-        graph: Lines {
-            across: "s".into(),
-            up: "κ".into(),
-            lines: paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect(),
-        },
+        graph: Lines { across: "s".into(), up: "κ".into(), lines },
         level: None,
     };
     plot::paths_png(&figure, SIZE)

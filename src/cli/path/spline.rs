@@ -31,5 +31,5 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let kind = if input.closed { "Closed" } else { "Open" };
     let title = format!("{kind} spline through {} points", input.points.len());
     let paths = vec![Found::new(&found.spans)];
-    args.files.finish(&Paths { paths }, || figure::curve(&found.spans, &title))
+    args.files.finish(&Paths { paths }, || figure::curves(&[found.spans], &title))
 }
