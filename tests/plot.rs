@@ -380,3 +380,35 @@ fn bad_curves_are_errors_and_odd_ones_are_drawn() {
     }
     assert!(good.curve.iter().all(|p| p[0].abs() <= PI), "the curve used here is a sensible one");
 }
+
+#[test]
+fn paths_are_drawn_beside_their_graphs_or_refused() {
+    let graph = |value: f64| Lines { across: "s".into(), up: "κ".into(), lines: vec![vec![[0.0, value], [1.0, value]]] };
+    let straight = |x: f64| vec![[x, 0.0], [x, 2.0]];
+    let figure = PathsFigure {
+        title: "two".into(),
+        note: String::new(),
+        paths: vec![straight(1.0), straight(1.5)],
+        graph: graph(0.0),
+        level: None,
+    };
+    let picture = |figure: &PathsFigure| paths_png(figure, (700, 420));
+    let first = picture(&figure).unwrap();
+    assert!(first.starts_with(b"\x89PNG") && first == picture(&figure).unwrap());
+    // Straight or constant, it is drawn; and a level, another path or another graph changes the picture.
+    let others = [
+        PathsFigure { level: Some(0.5), ..figure.clone() },
+        PathsFigure { paths: vec![straight(1.0)], ..figure.clone() },
+        PathsFigure { graph: graph(3.0), ..figure.clone() },
+    ];
+    assert!(others.iter().all(|other| picture(other).unwrap() != first));
+    let wrong = [
+        PathsFigure { paths: vec![straight(f64::NAN)], ..figure.clone() },
+        PathsFigure { paths: vec![], ..figure.clone() },
+        PathsFigure { graph: graph(f64::INFINITY), ..figure.clone() },
+    ];
+    for figure in wrong {
+        assert!(picture(&figure).unwrap_err().to_string().contains("must have points, all finite"));
+    }
+    assert!(paths_png(&figure, (40, 30)).is_err());
+}

@@ -107,7 +107,8 @@ fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
     let x = Scale::new(across, from, to, false)?;
     // A constant has no extent but rounding noise.
     let most = lo.abs().max(hi.abs());
-    let air = if hi - lo > 1e-9 * most { (hi - lo) * 0.07 } else { most.max(1e-300) * 0.2 };
+    let flat = if most == 0.0 { 1.0 } else { most * 0.2 };
+    let air = if hi - lo > 1e-9 * most { (hi - lo) * 0.07 } else { flat };
     let y = Scale::new(up, lo - air, hi + air, false)?;
     let rect = narrowed(canvas, &y, style, area)?;
     canvas.frame(rect, GREY);
