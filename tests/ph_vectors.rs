@@ -28,7 +28,9 @@ fn faults(want: &[Row], got: &[Quintic]) -> Vec<String> {
     }
     let mut faults = Vec::new();
     for (want, got) in want.iter().zip(got) {
-        for (name, want, got) in [("A", want[0], got.a), ("B", want[1], got.b), ("length", want[3], got.length), ("energy", want[4], got.energy)] {
+        for (name, want, got) in
+            [("A", want[0], got.a), ("B", want[1], got.b), ("length", want[3], got.length), ("energy", want[4], got.energy)]
+        {
             if (want - got).abs() > DIGITS * want {
                 faults.push(format!("{name} is {got}, must be {want}"));
             }

@@ -201,7 +201,13 @@ pub struct ShaderInputs {
 
 /// Every family, in the order in which they are listed to users.
 pub fn all() -> &'static [&'static dyn Family] {
-    &[&cubic::Cubic, &ph_quintic::PhQuintic, &any_spiral::AnySpiral, &reach::Reach(reach::Kind::Cubic), &reach::Reach(reach::Kind::Ph)]
+    &[
+        &cubic::Cubic,
+        &ph_quintic::PhQuintic,
+        &any_spiral::AnySpiral,
+        &reach::Reach(reach::Kind::Cubic),
+        &reach::Reach(reach::Kind::Ph),
+    ]
 }
 
 /// The family of a name.

@@ -1,10 +1,10 @@
 //! The exact answer for one datum: all roots, which conditions hold, the margin, the chosen spiral.
 
+use super::Code;
 use super::exact::{self, Ends, ExactDatum, ExactRoot};
 use super::filter::{Found, visit};
 use super::precision::Prepared;
 use super::root::{Data, bernstein};
-use super::Code;
 use crate::curve::CubicBezier;
 use crate::error::Result;
 use crate::family::Answer;
@@ -260,7 +260,10 @@ impl SolvedRoot {
         SolvedRoot {
             x: Range::around(at(&found.root.x), delta),
             y: Range::around(at(&found.root.y), delta),
-            margin: { let (value, error) = margin(&c, error); Range::around(value, error) },
+            margin: {
+                let (value, error) = margin(&c, error);
+                Range::around(value, error)
+            },
             theorem: found.theorem & 1 == 1,
             spiral: found.spirals & 1 == 1,
         }

@@ -3,6 +3,7 @@
 mod curves;
 mod energy;
 mod march;
+mod narrow;
 mod pair;
 #[cfg(feature = "gpu")]
 mod shader;
@@ -48,7 +49,12 @@ const FLAGS: &[Flag] = &[
 ];
 
 const COUNTS: &[Count] = &[
-    Count { name: "solutions", doc: "number of different solutions A, B > 0; 7 stands for 7 and more (3 are the most seen)", shift: 0, bits: 3 },
+    Count {
+        name: "solutions",
+        doc: "number of different solutions A, B > 0; 7 stands for 7 and more (3 are the most seen)",
+        shift: 0,
+        bits: 3,
+    },
     Count { name: "spirals", doc: "number of solutions whose curve is a spiral; 7 stands for 7 and more", shift: 3, bits: 3 },
 ];
 
@@ -91,7 +97,7 @@ impl Family for PhQuintic {
         FLAGS
     }
     fn nested(&self) -> &'static [&'static str] {
-        &["SOLVABLE", "ANY_SPIRAL", "SPIRAL"]
+        &["ANY_SPIRAL", "SPIRAL"]
     }
     fn counts(&self) -> &'static [Count] {
         COUNTS
