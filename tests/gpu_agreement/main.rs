@@ -13,6 +13,7 @@ use std::sync::atomic::AtomicBool;
 mod adapters;
 mod any_spiral;
 mod cubic;
+mod ph_quintic;
 mod reach;
 
 /// What is compared for one family.
@@ -30,9 +31,10 @@ struct Subject {
 }
 
 fn subjects() -> Vec<Subject> {
-    let subjects = vec![cubic::subject(), any_spiral::subject(), reach::cubic(), reach::ph()];
+    let subjects = vec![cubic::subject(), ph_quintic::subject(), any_spiral::subject(), reach::cubic(), reach::ph()];
     assert_eq!(subjects.len(), family::all().len(), "every family is compared");
-    subjects
+    let only = std::env::var("ONLY_TMP").unwrap_or_default();
+    subjects.into_iter().filter(|s| s.family.name().contains(&only)).collect()
 }
 
 fn lin(name: &str, lo: f64, hi: f64, count: usize) -> Axis {

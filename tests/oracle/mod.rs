@@ -9,6 +9,7 @@ mod curve;
 pub mod data;
 pub mod iv;
 mod margin;
+pub mod ph;
 pub mod poly;
 pub mod reach;
 
