@@ -31,6 +31,7 @@ mod length;
 mod placement;
 pub mod reach;
 mod spiral;
+pub mod trig;
 mod vector;
 mod why;
 

@@ -14,6 +14,7 @@ mod adapters;
 mod any_spiral;
 mod cubic;
 mod reach;
+mod trig_quintic;
 
 /// What is compared for one family.
 struct Subject {
@@ -30,9 +31,9 @@ struct Subject {
 }
 
 fn subjects() -> Vec<Subject> {
-    let subjects = vec![cubic::subject(), any_spiral::subject(), reach::cubic(), reach::ph()];
+    let subjects = vec![cubic::subject(), any_spiral::subject(), reach::cubic(), reach::ph(), trig_quintic::subject()];
     assert_eq!(subjects.len(), family::all().len(), "every family is compared");
-    subjects
+    subjects.into_iter().filter(|s| s.family.name()=="trig-quintic").collect()/*TEMP*/
 }
 
 fn lin(name: &str, lo: f64, hi: f64, count: usize) -> Axis {

@@ -11,6 +11,7 @@ pub mod iv;
 mod margin;
 pub mod poly;
 pub mod reach;
+pub mod trig;
 
 pub use curve::Ends;
 

@@ -37,9 +37,16 @@ pub(super) const ERROR: f64 = coefficient_error(FRAME_ERRORS, 0.0, 1.0) * UNIT;
 
 /// The sign of the numerator from Bernstein coefficients and the sums of absolute values of their terms.
 pub(super) fn decide(value: &[f64; K], size: &[f64; K], relative: f64) -> Option<bool> {
-    let error = size.iter().fold(0.0f64, |most, s| most.max(*s)) * relative;
-    let largest = value.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-    positive(value, error, largest * ((K - 1) as f64 * UNIT), DEPTH)
+    // The least polynomial may prove it positive, the greatest disprove it: coefficients differ much in size, and so do their errors.
+    let side = |sign: f64| {
+        let c: [f64; K] = std::array::from_fn(|i| value[i] + sign * relative * size[i]);
+        let rounding = c.iter().fold(0.0f64, |most, v| most.max(v.abs())) * ((K - 1) as f64 * UNIT);
+        positive(&c, rounding, rounding, DEPTH)
+    };
+    match side(-1.0) {
+        Some(true) => Some(true),
+        _ => side(1.0).filter(|positive| !positive),
+    }
 }
 
 /// The codes of a vector of nodes that share ratio, θ, m and p.
