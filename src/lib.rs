@@ -11,7 +11,18 @@ pub mod grid;
 pub mod num;
 #[cfg(feature = "cli")]
 pub mod plot;
-#[cfg(feature = "cli")]
+#[cfg(feature = "recipe")]
 pub mod recipe;
 
 pub use error::{Error, Result};
+
+/// The examples of the pages compile and, where they need no file, run.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../README.md")]
+    struct Readme;
+    #[doc = include_str!("../docs/any-spiral.md")]
+    struct AnySpiral;
+    #[doc = include_str!("../docs/reach.md")]
+    struct Reach;
+}

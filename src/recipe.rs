@@ -54,10 +54,6 @@ const PANELS: usize = 6;
 /// A recipe, read and looked up.
 #[derive(Clone)]
 pub struct Recipe {
-    /// The family.
-    pub family: &'static dyn Family,
-    /// The scalars to store, in the recipe's order: indices into [`Family::scalars`].
-    pub scalars: Vec<usize>,
     /// The atlases, at least one.
     pub atlases: Vec<AtlasPlan>,
     /// The text, with line ends as Unix has them, so that a checkout on any system makes the same atlas.
@@ -65,10 +61,14 @@ pub struct Recipe {
 }
 
 /// One atlas of a recipe.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct AtlasPlan {
     /// The file's stem: small letters, digits and hyphens.
     pub name: String,
+    /// The family: the recipe's, unless the atlas has its own.
+    pub family: &'static dyn Family,
+    /// The scalars to store, in the recipe's order: indices into [`Family::scalars`].
+    pub scalars: Vec<usize>,
     /// What the axes are.
     pub chart: &'static Chart,
     /// The nodes. Whether they lie in the family's domain, [`Family::table`] tells.
@@ -105,6 +105,11 @@ pub enum PictureKind {
     Union,
     /// One for each combination of the other axes' chosen nodes.
     Multiples,
+    /// One: where the family has a `SPIRAL`, where another of the same axes has, and where both have.
+    Compare {
+        /// Name of the other family.
+        with: &'static str,
+    },
 }
 
 /// A point marked on a slice.
@@ -144,24 +149,27 @@ impl Recipe {
 
 fn resolve(text: &str) -> Result<Recipe, Fault> {
     let raw = raw::parse(text)?;
-    let name = raw.family.get_ref();
-    let names: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
-    let family = family::by_name(name).ok_or_else(|| Fault::new(raw.family.span(), unknown("family", name, &names)))?;
-    let scalars = scalars(family, &raw.fields)?;
     let at = raw.atlas.span();
     let mut atlases: Vec<AtlasPlan> = Vec::new();
     for atlas in raw.atlas.into_inner() {
-        let at = atlas.name.span();
-        let plan = plan(atlas, family)?;
+        let name = atlas.name.span();
+        let family = family_of(atlas.family.as_ref().unwrap_or(&raw.family))?;
+        let scalars = scalars(family, &raw.fields)?;
+        let plan = plan(atlas, family, scalars)?;
         if atlases.iter().any(|other| other.name == plan.name) {
-            return Err(Fault::new(at, format!("two atlases are named `{}`; their files need different names", plan.name)));
+            return Err(Fault::new(name, format!("two atlases are named `{}`; their files need different names", plan.name)));
         }
         atlases.push(plan);
     }
     if atlases.is_empty() {
         return Err(Fault::new(at, "there is no atlas; add an `[[atlas]]`"));
     }
-    Ok(Recipe { family, scalars, atlases, text: text.to_owned() })
+    Ok(Recipe { atlases, text: text.to_owned() })
+}
+
+fn family_of(name: &Spanned<String>) -> Result<&'static dyn Family, Fault> {
+    let names: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
+    family::by_name(name.get_ref()).ok_or_else(|| Fault::new(name.span(), unknown("family", name.get_ref(), &names)))
 }
 
 fn scalars(family: &dyn Family, fields: &[Spanned<String>]) -> Result<Vec<usize>, Fault> {
@@ -180,7 +188,7 @@ fn scalars(family: &dyn Family, fields: &[Spanned<String>]) -> Result<Vec<usize>
     Ok(places.iter().filter_map(|place| place.checked_sub(always.len())).collect())
 }
 
-fn plan(raw: RawAtlas, family: &'static dyn Family) -> Result<AtlasPlan, Fault> {
+fn plan(raw: RawAtlas, family: &'static dyn Family, scalars: Vec<usize>) -> Result<AtlasPlan, Fault> {
     let name = raw.name.get_ref();
     let plain = name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
     if !plain || !(1..=64).contains(&name.len()) {
@@ -194,8 +202,8 @@ fn plan(raw: RawAtlas, family: &'static dyn Family) -> Result<AtlasPlan, Fault> 
         axes.push(spacing(name, axis.get_ref()).and_then(|s| new_axis(name, s)).map_err(|e| Fault::new(axis.span(), e))?);
     }
     let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
-    let pictures = raw.picture.iter().map(|p| picture(p, &grid, family)).collect::<Result<_, _>>()?;
-    Ok(AtlasPlan { name: name.clone(), chart, grid, pictures })
+    let pictures = raw.picture.iter().map(|p| picture(p, &grid, family, chart)).collect::<Result<_, _>>()?;
+    Ok(AtlasPlan { name: name.clone(), family, scalars, chart, grid, pictures })
 }
 
 /// The chart that has just these axes.
@@ -234,13 +242,18 @@ fn new_axis(name: &str, spacing: Spacing) -> Result<Axis, String> {
     Axis::new(name, spacing).map_err(|e| e.to_string())
 }
 
-fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family) -> Result<PicturePlan, Fault> {
+fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart) -> Result<PicturePlan, Fault> {
+    let kinds = ["slice", "union", "multiples", "compare"];
     let kind = match &raw.kind.get_ref()[..] {
         "slice" => PictureKind::Slice,
         "union" => PictureKind::Union,
         "multiples" => PictureKind::Multiples,
-        other => return Err(Fault::new(raw.kind.span(), unknown("picture kind", other, &["slice", "union", "multiples"]))),
+        "compare" => PictureKind::Compare { with: compared(raw, family, chart)? },
+        other => return Err(Fault::new(raw.kind.span(), unknown("picture kind", other, &kinds))),
     };
+    if let (false, Some(with)) = (matches!(kind, PictureKind::Compare { .. }), &raw.with) {
+        return Err(Fault::new(with.span(), "`with` belongs to a picture of the kind `compare`"));
+    }
     let (x, y) = (axis_index(grid, &raw.x)?, axis_index(grid, &raw.y)?);
     if x == y {
         return Err(Fault::new(raw.y.span(), format!("`x` and `y` are both `{}`; take two axes", raw.y.get_ref())));
@@ -265,6 +278,19 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family) -> Result<Picture
     Ok(PicturePlan { kind, x, y, at, regions, outlines, marks })
 }
 
+/// The family that a picture compares with: both have a `SPIRAL`, and the other a chart of the same axes.
+fn compared(raw: &RawPicture, family: &dyn Family, chart: &Chart) -> Result<&'static str, Fault> {
+    let with = raw.with.as_ref().ok_or_else(|| Fault::new(raw.kind.span(), "the picture lacks `with`, the other family"))?;
+    let other = family_of(with)?;
+    let spiral = |family: &dyn Family| family.flags().iter().any(|f| f.name == "SPIRAL");
+    if !other.charts().iter().any(|c| c.axes == chart.axes) || !spiral(family) || !spiral(other) {
+        let what =
+            format!("`{}` and `{}` cannot be compared: both need a flag `SPIRAL` and the same axes", family.name(), other.name());
+        return Err(Fault::new(with.span(), what));
+    }
+    Ok(other.name())
+}
+
 /// The places of named flags.
 fn flags(names: &[Spanned<String>], family: &dyn Family) -> Result<Vec<usize>, Fault> {
     let known: Vec<&str> = family.flags().iter().map(|f| f.name).collect();
@@ -286,7 +312,7 @@ fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<Vec<usize>,
     let (name, count) = (axis.name(), axis.values().len());
     let Some((_, given)) = raw.at.iter().find(|(key, _)| key.get_ref() == name) else {
         return match kind {
-            PictureKind::Slice if count > 1 => {
+            PictureKind::Slice | PictureKind::Compare { .. } if count > 1 => {
                 Err(Fault::new(raw.kind.span(), format!("the slice leaves `{name}` open; say `at = {{ {name} = .. }}`")))
             }
             PictureKind::Union => Ok((0..count).collect()),
@@ -298,7 +324,9 @@ fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<Vec<usize>,
     let points = match (given.get_ref(), kind) {
         (Numbers::One(point), _) => std::slice::from_ref(point),
         (Numbers::Many(points), PictureKind::Multiples | PictureKind::Union) if !points.is_empty() => points,
-        (Numbers::Many(_), PictureKind::Slice) => return Err(fail(format!("a slice takes one value of `{name}`"))),
+        (Numbers::Many(_), PictureKind::Slice | PictureKind::Compare { .. }) => {
+            return Err(fail(format!("a slice takes one value of `{name}`")));
+        }
         (Numbers::Many(_), _) => return Err(fail(format!("`{name}` has an empty list"))),
     };
     let lookup = Lookup::new(axis);

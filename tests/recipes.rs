@@ -60,8 +60,8 @@ fn complaint(from: &str, to: &str) -> String {
 #[test]
 fn a_recipe_is_understood() {
     let recipe = Recipe::parse(GOOD).unwrap();
-    assert_eq!((recipe.family.name(), &recipe.scalars[..], &recipe.text[..]), ("cubic", &[2, 0][..], GOOD));
     let [first, second] = &recipe.atlases[..] else { panic!("two atlases") };
+    assert_eq!((first.family.name(), &first.scalars[..], &recipe.text[..]), ("cubic", &[2, 0][..], GOOD));
     assert_eq!((&first.name[..], first.chart.name), ("first-1", "curvature"));
     assert_eq!((&second.name[..], second.chart.name), ("second", "normalised"));
     assert_eq!(first.grid.shape(), [12, 2, 3, 4]);
@@ -93,13 +93,36 @@ fn pictures_choose_their_flags_and_unions_take_all_nodes() {
 }
 
 #[test]
+fn an_atlas_may_have_its_own_family() {
+    let own = GOOD.replacen("name = \"second\"", "name = \"second\"\nfamily = \"any-spiral\"", 1);
+    match Recipe::parse(&own) {
+        // Axes a and k are the cubic's, and so is the field f0.
+        Err(Error::Recipe(what)) => assert!(what.contains("unknown field `margin`"), "{what}"),
+        other => panic!("{:?}", other.is_ok()),
+    }
+    let recipe = Recipe::parse("family = \"cubic\"\n[[atlas]]\nname = \"a\"\nfamily = \"reach-ph\"\n[atlas.axes]\ntheta = { values = [1] }\nxi = { values = [1] }\neta = { values = [1] }").unwrap();
+    assert_eq!(recipe.atlases[0].family.name(), "reach-ph");
+}
+
+#[test]
+fn comparisons_need_another_family_with_spirals() {
+    let change = |with: &str| format!("kind = \"compare\"{with}");
+    assert!(complaint("kind = \"slice\"", &change("")).contains("lacks `with`"));
+    assert!(complaint("kind = \"slice\"", &change("\nwith = \"cubical\"")).contains("did you mean `cubic`?"));
+    assert!(complaint("kind = \"slice\"", &change("\nwith = \"reach-ph\"")).contains("cannot be compared"));
+    assert!(complaint("kind = \"slice\"", "kind = \"slice\"\nwith = \"cubic\"").contains("`with` belongs"));
+    let recipe = Recipe::parse(&GOOD.replacen("kind = \"slice\"", &change("\nwith = \"cubic\""), 1)).unwrap();
+    assert_eq!(recipe.atlases[0].pictures[0].kind, PictureKind::Compare { with: "cubic" });
+}
+
+#[test]
 fn shipped_regions_of_end_points() {
     for (name, kind) in [("reach.toml", "reach-cubic"), ("reach-ph.toml", "reach-ph")] {
         let recipe = shipped(name);
-        assert_eq!(recipe.family.name(), kind);
+        assert!(recipe.atlases.iter().all(|a| a.family.name() == kind));
         let kinds: Vec<PictureKind> = recipe.atlases.iter().map(|a| a.pictures[0].kind).collect();
         assert_eq!(kinds, [PictureKind::Slice, PictureKind::Slice, PictureKind::Union]);
-        assert!(recipe.atlases.iter().all(|a| a.pictures[0].regions.len() == 3 && recipe.family.table(&a.grid).is_ok()));
+        assert!(recipe.atlases.iter().all(|a| a.pictures[0].regions.len() == 3 && a.family.table(&a.grid).is_ok()));
     }
 }
 
@@ -112,7 +135,7 @@ fn line_ends_do_not_matter() {
 #[test]
 fn fields_are_optional() {
     let recipe = Recipe::parse(&GOOD.replacen("fields = [\"margin\", \"flags\", \"f0\"]", "", 1)).unwrap();
-    assert!(recipe.scalars.is_empty());
+    assert!(recipe.atlases[0].scalars.is_empty());
 }
 
 #[test]

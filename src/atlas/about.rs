@@ -1,7 +1,7 @@
 //! What an atlas says about itself: the metadata of the file, key by key.
 
 use super::Spec;
-use crate::family::NO_VALUE;
+use crate::family::{NO_VALUE, unpack};
 use crate::grid::{Axis, Grid, Spacing};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -61,7 +61,7 @@ pub struct Packed {
 impl Packed {
     /// Takes the number out of a `solutions` byte.
     pub fn of(&self, solutions: u8) -> u8 {
-        (solutions & self.mask()).checked_shr(self.shift).unwrap_or(0)
+        unpack(solutions, self.shift, self.bits)
     }
 
     fn mask(&self) -> u8 {

@@ -7,7 +7,6 @@ use super::{Outcome, render};
 use spiral_atlas::Result;
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, Report, evaluate};
-use spiral_atlas::family::Family;
 use spiral_atlas::files::write_file;
 use spiral_atlas::recipe::{AtlasPlan, Recipe};
 use std::path::{Path, PathBuf};
@@ -80,9 +79,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
         let path = atlas_path(&args.out, &plan.name);
         let report = write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
         let atlas = Atlas::open(&path)?;
-        let made = finish(args, &recipe, plan, &atlas, report, &checkers, &stop)?;
+        let made = finish(args, plan, &atlas, report, &checkers, &stop)?;
         if !args.json {
-            output::print(&made.summary(recipe.family, plan))?;
+            output::print(&made.summary(plan))?;
         }
         all.push(made);
         atlases.push(atlas);
@@ -114,8 +113,8 @@ pub fn write_atlas(
     threads: usize,
     stop: &AtomicBool,
 ) -> Result<Report> {
-    let job = Job { family: recipe.family, grid: &plan.grid, scalars: &recipe.scalars };
-    let spec = Spec { name: &plan.name, family: recipe.family, grid: &plan.grid, scalars: &recipe.scalars, recipe: &recipe.text };
+    let job = Job { family: plan.family, grid: &plan.grid, scalars: &plan.scalars };
+    let spec = Spec { name: &plan.name, family: plan.family, grid: &plan.grid, scalars: &plan.scalars, recipe: &recipe.text };
     let mut writer = Writer::create(path, &spec)?;
     let bar = output::progress(plan.name.clone(), plan.grid.len());
     let report = evaluate(&job, backend, threads, stop, |chunk| {
@@ -130,16 +129,8 @@ pub fn write_atlas(
 }
 
 /// Checks an atlas and writes what stands beside it.
-fn finish(
-    args: &Args,
-    recipe: &Recipe,
-    plan: &AtlasPlan,
-    atlas: &Atlas,
-    report: Report,
-    checkers: &[Backend],
-    stop: &AtomicBool,
-) -> Result<Made> {
-    let job = Job { family: recipe.family, grid: &plan.grid, scalars: &recipe.scalars };
+fn finish(args: &Args, plan: &AtlasPlan, atlas: &Atlas, report: Report, checkers: &[Backend], stop: &AtomicBool) -> Result<Made> {
+    let job = Job { family: plan.family, grid: &plan.grid, scalars: &plan.scalars };
     let stored = verify::stored(atlas)?;
     let check = match args.check {
         Check::None => Vec::new(),
@@ -159,14 +150,14 @@ fn finish(
 }
 
 impl Made {
-    fn summary(&self, family: &dyn Family, plan: &AtlasPlan) -> String {
+    fn summary(&self, plan: &AtlasPlan) -> String {
         let r = &self.report;
         let axes = plan.grid.axes().iter().map(|a| format!("{} {}", a.name(), grouped(a.values().len() as u64)));
         let axes: Vec<String> = axes.collect();
         let mut text = format!("{}: {} = {} nodes\n", self.atlas, axes.join(" x "), grouped(r.nodes));
         text += &format!("  by {} in {:.2} s, with {} threads\n", who(r), r.seconds, r.threads);
         text += "  nodes with a proved yes\n";
-        for flag in family.flags() {
+        for flag in plan.family.flags() {
             let count = r.yes.get(flag.name).copied().unwrap_or(0);
             let share = count as f64 / r.nodes.max(1) as f64 * 100.0;
             text += &format!("    {:<14} {:>16}  {share:6.2} %  {}\n", flag.name, grouped(count), flag.label);

@@ -64,6 +64,20 @@ pub fn bytes(number: u64) -> String {
     }
 }
 
+/// A number with at most four decimals.
+pub fn short(x: f64) -> String {
+    let text = format!("{x:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.replace('-', "−") }
+}
+
+/// An angle in degrees when it was written so, that is when these have at most three decimals; else in radians.
+pub fn angle(x: f64) -> String {
+    let degrees = x.to_degrees();
+    let whole = (degrees * 1000.0).round() / 1000.0;
+    if (degrees - whole).abs() < 1e-10 { short(whole) + "°" } else { short(x) }
+}
+
 /// A JSON object whose keys keep their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object<K, V>(pub Vec<(K, V)>);
@@ -113,6 +127,12 @@ mod tests {
     fn numbers_are_readable() {
         assert_eq!([0, 999, 1000, 1234567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
         assert_eq!([12, 2048, 5 << 20, 3 << 29].map(bytes), ["12 B", "2.0 KiB", "5.0 MiB", "1.50 GiB"]);
+    }
+
+    #[test]
+    fn angles_are_told_as_they_were_written() {
+        assert_eq!([45f64, -15.5, 0.0, 89.001].map(|x| angle(x.to_radians())), ["45°", "−15.5°", "0°", "89.001°"]);
+        assert_eq!([0.7, -1.4, 1e-5].map(angle), ["0.7", "−1.4", "0"]);
     }
 
     #[test]

@@ -1,13 +1,15 @@
 //! Pictures of an atlas: from a plan of its recipe to the plain data that [`spiral_atlas::plot`] draws.
 
-use super::output::grouped;
+use super::output::{angle, grouped, short};
 use spiral_atlas::atlas::Atlas;
+use spiral_atlas::eval::{Backend, Job, evaluate};
 use spiral_atlas::family::{Family, Flag};
-use spiral_atlas::grid::{Axis, Spacing};
+use spiral_atlas::grid::{Axis, Grid, Spacing};
 use spiral_atlas::plot::{self, AxisView, Mark, Multiples, Region, Slice};
-use spiral_atlas::recipe::{PictureKind, PicturePlan, Recipe};
+use spiral_atlas::recipe::{PictureKind, PicturePlan, Recipe, is_angle};
 use spiral_atlas::{Error, Result, family};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 const SLICE: (u32, u32) = (1000, 860);
 const MULTIPLES: (u32, u32) = (1500, 1350);
@@ -51,17 +53,29 @@ pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
 /// Those of [`plot`], and [`Error::Domain`] for a family that this program does not have.
 pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
     match plan.kind {
-        PictureKind::Slice | PictureKind::Union => plot::slice_png(&slice(atlas, plan)?, SLICE),
+        PictureKind::Slice | PictureKind::Union | PictureKind::Compare { .. } => plot::slice_png(&slice(atlas, plan)?, SLICE),
         PictureKind::Multiples => plot::multiples_png(&multiples(atlas, plan)?, MULTIPLES),
     }
 }
 
-/// Draws slices of several atlases of one family side by side.
+/// Draws slices of several atlases side by side: under one legend where they show the same, or else each with its own.
 ///
 /// # Errors
 /// As [`draw`].
-pub fn side_by_side(title: &str, slices: Vec<Slice>) -> Result<Vec<u8>> {
+pub fn side_by_side(title: &str, mut slices: Vec<Slice>) -> Result<Vec<u8>> {
+    // The legend counts all panels together.
+    for slice in &mut slices {
+        let share = |region: &Region| {
+            let yes = region.mask.iter().filter(|m| **m).count();
+            format!("; {} {:.1} %", region.label, 100.0 * yes as f64 / region.mask.len() as f64)
+        };
+        slice.note += &slice.regions.iter().map(share).collect::<String>();
+    }
     let count = slices.len() as u32;
+    let labels = |slice: &Slice| slice.regions.iter().chain(&slice.outlines).map(|r| r.label.clone()).collect::<Vec<_>>();
+    if slices.iter().any(|slice| labels(slice) != labels(&slices[0])) {
+        return plot::montage_png(title, &slices, slices.len().min(3), PANEL);
+    }
     let columns = vec![String::new(); slices.len()];
     let figure = Multiples { title: title.into(), note: String::new(), columns, rows: vec![String::new()], panels: slices };
     plot::multiples_png(&figure, (PANEL.0.saturating_mul(count), PANEL.1))
@@ -75,19 +89,22 @@ pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
     let axes = atlas.grid().axes();
     let place = |(axis, nodes): &(usize, Vec<usize>)| match nodes[..] {
         [node] => place(&axes[*axis], node),
-        _ => format!("any of {} {}", nodes.len(), plot::symbol(axes[*axis].name())),
+        [.., last] => {
+            let (axis, count) = (&axes[*axis], nodes.len());
+            format!("any of {count} {} from {} to {}", plot::symbol(axis.name()), value(axis, nodes[0]), value(axis, last))
+        }
+        [] => String::new(),
     };
     let places: Vec<String> = plan.at.iter().map(place).collect();
     let title = format!("{}: {}", atlas.about().name, places.join(", "));
     let mut slice = panel(atlas, plan, &plan.at)?;
+    if let PictureKind::Compare { with } = plan.kind {
+        slice.regions = compared(atlas, plan, with)?;
+        slice.outlines = Vec::new();
+    }
     slice.title = title.trim_end_matches([':', ' ']).to_owned();
     let (x, y) = (slice.x.values.len() as u64, slice.y.values.len() as u64);
-    let shares = slice.regions.iter().map(|region| {
-        let yes = region.mask.iter().filter(|m| **m).count();
-        format!("{} {:.1} %", region.label, 100.0 * yes as f64 / region.mask.len() as f64)
-    });
-    let shares = shares.collect::<Vec<_>>().join(", ");
-    slice.note = format!("{} × {} = {} nodes, each proved: {shares}", grouped(x), grouped(y), grouped(x * y));
+    slice.note = format!("{} × {} = {} nodes, each proved", grouped(x), grouped(y), grouped(x * y));
     slice.marks = plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect();
     Ok(slice)
 }
@@ -125,25 +142,32 @@ fn multiples(atlas: &Atlas, plan: &PicturePlan) -> Result<Multiples> {
     Ok(Multiples { title: name.clone(), note, columns: captions(columns), rows, panels })
 }
 
-/// A plane of the atlas through nodes of the other axes; where there are several, what is true at any of them.
-fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Slice> {
-    let family = of(atlas)?;
-    let (grid, flags) = (atlas.grid(), family.flags());
-    let (x, y) = (&grid.axes()[plan.x], &grid.axes()[plan.y]);
-    let mut plane = vec![0; x.values().len() * y.values().len()];
+/// The flags on a plane of the atlas through nodes of the other axes, x fastest; where there are several, what is true at any of them.
+fn plane(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Vec<u8>> {
+    let axes = atlas.grid().axes();
+    let [x, y] = [plan.x, plan.y].map(|axis| axes[axis].values().len());
+    let mut plane = vec![0; x * y];
     for combination in 0..at.iter().map(|(_, nodes)| nodes.len()).product() {
-        let mut index = vec![0; grid.axes().len()];
+        let mut index = vec![0; axes.len()];
         let mut rest: usize = combination;
         for (axis, nodes) in at {
             index[*axis] = nodes[rest % nodes.len()];
             rest /= nodes.len();
         }
         for (place, byte) in plane.iter_mut().enumerate() {
-            (index[plan.x], index[plan.y]) = (place % x.values().len(), place / x.values().len());
+            (index[plan.x], index[plan.y]) = (place % x, place / x);
             let entry = atlas.at(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
             *byte |= entry.flags;
         }
     }
+    Ok(plane)
+}
+
+/// The regions of a plan on such a plane.
+fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Slice> {
+    let family = of(atlas)?;
+    let (axes, flags, plane) = (atlas.grid().axes(), family.flags(), plane(atlas, plan, at)?);
+    let (x, y) = (&axes[plan.x], &axes[plan.y]);
     let region = |(bit, flag): (usize, &Flag)| Region {
         label: flag.label.to_owned(),
         mask: plane.iter().map(|byte| byte >> bit & 1 == 1).collect(),
@@ -158,6 +182,47 @@ fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Resul
         (chosen(&plan.regions), chosen(&plan.outlines))
     };
     Ok(Slice { title: String::new(), x: view(x), y: view(y), regions, outlines, marks: Vec::new(), note: String::new() })
+}
+
+/// Where any spiral exists, where only this family has one, only the other, and both; the other is evaluated here.
+fn compared(atlas: &Atlas, plan: &PicturePlan, with: &str) -> Result<Vec<Region>> {
+    let (own, other) = (of(atlas)?, family::by_name(with));
+    let other = other.ok_or_else(|| Error::Domain(format!("this program has no family `{with}`")))?;
+    let bit = |family: &dyn Family, name: &str| family.flags().iter().position(|f| f.name == name).unwrap_or_default();
+    let (ours, theirs) = (plane(atlas, plan, &plan.at)?, evaluated(other, atlas, plan)?);
+    let (a, b) = (bit(own, "SPIRAL"), bit(other, "SPIRAL"));
+    let region = |label: String, holds: &dyn Fn(bool, bool) -> bool| {
+        let mask = ours.iter().zip(&theirs).map(|(x, y)| holds(x >> a & 1 == 1, y >> b & 1 == 1)).collect();
+        Region { label, mask }
+    };
+    let outer = own.nested().first().map_or(a, |name| bit(own, name));
+    let outer_mask = ours.iter().map(|byte| byte >> outer & 1 == 1).collect();
+    Ok(vec![
+        Region { label: own.flags()[outer].label.to_owned(), mask: outer_mask },
+        region(format!("{} only", own.name()), &|a, b| a && !b),
+        region(format!("{with} only"), &|a, b| b && !a),
+        region("both".into(), &|a, b| a && b),
+    ])
+}
+
+/// The flags of another family at the nodes of a slice, x fastest.
+fn evaluated(family: &'static dyn Family, atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
+    // The same axes, those that are not drawn at their one node.
+    let mut axes = atlas.grid().axes().to_vec();
+    for (axis, nodes) in &plan.at {
+        let values = nodes.iter().map(|node| axes[*axis].values()[*node]).collect();
+        axes[*axis] = Axis::new(axes[*axis].name(), Spacing::Values(values))?;
+    }
+    let grid = Grid::new(axes)?;
+    let mut flags: Vec<u8> = Vec::new();
+    let job = Job { family, grid: &grid, scalars: &[] };
+    evaluate(&job, &Backend::Cpu, 1, &AtomicBool::new(false), |chunk| {
+        flags.extend_from_slice(&chunk.flags);
+        Ok(())
+    })?;
+    let [x, y] = [plan.x, plan.y].map(|axis| grid.axes()[axis].values().len());
+    let at = |(i, j): (usize, usize)| if plan.x < plan.y { i * y + j } else { j * x + i };
+    Ok((0..x * y).map(|place| flags[at((place % x, place / x))]).collect())
 }
 
 /// The family of an atlas.
@@ -179,6 +244,10 @@ fn view(axis: &Axis) -> AxisView {
 
 /// `φ₀ = 0.7`, with as many digits as a reader wants.
 fn place(axis: &Axis, node: usize) -> String {
-    let rounded = format!("{:.4}", axis.values()[node]);
-    format!("{} = {}", plot::symbol(axis.name()), rounded.trim_end_matches('0').trim_end_matches('.'))
+    format!("{} = {}", plot::symbol(axis.name()), value(axis, node))
+}
+
+fn value(axis: &Axis, node: usize) -> String {
+    let x = axis.values()[node];
+    if is_angle(axis.name()) { angle(x) } else { short(x) }
 }

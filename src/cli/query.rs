@@ -21,7 +21,7 @@ use std::path::PathBuf;
 /// a bad row gives {"line":..,"error":".."}, and the exit code is 1 at the end.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --kappa1 4\n  \
-                        spiral-atlas query --family reach-ph --theta 40deg --xi 1.5 --eta 0.5\n  \
+                        spiral-atlas query --family reach-ph --theta 40deg --xi 1.5 --eta 0.35\n  \
                         spiral-atlas query --points data.csv > answers.jsonl")]
 pub struct Args {
     /// The family; that of the atlas, or `cubic`, unless given.

@@ -80,10 +80,10 @@ pub fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Pr
 }
 
 fn first_slice(pictures: &[PicturePlan]) -> Option<&PicturePlan> {
-    pictures.iter().find(|p| p.kind == PictureKind::Slice)
+    pictures.iter().find(|p| matches!(p.kind, PictureKind::Slice | PictureKind::Compare { .. }))
 }
 
-/// Draws the first planned slices of several atlases side by side; `None` when there are not several.
+/// Draws the first planned slices or comparisons of several atlases side by side; `None` when there are not several.
 pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
     let planned = atlases.iter().zip(&recipe.atlases).filter_map(|(atlas, plan)| Some((atlas, first_slice(&plan.pictures)?)));
     let slices = planned.map(|(atlas, plan)| pictures::slice(atlas, plan)).collect::<Result<Vec<_>>>()?;
@@ -101,7 +101,7 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
 /// Those of [`spiral_atlas::family::Family::table`], and [`Error::Recipe`] that names the file.
 pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
     for plan in &recipe.atlases {
-        recipe.family.table(&plan.grid).map_err(|e| match e {
+        plan.family.table(&plan.grid).map_err(|e| match e {
             Error::Domain(what) => Error::Recipe(format!("{}, atlas `{}`: {what}", source.display(), plan.name)),
             other => other,
         })?;

@@ -182,8 +182,8 @@ fn recipe_fault(atlas: &Atlas) -> Option<String> {
     let Some(plan) = recipe.atlases.iter().find(|plan| plan.name == about.name) else {
         return Some(format!("its recipe has no atlas `{}`", about.name));
     };
-    let names = recipe.scalars.iter().filter_map(|i| recipe.family.scalars().get(*i)).map(|s| s.name);
-    let same = recipe.family.name() == about.family && plan.grid == *atlas.grid() && names.eq(atlas.scalar_names());
+    let names = plan.scalars.iter().filter_map(|i| plan.family.scalars().get(*i)).map(|s| s.name);
+    let same = plan.family.name() == about.family && plan.grid == *atlas.grid() && names.eq(atlas.scalar_names());
     (!same).then(|| "its recipe gives another family, grid or other scalars than the file has".into())
 }
 

@@ -1,6 +1,6 @@
 //! A curve near one parameter: point, three derivatives, and the curvature they give.
 
-use super::vector::{Vector, cross, dot, length};
+use super::vector::{Vector, cross, dot, length, lerp, scale, sub};
 
 /// Point and derivatives of a plane curve at one parameter; every family of curves yields these.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +16,23 @@ pub struct Jet {
 }
 
 impl Jet {
+    /// Of a Bézier curve of any degree with these control points; exact at 0 and 1.
+    ///
+    /// Differences come first, then de Casteljau's algorithm: those of neighbouring points are exact, so nothing cancels later.
+    pub fn of_bezier(p: &[[f64; 2]], t: f64) -> Jet {
+        let differences = |p: &[Vector]| p.windows(2).map(|w| sub(w[1], w[0])).collect::<Vec<_>>();
+        let first = differences(p);
+        let second = differences(&first);
+        let third = differences(&second);
+        let degree = first.len() as f64;
+        Jet {
+            point: casteljau(p, t),
+            first: scale(casteljau(&first, t), degree),
+            second: scale(casteljau(&second, t), degree * (degree - 1.0)),
+            third: scale(casteljau(&third, t), degree * (degree - 1.0) * (degree - 2.0)),
+        }
+    }
+
     /// `|P'|`, in user lengths per unit of the parameter.
     pub fn speed(&self) -> f64 {
         length(self.first)
@@ -60,4 +77,16 @@ impl Jet {
         let over = |v: Vector| [v[0] / speed, v[1] / speed];
         (speed, over(self.first), over(self.second), over(self.third))
     }
+}
+
+/// The point of a Bézier curve; (0, 0) without control points.
+fn casteljau(p: &[Vector], t: f64) -> Vector {
+    let mut p = p.to_vec();
+    while p.len() > 1 {
+        for i in 1..p.len() {
+            p[i - 1] = lerp(p[i - 1], p[i], t);
+        }
+        p.pop();
+    }
+    p.first().copied().unwrap_or([0.0, 0.0])
 }

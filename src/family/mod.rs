@@ -1,11 +1,13 @@
 //! What a family is: axes, flags, counts, scalars, a fast filter, the exact truth, a shader.
 //!
-//! Adding one touches `family/<name>.rs`, `shaders/<name>.wgsl`, a recipe, tests, and the list in [`all`].
+//! DESIGN.md lists what adding one touches; here it is the list in [`all`].
 
 mod answer;
 pub mod any_spiral;
 pub mod cubic;
+mod hermite;
 mod outer;
+pub mod ph_quintic;
 pub mod reach;
 mod rows;
 pub mod trig_quintic;
@@ -66,8 +68,13 @@ pub struct Count {
 impl Count {
     /// Takes the number out of a `solutions` byte.
     pub fn of(&self, solutions: u8) -> u8 {
-        (solutions >> self.shift) & ((1u8 << self.bits) - 1)
+        unpack(solutions, self.shift, self.bits)
     }
+}
+
+/// The number in the bits `shift .. shift + bits` of a byte, whatever the two are.
+pub(crate) fn unpack(byte: u8, shift: u32, bits: u32) -> u8 {
+    byte.checked_shr(shift).unwrap_or(0) & (u8::MAX.checked_shr(8u32.saturating_sub(bits)).unwrap_or(0))
 }
 
 /// One optional f32 field.
@@ -202,6 +209,7 @@ pub struct ShaderInputs {
 pub fn all() -> &'static [&'static dyn Family] {
     &[
         &cubic::Cubic,
+        &ph_quintic::PhQuintic,
         &any_spiral::AnySpiral,
         &reach::Reach(reach::Kind::Cubic),
         &reach::Reach(reach::Kind::Ph),

@@ -5,7 +5,7 @@
 //! would add up to at most `sin φ0 - sin φ1`, and their product to at most `cos²((φ0 + φ1)/2) sin²((φ1 - φ0)/2)`.
 //! Likewise Q < 0 and κ0 < κ1 leave no other signs of the factors.
 
-use crate::num::Interval;
+use crate::num::bernstein::Certain;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase};
 use std::cmp::Ordering::Greater;
@@ -34,11 +34,12 @@ pub(super) fn lanes<S: Simd>(simd: S, sines: &Sines<f64>, kappa0: S::f64s, kappa
     (yes.to_bitmask(), no.to_bitmask())
 }
 
-/// The same in intervals; `None` when the precision does not suffice.
-pub(super) fn holds(sines: &Sines<Interval>, kappa0: &Interval, kappa1: &Interval) -> Option<bool> {
-    let (room0, room1) = (&sines[0] - kappa0, kappa1 - &sines[1]);
-    if room0.sign()? != Greater || room1.sign()? != Greater {
+/// The same for enclosed numbers; `None` when the precision does not suffice.
+pub(super) fn holds<N: Certain>(sines: &Sines<N>, kappa0: &N, kappa1: &N) -> Option<bool> {
+    let positive = |x: &N| x.certain_sign(0.0).map(|sign| sign == Greater);
+    let (room0, room1) = (sines[0].sub(kappa0), kappa1.sub(&sines[1]));
+    if !positive(&room0)? || !positive(&room1)? {
         return Some(false);
     }
-    Some((&room0 * &room1).compare(&sines[2])? == Greater)
+    positive(&room0.mul(&room1).sub(&sines[2]))
 }

@@ -162,6 +162,37 @@ pub fn least_interval(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
     None
 }
 
+/// The margin of a quintic: its least value on [0, 1] over its largest coefficient, and how far that may be off, for coefficients that
+/// may each be off by `error`.
+pub fn margin(c: &Quintic<f64>, error: f64) -> (f64, f64) {
+    let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let (value, _) = least(c);
+    let ratio = value / largest;
+    // d(m/M) <= (dm + |m/M| dM) / (M - dM), |m| <= M.
+    (ratio, (least_error(c, error) + ratio.abs() * error) / (largest - error).max(0.0) + 0.5 * f64::EPSILON)
+}
+
+/// [`margin`] in intervals; `None` at too low a precision.
+pub fn exact_margin(c: &Quintic<Interval>) -> Option<Interval> {
+    let mut largest = Interval::new(0.0, c[0].bits());
+    for c in c {
+        let size = if c.sign()? == Ordering::Less { -c } else { c.clone() };
+        // Of two that cannot be told apart either will do, as an interval around both.
+        largest = match size.compare(&largest) {
+            Some(Ordering::Greater) => size,
+            Some(_) => largest,
+            None => size.union(&largest),
+        };
+    }
+    // Scaled to size 1 first: the coefficients of extreme angles leave the range of doubles.
+    let mut scaled = c.clone();
+    for c in &mut scaled {
+        *c = c.over(&largest)?;
+    }
+    let (_, guess) = least(&scaled.clone().map(|c| c.approx()));
+    least_interval(&scaled, guess)
+}
+
 /// Whether the quintic stays above `floor` on [0, 1].
 fn above(c: &Quintic<Interval>, floor: &Interval) -> Option<bool> {
     positive(&c.clone().map(|v| &v - floor), 0.0, 0.0, MOST_HALVINGS)

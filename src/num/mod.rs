@@ -1,5 +1,6 @@
 //! What the proofs rest on: intervals of any precision, certified elementary functions, Bernstein sign tests, roots.
 
+mod ball;
 pub mod bernstein;
 mod climb;
 mod interval;
@@ -7,9 +8,10 @@ mod number;
 pub mod root;
 pub mod trig;
 
+pub use ball::Ball;
 pub use climb::climb;
 pub use interval::Interval;
-pub use number::{Lanes, Number};
+pub use number::{Lanes, Number, Real};
 
 /// `lo (hi / lo)^(i / (count - 1))`, the ends exact; the same doubles on every machine.
 pub(crate) fn log_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {

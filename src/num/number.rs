@@ -92,3 +92,66 @@ impl<S: Simd> Lanes<S> {
         Lanes(S::f64s::splat(simd, value))
     }
 }
+
+/// Enclosed numbers of some precision: what a family computes with once, for doubles and for the top of the ladder.
+pub trait Real: super::bernstein::Certain {
+    /// A double, exactly, with results rounded to `bits`.
+    fn of(x: f64, bits: usize) -> Self;
+    /// The precision of results.
+    fn bits(&self) -> usize;
+    /// The quotient; `None` when the divisor may be zero.
+    fn over(&self, divisor: &Self) -> Option<Self>;
+    /// The square root; `None` when it may not be real.
+    fn sqrt(&self) -> Option<Self>;
+    /// Holds the numbers of both.
+    fn union(&self, other: &Self) -> Self;
+    /// From -m to m, where m is the largest absolute value of its numbers.
+    fn size(&self) -> Self;
+    /// That m, about.
+    fn most(&self) -> f64;
+    /// A number in its middle, exactly: a good guess.
+    fn middle(&self) -> Self;
+    /// The double next to its middle: a guess.
+    fn approx(&self) -> f64;
+    /// The nearest single, when that is certain.
+    fn to_f32(&self) -> Option<f32>;
+
+    /// Whether it is certainly above 0.
+    #[inline(always)]
+    fn is_positive(&self) -> bool {
+        self.certain_sign(0.0) == Some(std::cmp::Ordering::Greater)
+    }
+}
+
+impl Real for Interval {
+    fn of(x: f64, bits: usize) -> Interval {
+        Interval::new(x, bits)
+    }
+    fn bits(&self) -> usize {
+        Interval::bits(self)
+    }
+    fn over(&self, divisor: &Interval) -> Option<Interval> {
+        Interval::over(self, divisor)
+    }
+    fn sqrt(&self) -> Option<Interval> {
+        Interval::sqrt(self)
+    }
+    fn union(&self, other: &Interval) -> Interval {
+        Interval::union(self, other)
+    }
+    fn size(&self) -> Interval {
+        Interval::size(self)
+    }
+    fn most(&self) -> f64 {
+        Interval::size(self).upper().approx()
+    }
+    fn middle(&self) -> Interval {
+        Interval::middle(self)
+    }
+    fn approx(&self) -> f64 {
+        Interval::approx(self)
+    }
+    fn to_f32(&self) -> Option<f32> {
+        Interval::to_f32(self)
+    }
+}

@@ -87,6 +87,6 @@ pub(super) fn label_below(canvas: &mut Canvas, style: Style, rect: Rect, below: 
 /// Writes what the axis to the left of `rect` is, upwards, `left` pixels beside it.
 pub(super) fn label_left(canvas: &mut Canvas, style: Style, rect: Rect, left: i32, label: &str) {
     let label = canvas.fit(style.em, label, rect.height().into());
-    let at = [f64::from(rect.left - left) - style.em * 0.6, rect.at(0.0, 0.5)[1]];
+    let at = [f64::from(rect.left - left) - style.em * 0.8, rect.at(0.0, 0.5)[1]];
     canvas.text(at, Pen { up: true, ..Pen::new(style.em, 0.5) }, &label);
 }

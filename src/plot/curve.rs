@@ -97,6 +97,12 @@ fn check(figure: &CurveFigure) -> Result<()> {
             return fail(format!("`{name}` has {} points; it must have at least 2, all finite", points.len()));
         }
     }
+    for graph in [&figure.curvature, &figure.derivative] {
+        let (lo, hi) = bounds(graph.points.iter().map(|p| p[0]));
+        if lo >= hi {
+            return fail(format!("`{}` has the one parameter {lo}; it must have a range", graph.label));
+        }
+    }
     if !finite(&figure.control) {
         return fail("a control point is not finite".into());
     }
@@ -229,19 +235,19 @@ fn draw_graphs(canvas: &mut Canvas, figure: &CurveFigure, style: Style, areas: [
     let lefts = [0, 1].map(|i| width_left(canvas, &scales[i], style, rects[i].height()));
     let left = lefts[0].max(lefts[1]);
     let turns_back = turns_back(figure);
+    let (lo, hi) = bounds(graphs.iter().flat_map(|g| &g.points).map(|p| p[0]));
+    let x = Scale::new(&figure.parameter, lo, hi, false)?;
     for (i, rect) in rects.iter_mut().enumerate() {
         rect.left += left + style.px(1.6);
         check_room(canvas, *rect)?;
-        draw_graph(canvas, graphs[i], scales[i], style, *rect, &|value| i == 1 && turns_back(value))?;
+        draw_graph(canvas, graphs[i], [x, scales[i]], style, *rect, &|value| i == 1 && turns_back(value));
         label_below(canvas, style, *rect, style.below(), &figure.parameter);
         label_left(canvas, style, *rect, left, &graphs[i].label);
     }
     Ok(())
 }
 
-fn draw_graph(canvas: &mut Canvas, graph: &Graph, y: Scale, style: Style, rect: Rect, wrong: &dyn Fn(f64) -> bool) -> Result<()> {
-    let (lo, hi) = bounds(graph.points.iter().map(|p| p[0]));
-    let x = Scale::new(&graph.label, lo, hi, false)?;
+fn draw_graph(canvas: &mut Canvas, graph: &Graph, [x, y]: [Scale; 2], style: Style, rect: Rect, wrong: &dyn Fn(f64) -> bool) {
     let zero = y.fraction(0.0);
     if (0.0..1.0).contains(&zero) {
         canvas.line(&[rect.at(0.0, zero), rect.at(1.0, zero)], 1.0, PALE, rect);
@@ -255,7 +261,6 @@ fn draw_graph(canvas: &mut Canvas, graph: &Graph, y: Scale, style: Style, rect: 
     canvas.line(&wrong, style.em * 0.24, WRONG, rect);
     draw_below(canvas, &x, style, rect, true);
     draw_left(canvas, &y, style, rect, true);
-    Ok(())
 }
 
 /// The axis of a graph's values, with some air; from 0 when that is near.

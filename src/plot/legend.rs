@@ -112,8 +112,8 @@ impl Hatch {
 
     /// How much of this pixel the stripes cover.
     pub fn stripe(&self, x: i32, y: i32) -> f64 {
-        // Distance from the nearest of the lines x + y = multiple of the period.
-        let off = f64::from(x + y).rem_euclid(self.period);
+        // Distance from the nearest of the lines x - y = multiple of the period: they fall to the right, for boundaries tend to rise.
+        let off = f64::from(x - y).rem_euclid(self.period);
         let distance = off.min(self.period - off) / std::f64::consts::SQRT_2;
         (self.half + 0.5 - distance).clamp(0.0, 1.0)
     }

@@ -13,7 +13,7 @@ mod slice;
 
 pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
 pub use multiples::{Multiples, multiples_png};
-pub use slice::slice_png;
+pub use slice::{montage_png, slice_png};
 
 /// One axis of a slice.
 #[derive(Debug, Clone, PartialEq)]

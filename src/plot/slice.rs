@@ -8,7 +8,7 @@ use super::{Region, Slice, grouped, region_colors};
 use crate::error::{Error, Result};
 
 /// Colours of outlines, in turn: they stand out from all region colours, and have a white rim on the dark ones.
-const OUTLINES: [Color; 3] = [[190, 30, 30], [0, 0, 0], [120, 60, 160]];
+const OUTLINES: [Color; 4] = [[190, 30, 30], [0, 0, 0], [120, 60, 160], [0, 100, 190]];
 
 /// Least side of a plot in pixels.
 pub(super) const LEAST_SIDE: i32 = 24;
@@ -20,10 +20,38 @@ pub(super) const LEAST_SIDE: i32 = 24;
 /// [`Error::Domain`] when an axis is empty, not increasing or not finite, a mask has not one entry for each node, a
 /// mark is not finite, or the size is 0, too large, or too small for a plot beside its labels.
 pub fn slice_png(slice: &Slice, size: (u32, u32)) -> Result<Vec<u8>> {
+    drawn(slice, size)?.into_png()
+}
+
+/// Draws slices of unlike regions in rows of `columns`, each `panel` pixels large with its own legend, under one title.
+///
+/// # Errors
+/// As [`slice_png`], and [`Error::Domain`] for no columns.
+pub fn montage_png(title: &str, slices: &[Slice], columns: usize, panel: (u32, u32)) -> Result<Vec<u8>> {
+    if columns == 0 {
+        return Err(Error::Domain("a montage of no columns; it needs at least 1".into()));
+    }
+    let em = style(panel).em * 1.5;
+    let (rows, head) = (slices.len().div_ceil(columns) as u32, (em * 2.4) as u32);
+    let width = panel.0.saturating_mul(columns as u32);
+    let mut canvas = Canvas::new((width, panel.1.saturating_mul(rows).saturating_add(head)))?;
+    canvas.text([em * 0.8, f64::from(head) * 0.6], Pen::new(em, 0.0), title);
+    for (i, slice) in slices.iter().enumerate() {
+        let (column, row) = ((i % columns) as u32, (i / columns) as u32);
+        canvas.paste(&drawn(slice, panel)?, (column * panel.0, head + row * panel.1));
+    }
+    canvas.into_png()
+}
+
+fn style(size: (u32, u32)) -> Style {
+    let em = (f64::from(size.0) * f64::from(size.1)).sqrt() / 58.0;
+    Style { em: em.max(10.0), slack: em }
+}
+
+fn drawn(slice: &Slice, size: (u32, u32)) -> Result<Canvas> {
     let mut canvas = Canvas::new(size)?;
     let panel = Panel::new(slice)?;
-    let em = (f64::from(size.0) * f64::from(size.1)).sqrt() / 58.0;
-    let style = Style { em: em.max(10.0), slack: em };
+    let style = style(size);
     let sheet = canvas.rect().grown(-style.px(1.2));
     let heading = Heading::new(&canvas, &slice.title, &slice.note, style, sheet.width());
     let entries = entries(&[slice], false);
@@ -44,7 +72,7 @@ pub fn slice_png(slice: &Slice, size: (u32, u32)) -> Result<Vec<u8>> {
     label_below(&mut canvas, style, rect, style.below(), &slice.x.label);
     label_left(&mut canvas, style, rect, left, &slice.y.label);
     legend.draw(&mut canvas, style, (rect.left, sheet.bottom - legend.height(style)));
-    canvas.into_png()
+    Ok(canvas)
 }
 
 /// Says so when labels leave no room for a plot.
@@ -131,21 +159,15 @@ impl Panel<'_> {
                 let label = canvas.fit(style.em, &mark.label, room - 3.0 * radius);
                 let level = at[1].clamp(f64::from(rect.top) + style.em, f64::from(rect.bottom) - style.em);
                 let start = [at[0] + side * radius * 2.2, level];
-                let width = canvas.text_width(style.em, &label);
-                canvas.shade(plate(start[0] - anchor * width, level, width, style.em).meet(&rect), WHITE, 0.88);
+                // A white rim, legible on every colour.
+                let rim = Pen { color: WHITE, ..Pen::new(style.em, anchor) };
+                for i in 0..16 {
+                    let (sin, cos) = (std::f64::consts::PI * f64::from(i) / 8.0).sin_cos();
+                    canvas.text([start[0] + style.em * 0.2 * cos, level + style.em * 0.2 * sin], rim, &label);
+                }
                 canvas.text(start, Pen::new(style.em, anchor), &label);
             }
         }
-    }
-}
-
-/// A little more than a text covers, so that it is legible on colours.
-fn plate(left: f64, level: f64, width: f64, em: f64) -> Rect {
-    Rect {
-        left: (left - em * 0.3).round() as i32,
-        right: (left + width + em * 0.3).round() as i32,
-        top: (level - em * 0.7).round() as i32,
-        bottom: (level + em * 0.75).round() as i32,
     }
 }
 

@@ -40,6 +40,7 @@ pub(super) struct RawRecipe {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawAtlas {
     pub name: Spanned<String>,
+    pub family: Option<Spanned<String>>,
     pub axes: Spanned<BTreeMap<Spanned<String>, Spanned<RawAxis>>>,
     #[serde(default)]
     pub picture: Vec<RawPicture>,
@@ -59,6 +60,7 @@ pub(super) struct RawAxis {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawPicture {
     pub kind: Spanned<String>,
+    pub with: Option<Spanned<String>>,
     pub x: Spanned<String>,
     pub y: Spanned<String>,
     #[serde(default)]

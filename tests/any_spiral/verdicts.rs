@@ -163,7 +163,7 @@ fn charts_and_pieces() {
     for (node, code) in codes[0].iter().enumerate() {
         // alpha = -phi0 runs the other way.
         let (i, rest) = (node / per_alpha, node % per_alpha);
-        let [alpha, beta, k1, k2] = chord.node(node as u64);
+        let [alpha, beta, k1, k2, ..] = chord.node(node as u64);
         assert!((alpha + shared.node(((4 - i) * per_alpha) as u64)[0]).abs() < 1e-14);
         assert_eq!(*code, codes[1][(4 - i) * per_alpha + rest]);
         assert_eq!(*code, codes_of([alpha, beta, k1, k2]).1);

@@ -1,4 +1,4 @@
-//! Commands that answer: query, curve, adapters, completions, help.
+//! Commands that answer: query, adapters, completions, help.
 
 use super::{Folder, TINY, fine, program, run};
 use std::io::{BufRead, BufReader, Write};
@@ -30,7 +30,7 @@ fn the_papers_examples_have_the_papers_answers() {
         assert!(chosen["theorem31"] == true && chosen["spiral"] == true && chosen["margin"].as_f64().unwrap() > 0.0);
         assert_eq!(chosen["control_points"][3], serde_json::json!([1.0, 0.0]));
         let text = query(data, &[]).out;
-        assert!(text.contains("chosen: f0 = ") && text.contains("spiral: yes"), "{text}");
+        assert!(text.contains("chosen: f0 = ") && text.contains("spiral = yes"), "{text}");
     }
     let none = query(["0.7", "1.4", "0.4", "1.2"], &["--json"]).json();
     assert_eq!((&none["chosen"], &none["flags"]["SPIRAL"]), (&serde_json::Value::Null, &false.into()));
@@ -69,6 +69,40 @@ fn atlases_in_normalised_coordinates_are_asked_too() {
     let json = query(["0.7", "1.4", "0.4", "4"], &["--atlas", &folder.text("out/tiny.atlas.safetensors"), "--json"]).json();
     // a = 0.4 (sin 1.4 / sin 2.1)² / sin 0.7 = 0.809, nearest to 0.7 of 0.1, 0.4, ..; k = 4 (sin 0.7 / sin 2.1)² / sin 1.4 = 2.26, to 2.
     assert_eq!((&json["atlas"]["coordinates"]["a"], &json["atlas"]["coordinates"]["k"]), (&0.7.into(), &2.0.into()));
+}
+
+#[test]
+fn every_family_answers() {
+    let any =
+        fine(["query", "--family", "any-spiral", "--phi0", "0.7", "--phi1", "1.4", "--kappa0", "0.4", "--kappa1", "4", "--json"]);
+    let (any, cubic) = (any.json(), query(["0.7", "1.4", "0.4", "4"], &["--json"]).json());
+    assert_eq!((&any["flags"]["EXISTS"], &cubic["flags"]["ANY_SPIRAL"]), (&true.into(), &true.into()));
+    assert_eq!((&any["derived"]["alpha"], any["solutions"][0]["theta"].is_f64()), (&(-0.7).into(), true), "{any}");
+    // The Walton-Meek point of case 1 for 45 degrees: the segment with m = 1.
+    let data = [
+        "query",
+        "--family",
+        "reach-cubic",
+        "--theta",
+        "45deg",
+        "--xi",
+        "1.7022941028565",
+        "--eta",
+        "0.392837100659193",
+        "--json",
+    ];
+    let reach = fine(data).json();
+    assert_eq!((&reach["flags"]["CASE1_PAPER"], &reach["solutions"][0]["case"]), (&true.into(), &1.into()), "{reach}");
+    assert!((reach["solutions"][0]["m"].as_f64().unwrap() - 1.0).abs() < 1e-12);
+    // The same datum in the cubic's other chart.
+    let (a, k) = (cubic["derived"]["a"].to_string(), cubic["derived"]["k"].to_string());
+    let other = fine(["query", "--phi0", "0.7", "--phi1", "1.4", "--a", &a, "--k", &k, "--json"]).json();
+    assert!((other["derived"]["kappa1"].as_f64().unwrap() - 4.0).abs() < 1e-14);
+    assert_eq!((&other["flags"], &other["counts"]), (&cubic["flags"], &cubic["counts"]));
+    let folder = Folder::new("");
+    std::fs::write(folder.at("ends.csv"), "theta,xi,eta\n45deg,1.5,0.9\n4,1,1\n").unwrap();
+    let said = run(["query", "--family", "reach-cubic", "--points", &folder.text("ends.csv")]);
+    assert!(said.code == Some(1) && said.out.contains("CASE2_EXACT\":true") && said.out.contains("theta is 4"), "{}", said.out);
 }
 
 #[test]
@@ -120,43 +154,6 @@ fn a_reader_that_leaves_ends_the_stream_quietly() {
     assert!(line.starts_with('{'));
     let said: super::Said = child.wait_with_output().unwrap().into();
     assert_eq!((said.code, &said.err[..]), (Some(0), ""));
-}
-
-fn curve(from: &str, to: &str, directions: [&str; 2], curvatures: [&str; 2], more: &[&str]) -> super::Said {
-    let all = ["curve", "--from", from, "--to", to, "--start-direction", directions[0], "--end-direction", directions[1]];
-    let rest = ["--start-curvature", curvatures[0], "--end-curvature", curvatures[1]];
-    run(all.iter().chain(&rest).chain(more))
-}
-
-#[test]
-fn curves_join_real_ends() {
-    let folder = Folder::new("");
-    let figure = folder.text("curve.png");
-    let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "4"], &["--json", "--figure", &figure]).json();
-    assert_eq!(json["datum"]["phi0"], 0.7);
-    let points = json["solutions"][0]["control_points"].as_array().unwrap();
-    assert_eq!((points.len(), &points[0], &points[3]), (4, &serde_json::json!([-1.0, 0.0]), &serde_json::json!([1.0, 0.0])));
-    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
-    // The same curve ten times as large, mirrored, with vectors for directions.
-    let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
-    assert!(large.out.contains("no C-shaped curve"), "{}", large.out);
-    let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "-80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
-    assert!(large.out.contains("cubic spiral (f0, f1) = (1.6601") && large.out.contains("mirrored"), "{}", large.out);
-}
-
-#[test]
-fn no_curve_is_an_answer_with_numbers() {
-    let folder = Folder::new("");
-    let said = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "1.2"], &[]);
-    assert!(said.code == Some(0) && said.out.contains("kappa1 = 1.2 must exceed 1.466"), "{}", said.out);
-    let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--json"]).json();
-    assert_eq!(json["why"]["condition"], "inflection");
-    let wavy = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "2.2"], &["--figure", &folder.text("wavy.png")]);
-    assert!(wavy.code == Some(0) && wavy.out.contains("loses monotone curvature"), "{}", wavy.out);
-    assert!(folder.at("wavy.png").exists());
-    let none = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--figure", &folder.text("none.png")]);
-    assert!(none.code == Some(1) && none.err.contains("none.png was not drawn"), "{}", none.err);
-    assert!(!folder.at("none.png").exists());
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn verify_finds_a_flipped_byte_where_it_is() {
 /// Writes an atlas of the tiny grid whose metadata has another recipe.
 fn with_recipe(folder: &Folder, recipe: &str) -> String {
     let plan = spiral_atlas::recipe::Recipe::parse(TINY).unwrap();
-    let (family, grid) = (plan.family, &plan.atlases[0].grid);
+    let (family, grid) = (plan.atlases[0].family, &plan.atlases[0].grid);
     let path = folder.at("other.safetensors");
     let mut writer = Writer::create(&path, &Spec { name: "tiny", family, grid, scalars: &[], recipe }).unwrap();
     let job = Job { family, grid, scalars: &[] };

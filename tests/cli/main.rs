@@ -5,6 +5,7 @@
 #[path = "../adapters/mod.rs"]
 mod adapters;
 mod answers;
+mod curves;
 mod failures;
 mod files;
 #[cfg(feature = "gpu")]

@@ -35,7 +35,11 @@ const FLAGS: &[Flag] = &[
         label: "some spiral",
         doc: "some short spiral has these ends: Q < 0, and omega has the sign of k2 - k1, which is not 0; necessary and sufficient",
     },
-    Flag { name: "RISING", label: "k1 < k2", doc: "k1 < k2: the curvature of a spiral with these ends increases (M = 1)" },
+    Flag {
+        name: "RISING",
+        label: "rising curvature",
+        doc: "k1 < k2: the curvature of a spiral with these ends increases (M = 1)",
+    },
     Flag {
         name: "INFLECTION",
         label: "with an inflection",

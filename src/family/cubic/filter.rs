@@ -144,24 +144,16 @@ fn conditions<S: Simd>(start: &Side<S>, end: &Side<S>, root: &Root<S>) -> Condit
 #[inline(always)]
 fn dips<S: Simd>(simd: S, start: &Side<S>, end: &Side<S>, root: &Root<S>) -> u64 {
     let half = |side: &Side<S>, w: S::f64s| {
-        let (b, e) = (side.value, side.error);
-        let near = w + root.delta;
-        let h = [w * w * b[0], w * b[1], w * b[2] * 2.0];
-        let error = [
-            near * near * e[0] + (w + near) * root.delta * b[0].abs(),
-            near * e[1] + root.delta * b[1].abs(),
-            (near * e[2] + root.delta * b[2].abs()) * 2.0,
-        ];
-        let bound = |i: usize| error[i] * 1.01 + h[i].abs() * (16.0 * Precision::F64.unit);
-        (h, [bound(0), bound(1), bound(2)])
+        let [first, second, (value, error)] = side.weighed(w, root.delta);
+        [first, second, (value * 2.0, error * 2.0)].map(|(h, e)| (h, e + h.abs() * (16.0 * Precision::F64.unit)))
     };
-    let ((h, e), (g, f)) = (half(start, root.y), half(end, root.x));
-    let (h, e) = ([h[0], h[1], h[2], g[2], g[1], g[0]], [e[0], e[1], e[2], f[2], f[1], f[0]]);
+    let ([h0, h1, h2], [h5, h4, h3]) = (half(start, root.y), half(end, root.x));
+    let polynomial = [h0, h1, h2, h3, h4, h5];
     let at = |s: f64| {
-        let (mut value, mut bound) = (h[5], e[5]);
-        for i in (0..5).rev() {
-            value = value * s + h[i];
-            bound = bound * s + e[i];
+        let (mut value, mut bound) = polynomial[5];
+        for (h, e) in polynomial[..5].iter().rev() {
+            value = value * s + *h;
+            bound = bound * s + *e;
         }
         bits::<S>(value.simd_lt(S::f64s::splat(simd, 0.0) - bound))
     };

@@ -110,25 +110,34 @@ pub(super) fn sides<S: Simd>(simd: S, prepared: &Prepared, root: &Root<S>) -> (S
     )
 }
 
+impl<S: Simd> Side<S> {
+    /// `w² B0, w B1, w B2`, and how far each may be off before its own rounding: w and the B are off by `delta` and their errors.
+    #[inline(always)]
+    pub fn weighed(&self, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
+        let (b, e, near) = (self.value, self.error, w + delta);
+        // 1.01 covers the roundings of the bounds themselves.
+        let linear = |i: usize| (w * b[i], (near * e[i] + delta * b[i].abs()) * 1.01);
+        let square = (near * near * e[0] + (w + near) * delta * b[0].abs()) * 1.01;
+        [(w * w * b[0], square), linear(1), linear(2)]
+    }
+}
+
 /// The Bernstein coefficients of the spiral polynomial (times 5) in one lane, and how far each may be off.
 ///
 /// `b = (5y²B0, yB1, yB2, xC2, xC1, 5x²C0)`: the binomials of degree 5 divide `H_i`.
 pub(super) fn bernstein<S: Simd>(start: &Side<S>, end: &Side<S>, root: &Root<S>, lane: usize) -> (Quintic<f64>, f64) {
-    let at = |v: &S::f64s| v.as_slice()[lane];
-    let (x, y, delta) = (at(&root.x), at(&root.y), at(&root.delta));
-    let half = |side: &Side<S>, w: f64| {
-        let (b, e) = (side.value.map(|v| at(&v)), side.error.map(|v| at(&v)));
-        let c = [5.0 * w * w * b[0], w * b[1], w * b[2]];
-        let near = w + delta;
-        let error = [
-            5.0 * (near * near * e[0] + (w + near) * delta * b[0].abs()),
-            near * e[1] + delta * b[1].abs(),
-            near * e[2] + delta * b[2].abs(),
-        ];
+    let half = |side: &Side<S>, w: S::f64s| {
+        let terms = side.weighed(w, root.delta).map(|(value, error)| (value.as_slice()[lane], error.as_slice()[lane]));
+        let scaled = [5.0, 1.0, 1.0].into_iter().zip(terms).map(|(factor, (value, error))| (factor * value, factor * error));
         // Up to four roundings a coefficient.
-        let worst = (0..3).fold(0.0f64, |worst, i| worst.max(error[i] * 1.01 + 4.0 * Precision::F64.unit * c[i].abs()));
-        (c, worst)
+        scaled.map(|(value, error)| (value, error + 4.0 * Precision::F64.unit * value.abs()))
     };
-    let ((b, e0), (c, e1)) = (half(start, y), half(end, x));
-    ([b[0], b[1], b[2], c[2], c[1], c[0]], e0.max(e1))
+    let mut c = [0.0; 6];
+    let mut worst = 0.0f64;
+    let places = [0, 1, 2, 5, 4, 3];
+    for (place, (value, error)) in places.into_iter().zip(half(start, root.y).chain(half(end, root.x))) {
+        c[place] = value;
+        worst = worst.max(error);
+    }
+    (c, worst)
 }

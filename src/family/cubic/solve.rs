@@ -1,14 +1,15 @@
 //! The exact answer for one datum: all roots, which conditions hold, the margin, the chosen spiral.
 
+use super::Code;
 use super::exact::{self, Ends, ExactDatum, ExactRoot};
 use super::filter::{Found, visit};
-use super::precision::{Precision, Prepared};
+use super::precision::Prepared;
 use super::root::{Data, bernstein};
-use super::{Code, table};
 use crate::curve::CubicBezier;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::family::Answer;
-use crate::num::bernstein::{Quintic, least, least_error, least_interval};
+use crate::family::hermite::check;
+use crate::num::bernstein::{exact_margin, margin};
 use crate::num::{Interval, climb};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::cmp::Ordering;
@@ -92,8 +93,8 @@ impl Solutions {
 /// they are usually within a few units in the last place. Where doubles cannot prove that, they are correctly rounded from intervals.
 ///
 /// # Errors
-/// [`Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`;
-/// [`Error::Undecided`] at the precision cap.
+/// [`crate::Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`;
+/// [`crate::Error::Undecided`] at the precision cap.
 ///
 /// # Source
 /// Habib & Sakai, (3.4), (A.9), (A.10) and Theorem 3.1; the exact test replaces the theorem by necessary and sufficient signs.
@@ -101,18 +102,6 @@ pub fn solve(datum: &Datum) -> Result<Solutions> {
     let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
     check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
     solved(&ExactDatum { phi0, phi1, ends: Ends::Curvature(kappa0, kappa1) })
-}
-
-fn check(datum: [(&str, f64); 4]) -> Result<()> {
-    for (name, value) in &datum[2..] {
-        if !value.is_finite() {
-            return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
-        }
-    }
-    for (name, angle) in &datum[..2] {
-        table::check_angle(name, *angle)?;
-    }
-    table::check_angles(datum[0].1, datum[1].1)
 }
 
 fn solved(datum: &ExactDatum) -> Result<Solutions> {
@@ -271,41 +260,14 @@ impl SolvedRoot {
         SolvedRoot {
             x: Range::around(at(&found.root.x), delta),
             y: Range::around(at(&found.root.y), delta),
-            margin: margin(&c, error),
+            margin: {
+                let (value, error) = margin(&c, error);
+                Range::around(value, error)
+            },
             theorem: found.theorem & 1 == 1,
             spiral: found.spirals & 1 == 1,
         }
     }
-}
-
-/// Least value over largest coefficient; see [`Root::margin`].
-fn margin(c: &Quintic<f64>, error: f64) -> Range {
-    let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let (value, _) = least(c);
-    let ratio = value / largest;
-    // d(m/M) <= (dm + |m/M| dM) / (M - dM), |m| <= M.
-    Range::around(ratio, (least_error(c, error) + ratio.abs() * error) / (largest - error).max(0.0) + Precision::F64.unit)
-}
-
-/// [`margin`] of an exact root.
-fn exact_margin(root: &ExactRoot) -> Option<Interval> {
-    let mut largest = Interval::new(0.0, root.x.bits());
-    for c in &root.quintic {
-        let size = if c.sign()? == Ordering::Less { -c } else { c.clone() };
-        // Of two that cannot be told apart either will do, as an interval around both.
-        largest = match size.compare(&largest) {
-            Some(Ordering::Greater) => size,
-            Some(_) => largest,
-            None => size.union(&largest),
-        };
-    }
-    // Scaled to size 1 first: the coefficients of extreme angles leave the range of doubles.
-    let mut scaled = root.quintic.clone();
-    for c in &mut scaled {
-        *c = c.over(&largest)?;
-    }
-    let (_, guess) = least(&scaled.clone().map(|c| c.approx()));
-    least_interval(&scaled, guess)
 }
 
 /// An exact root with its margin.
@@ -318,7 +280,7 @@ struct Weighed {
 fn weigh(datum: &ExactDatum, bits: usize) -> Option<(Code, Vec<Weighed>, Option<usize>)> {
     let truth = exact::at_precision(datum, bits)?;
     let roots: Option<Vec<Weighed>> =
-        truth.roots.into_iter().map(|root| exact_margin(&root).map(|margin| Weighed { root, margin })).collect();
+        truth.roots.into_iter().map(|root| exact_margin(&root.quintic).map(|margin| Weighed { root, margin })).collect();
     let roots = roots?;
     let mut chosen: Option<usize> = None;
     for i in (0..roots.len()).filter(|i| roots[*i].root.spiral) {

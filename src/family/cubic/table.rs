@@ -5,13 +5,12 @@ use super::filter::classify;
 use super::precision::{Precision, Prepared};
 use super::root::Data;
 use super::{Code, Cubic};
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::family::hermite::check_grid;
 use crate::family::rows::{Rows, fill};
 use crate::family::{NO_VALUE, Table, chart_of};
 use crate::grid::{Grid, MAX_AXES};
-use crate::num::trig::sum_below_pi;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
-use std::f64::consts::PI;
 
 /// The cubic family on one grid.
 pub(super) struct CubicTable<'g> {
@@ -24,12 +23,7 @@ pub(super) struct CubicTable<'g> {
 impl<'g> CubicTable<'g> {
     pub fn new(grid: &'g Grid, level: Level) -> Result<CubicTable<'g>> {
         let chart = chart_of(&Cubic, grid)?;
-        let (phi0, phi1) = (&grid.axes()[0], &grid.axes()[1]);
-        for axis in [phi0, phi1] {
-            check_angle(axis.name(), axis.values()[0])?;
-        }
-        let last = |axis: &crate::grid::Axis| axis.values()[axis.values().len() - 1];
-        check_angles(last(phi0), last(phi1))?;
+        check_grid(grid)?;
         Ok(CubicTable { grid, normalised: chart == 1, level })
     }
 
@@ -70,23 +64,6 @@ impl Rows for CubicTable<'_> {
         };
         classify(simd, prepared, &data).store(out);
     }
-}
-
-/// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by [`check_angles`].
-pub(super) fn check_angle(name: &str, angle: f64) -> Result<()> {
-    if angle > 0.0 && angle <= PI {
-        return Ok(());
-    }
-    Err(Error::Domain(format!("{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)")))
-}
-
-/// The tangents must meet: φ0 + φ1 < π, decided exactly.
-pub(super) fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
-    if sum_below_pi(phi0, phi1) {
-        return Ok(());
-    }
-    let sum = phi0 + phi1;
-    Err(Error::Domain(format!("phi0 + phi1 reaches {phi0} + {phi1} = {sum}; it must stay below pi, so that the tangents meet")))
 }
 
 impl Table for CubicTable<'_> {

@@ -1,0 +1,240 @@
+//! `curve`: transition curves in the user's own units and axes.
+
+mod cubic;
+mod involute;
+mod reach;
+
+use super::{Outcome, output};
+use spiral_atlas::curve::{Ends, Turn, direction_of, reach::Base};
+use spiral_atlas::family::reach::Kind;
+use spiral_atlas::plot::{self, CurveFigure, EndCircle};
+use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::{Error, Result};
+use std::path::PathBuf;
+
+const SIZE: (u32, u32) = (1500, 900);
+const SAMPLES: usize = 801;
+
+/// Find a transition curve of monotone curvature, anywhere in the plane, in any unit of length.
+///
+/// Between two ends (`cubic`, `involute`): two points, two directions of travel, two signed curvatures, positive to the left. `cubic`:
+/// of several spirals the one with the largest margin. `involute`: the image of an involute of a circle, which exists whenever any
+/// spiral does; with --turns it goes round its ends.
+///
+/// Added to the end of a line or of an arc (`reach-cubic`, `reach-ph`): a segment between curvature 0 and 1/radius that turns by an
+/// angle, given by its shape numbers m and q or by its end point.
+///
+/// When there is none, says which condition fails, with numbers; that is an answer too, and exits with 0.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Examples:\n  spiral-atlas curve --from 0,0 --to 200,0 --start-direction -40deg --end-direction 80deg \\\n      \
+                        --start-curvature 0.004 --end-curvature 0.04 --figure spiral.png\n  \
+                        spiral-atlas curve --family involute --from 0,0 --to 2,0 --start-direction 1,-0.84 \\\n      \
+                        --end-direction 0.17,0.98 --start-curvature -0.3 --end-curvature 4 --json\n  \
+                        spiral-atlas curve --family reach-ph --base line --from 10,5 --start-direction 30deg --turn left \\\n      \
+                        --radius 20 --angle 45deg --to 30,25"
+)]
+pub struct Args {
+    /// What kind of curve.
+    #[arg(long, value_enum, value_name = "NAME", default_value = "cubic")]
+    family: Family,
+    /// Start point.
+    #[arg(long, value_name = "X,Y", value_parser = parse_point, allow_hyphen_values = true)]
+    from: Option<[f64; 2]>,
+    /// End point.
+    #[arg(long, value_name = "X,Y", value_parser = parse_point, allow_hyphen_values = true)]
+    to: Option<[f64; 2]>,
+    /// Direction of travel at the start: angle from the x axis, counter-clockwise, or a vector.
+    #[arg(long, value_name = "ANGLE|DX,DY", value_parser = parse_direction, allow_hyphen_values = true)]
+    start_direction: Option<f64>,
+    /// Direction of travel at the end.
+    #[arg(long, value_name = "ANGLE|DX,DY", value_parser = parse_direction, allow_hyphen_values = true)]
+    end_direction: Option<f64>,
+    /// Curvature at the start, 1 / length.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    start_curvature: Option<f64>,
+    /// Curvature at the end, 1 / length.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    end_curvature: Option<f64>,
+    /// How often an involute's image turns about its start and about its end.
+    #[arg(long, value_name = "N1,N2", value_parser = parse_turns, help_heading = "For `involute`")]
+    turns: Option<[u32; 2]>,
+    /// Number of points to print, at equal lengths along the curve.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000), help_heading = "For `involute`")]
+    samples: Option<u32>,
+    /// What the segment is added to.
+    #[arg(long, value_parser = ["line", "circle"], help_heading = REACH)]
+    base: Option<String>,
+    /// Which way it turns.
+    #[arg(long, value_parser = ["left", "right"], help_heading = REACH)]
+    turn: Option<String>,
+    /// Radius of its round end.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = REACH)]
+    radius: Option<f64>,
+    /// How far it turns.
+    #[arg(long, value_name = "ANGLE", value_parser = parse_angle, allow_hyphen_values = true, help_heading = REACH)]
+    angle: Option<f64>,
+    /// Shape m, instead of the end point.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = REACH)]
+    m: Option<f64>,
+    /// Shape q, instead of the end point.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = REACH)]
+    q: Option<f64>,
+    /// Draw the curve with its polygon and end circles, its curvature and the derivative of that.
+    #[arg(long, value_name = "FILE.png")]
+    figure: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+const REACH: &str = "For `reach-cubic` and `reach-ph`";
+
+/// Families that make curves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Family {
+    Cubic,
+    Involute,
+    ReachCubic,
+    ReachPh,
+}
+
+/// What a family found.
+trait Found {
+    /// As JSON with indents.
+    fn json(&self) -> Result<String>;
+    /// In words.
+    fn text(&self) -> String;
+    /// What is drawn.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] when there is nothing to draw.
+    fn figure(&self) -> Result<CurveFigure>;
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Outcome> {
+    if let Some(path) = args.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
+        return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
+    }
+    let found: Box<dyn Found> = match args.family {
+        Family::Cubic => Box::new(cubic::find(&args.ends(&[]))?),
+        Family::Involute => {
+            let ends = args.ends(&["--turns", "--samples"]);
+            Box::new(involute::find(&ends, args.turns.unwrap_or_default(), args.samples.unwrap_or(101))?)
+        }
+        Family::ReachCubic => Box::new(reach::find(Kind::Cubic, &args.segment())?),
+        Family::ReachPh => Box::new(reach::find(Kind::Ph, &args.segment())?),
+    };
+    output::print(&if args.json { found.json()? + "\n" } else { found.text() + "\n" })?;
+    if let Some(path) = &args.figure {
+        let figure = found.figure().map_err(|e| Error::Domain(format!("{} was not drawn: {e}", path.display())))?;
+        spiral_atlas::files::write_file(path, &plot::curve_png(&figure, SIZE)?)?;
+        if !args.json {
+            output::print(&format!("drawn in {}\n", path.display()))?;
+        }
+    }
+    Ok(Outcome::Fine)
+}
+
+impl Args {
+    /// Every option with a value of its own that not all families know, and whether it is given.
+    fn given(&self) -> [(&'static str, bool); 14] {
+        [
+            ("--from", self.from.is_some()),
+            ("--to", self.to.is_some()),
+            ("--start-direction", self.start_direction.is_some()),
+            ("--end-direction", self.end_direction.is_some()),
+            ("--start-curvature", self.start_curvature.is_some()),
+            ("--end-curvature", self.end_curvature.is_some()),
+            ("--turns", self.turns.is_some()),
+            ("--samples", self.samples.is_some()),
+            ("--base", self.base.is_some()),
+            ("--turn", self.turn.is_some()),
+            ("--radius", self.radius.is_some()),
+            ("--angle", self.angle.is_some()),
+            ("--m", self.m.is_some()),
+            ("--q", self.q.is_some()),
+        ]
+    }
+
+    /// Ends the program unless all of `needed` are given and nothing but them and `allowed`.
+    fn check(&self, needed: &[&str], allowed: &[&str]) {
+        let name = clap::ValueEnum::to_possible_value(&self.family).map(|v| v.get_name().to_owned()).unwrap_or_default();
+        let list = |names: Vec<&str>| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+        let missing: Vec<&str> =
+            self.given().into_iter().filter(|(n, given)| !given && needed.contains(n)).map(|(n, _)| n).collect();
+        if !missing.is_empty() {
+            super::refuse(&format!("`--family {name}` needs {} too", list(missing)));
+        }
+        let known = |n: &str| needed.contains(&n) || allowed.contains(&n);
+        let surplus: Vec<&str> = self.given().into_iter().filter(|(n, given)| *given && !known(n)).map(|(n, _)| n).collect();
+        if !surplus.is_empty() {
+            super::refuse(&format!("{} means nothing to `--family {name}`", list(surplus)));
+        }
+    }
+
+    /// The two ends, of a family that knows also the options `more`.
+    fn ends(&self, more: &[&str]) -> Ends {
+        self.check(&["--from", "--to", "--start-direction", "--end-direction", "--start-curvature", "--end-curvature"], more);
+        Ends {
+            start: self.from.unwrap_or_default(),
+            end: self.to.unwrap_or_default(),
+            start_direction: self.start_direction.unwrap_or_default(),
+            end_direction: self.end_direction.unwrap_or_default(),
+            start_curvature: self.start_curvature.unwrap_or_default(),
+            end_curvature: self.end_curvature.unwrap_or_default(),
+        }
+    }
+
+    /// The segment to add.
+    fn segment(&self) -> reach::Request {
+        use spiral_atlas::curve::reach::Target;
+        let needed = ["--from", "--start-direction", "--base", "--turn", "--radius", "--angle"];
+        let target = match (self.to, self.m, self.q) {
+            (Some(point), None, None) => Target::Point(point),
+            (None, Some(m), Some(q)) => Target::Shape { m, q },
+            _ => super::refuse("a segment needs its end point `--to` or its shape `--m` and `--q`"),
+        };
+        self.check(&needed, &["--to", "--m", "--q"]);
+        reach::Request {
+            base: if self.base.as_deref() == Some("circle") { Base::Circle } else { Base::Line },
+            start: self.from.unwrap_or_default(),
+            direction: self.start_direction.unwrap_or_default(),
+            turn: if self.turn.as_deref() == Some("right") { Turn::Right } else { Turn::Left },
+            radius: self.radius.unwrap_or_default(),
+            theta: self.angle.unwrap_or_default(),
+            target,
+        }
+    }
+}
+
+/// A circle of curvature for a figure.
+fn circle(at: [f64; 2], direction: f64, curvature: f64, label: &str) -> EndCircle {
+    EndCircle { at, direction: [direction.cos(), direction.sin()], curvature, label: label.into() }
+}
+
+/// Those at the ends.
+fn end_circles(ends: &Ends) -> Vec<EndCircle> {
+    vec![
+        circle(ends.start, ends.start_direction, ends.start_curvature, "circle of curvature at the start"),
+        circle(ends.end, ends.end_direction, ends.end_curvature, "circle of curvature at the end"),
+    ]
+}
+
+/// Two numbers with a comma between.
+fn parse_point(text: &str) -> std::result::Result<[f64; 2], String> {
+    let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    both.filter(|p: &[f64; 2]| p.iter().all(|v| v.is_finite())).ok_or_else(|| format!("{text:?} is not two finite numbers `x,y`"))
+}
+
+/// Two whole numbers with a comma between.
+fn parse_turns(text: &str) -> std::result::Result<[u32; 2], String> {
+    let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    both.ok_or_else(|| format!("{text:?} is not two numbers of turns `n1,n2`"))
+}
+
+/// An angle, or a vector.
+fn parse_direction(text: &str) -> Result<f64> {
+    if text.contains(',') { direction_of(parse_point(text).map_err(Error::Domain)?) } else { parse_angle(text) }
+}

@@ -1,0 +1,46 @@
+//! The domain of G² Hermite data in the chord's frame: `0 < φ0`, `0 < φ1`, `φ0 + φ1 < π`.
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::num::trig::sum_below_pi;
+use std::f64::consts::PI;
+
+/// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by [`check_angles`].
+fn check_angle(name: &str, angle: f64) -> Result<()> {
+    if angle > 0.0 && angle <= PI {
+        return Ok(());
+    }
+    Err(Error::Domain(format!("{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)")))
+}
+
+/// The tangents must meet: φ0 + φ1 < π, decided exactly.
+fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
+    if sum_below_pi(phi0, phi1) {
+        return Ok(());
+    }
+    let sum = phi0 + phi1;
+    Err(Error::Domain(format!("phi0 + phi1 reaches {phi0} + {phi1} = {sum}; it must stay below pi, so that the tangents meet")))
+}
+
+/// A datum: two angles, then two finite curvature coordinates, by name.
+pub(super) fn check(datum: [(&str, f64); 4]) -> Result<()> {
+    for (name, value) in &datum[2..] {
+        if !value.is_finite() {
+            return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
+        }
+    }
+    for (name, angle) in &datum[..2] {
+        check_angle(name, *angle)?;
+    }
+    check_angles(datum[0].1, datum[1].1)
+}
+
+/// A grid whose first two axes are φ0 and φ1.
+pub(super) fn check_grid(grid: &Grid) -> Result<()> {
+    let (phi0, phi1) = (&grid.axes()[0], &grid.axes()[1]);
+    for axis in [phi0, phi1] {
+        check_angle(axis.name(), axis.values()[0])?;
+    }
+    let last = |axis: &crate::grid::Axis| axis.values()[axis.values().len() - 1];
+    check_angles(last(phi0), last(phi1))
+}

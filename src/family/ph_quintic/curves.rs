@@ -1,0 +1,190 @@
+//! The two equations of a datum, as two curves in the plane of the tangents' ratio and size.
+//!
+//! With `w0 = A e^{-iφ0/2}`, `w2 = B e^{iφ1/2}` the end curvatures fix `w1 = αA³ e^{iφ1/2} + βB³ e^{-iφ0/2}`,
+//! `α = κ0/(4 sin Φ)`, `β = κ1/(4 sin Φ)`, `Φ = (φ0 + φ1)/2`. What remains is `∫ w² = 2`, the chord. Its components across
+//! `e^{-iφ0}` and across `e^{iφ1}`, divided by sin Φ, are
+//!
+//! ```text
+//! M + 2 cos Φ E1 = 30 sin φ0 / sin Φ      E1 = 3B² + 3αA³B + 2α²A⁶
+//! M + 2 cos Φ E0 = 30 sin φ1 / sin Φ      E0 = 3A² + 3βAB³ + 2β²B⁶      M = AB + 3αA⁴ + 3βB⁴ + 4αβA³B³
+//! ```
+//!
+//! For κ0, κ1 >= 0 no coefficient is negative: these are level curves of posynomials. In `x = ln(B/A)` and `ζ = ln A²` each is
+//! the graph of a function ζ(x), and concave, because `ln Σ exp(linear)` is convex. Its slope is `-s`,
+//! `s = Σ w j / Σ w k` over its terms `w ∝ A^(2k) (B/A)^j`, and s increases with x. Everything that counts solutions rests on that
+//! (see [`super::march`]); no term is subtracted, so nothing cancels either.
+//!
+//! Sizes are scaled by powers of two: `A = p a`, `B = q b`, `α' = αp³`, `β' = βq³`, both at most 1.
+
+use super::pair::Pair;
+use crate::num::{Number, Real};
+
+/// The equations of a datum with κ0, κ1 >= 0, scaled.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Curves<N> {
+    /// p and q, powers of two.
+    pub scale: [f64; 2],
+    /// α' and β'.
+    pub bend: [N; 2],
+    /// cos Φ.
+    pub cos: N,
+    /// The right-hand sides.
+    pub right: [N; 2],
+    /// Coefficients, by the powers of t in the comments of [`Curves::at`].
+    flat: [N; 2],
+    own: [N; 2],
+    across: [N; 2],
+    both: N,
+    last: [N; 2],
+}
+
+/// A left-hand side at one t = b/a: `c[0] Z + c[1] Z² + c[2] Z³` in Z = a², and the same with each term times its power of t.
+pub(super) struct Cubic<N> {
+    pub c: [N; 3],
+    pub j: [N; 3],
+}
+
+/// A power of two p with `αp³` from 1/8 to 1, or 1 where α is less.
+fn scale(alpha: f64) -> f64 {
+    if alpha > 1.0 { 2f64.powi(-((alpha.log2() / 3.0).ceil().min(400.0) as i32)) } else { 1.0 }
+}
+
+impl<N: Real> Curves<N> {
+    /// The equations; `None` when the precision does not suffice.
+    pub fn of(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Curves<N>> {
+        let quarter = pair.sin.times(4.0);
+        let bend = |kappa: f64| N::of(kappa, quarter.bits()).over(&quarter);
+        let bend = [bend(kappa[0])?, bend(kappa[1])?];
+        let scale = [scale(bend[0].approx()), scale(bend[1].approx())];
+        let cubed = |x: &N, p: f64| x.times(p).times(p).times(p);
+        let bend = [cubed(&bend[0], scale[0]), cubed(&bend[1], scale[1])];
+        Some(Curves::new(scale, bend, pair.cos.clone(), pair.right.clone()))
+    }
+
+    /// About the same in doubles, for guesses.
+    pub fn approx(&self) -> Curves<f64> {
+        let near = |x: &[N; 2]| [x[0].approx(), x[1].approx()];
+        Curves::new(self.scale, near(&self.bend), self.cos.approx(), near(&self.right))
+    }
+}
+
+impl<N: Number> Curves<N> {
+    fn new(scale: [f64; 2], bend: [N; 2], cos: N, right: [N; 2]) -> Curves<N> {
+        let [p, q] = scale;
+        let c = cos.times(2.0);
+        let [alpha, beta] = &bend;
+        Curves {
+            flat: [c.times(3.0 * p * p), c.times(3.0 * q * q)],
+            own: [alpha.times(3.0 * p), beta.times(3.0 * q)],
+            across: [c.mul(alpha).times(3.0 * q), c.mul(beta).times(3.0 * p)],
+            both: alpha.mul(beta).times(4.0),
+            last: [c.mul(alpha).mul(alpha).times(2.0), c.mul(beta).mul(beta).times(2.0)],
+            scale,
+            bend,
+            cos,
+            right,
+        }
+    }
+
+    /// The same datum with its ends exchanged: Z and t become b² and 1/t, and the curves change places.
+    pub fn reversed(&self) -> Curves<N> {
+        let swap = |x: &[N; 2]| [x[1].clone(), x[0].clone()];
+        Curves::new([self.scale[1], self.scale[0]], swap(&self.bend), self.cos.clone(), swap(&self.right))
+    }
+
+    /// Both left-hand sides at t.
+    #[inline]
+    pub fn at(&self, t: &N) -> [Cubic<N>; 2] {
+        let t2 = t.mul(t);
+        let t3 = t2.mul(t);
+        let first = t.times(self.scale[0] * self.scale[1]);
+        let fourth = self.own[1].mul(&t2.mul(&t2));
+        let second = self.own[0].add(&fourth);
+        let fourth = fourth.times(4.0);
+        let (flat, bent) = (self.flat[1].mul(&t2), self.across[0].mul(t));
+        let both = self.both.mul(&t3);
+        let thrice = both.times(3.0);
+        let bent_end = self.across[1].mul(&t3);
+        let sixth = self.last[1].mul(&t3.mul(&t3));
+        [
+            // pq t + 3Cq² t²,  3α'p + 3β'q t⁴ + 3Cα'q t,  4α'β' t³ + 2Cα'²
+            Cubic {
+                c: [first.add(&flat), second.add(&bent), both.add(&self.last[0])],
+                j: [first.add(&flat.times(2.0)), fourth.add(&bent), thrice.clone()],
+            },
+            // pq t + 3Cp²,  3α'p + 3β'q t⁴ + 3Cβ'p t³,  4α'β' t³ + 2Cβ'² t⁶
+            Cubic {
+                c: [first.add(&self.flat[0]), second.add(&bent_end), both.add(&sixth)],
+                j: [first, fourth.add(&bent_end.times(3.0)), thrice.add(&sixth.times(6.0))],
+            },
+        ]
+    }
+}
+
+impl Cubic<f64> {
+    /// About where the cubic reaches `right`: Newton's method, which comes down to it from the least height one term alone would need.
+    pub fn guess(&self, right: f64) -> f64 {
+        let [c0, c1, c2] = self.c;
+        let mut z = (right / c0).min((right / c1).sqrt()).min((right / c2).cbrt());
+        for _ in 0..60 {
+            let step = (((c2 * z + c1) * z + c0) * z - right) / ((3.0 * c2 * z + 2.0 * c1) * z + c0);
+            z -= step;
+            // The next step is about the square of this one.
+            if step.abs() <= z * 2f64.powi(-28) {
+                break;
+            }
+        }
+        z
+    }
+
+    /// s at height z.
+    pub fn slope(&self, z: f64) -> f64 {
+        let ([c0, c1, c2], [j0, j1, j2]) = (self.c, self.j);
+        ((j2 * z + j1) * z + j0) / ((3.0 * c2 * z + 2.0 * c1) * z + c0)
+    }
+}
+
+impl<N: Real> Cubic<N> {
+    /// Where the cubic reaches `right`, enclosed; `None` when the precision does not suffice.
+    ///
+    /// `d ln F / d ln Z >= 1`, so a relative residual r puts Z within the factor `exp(±|ln(1 + r)|)`, inside `1 ± 1.05 r` for
+    /// `|r| < 1/64`.
+    pub fn height(&self, right: &N, guess: f64) -> Option<N> {
+        let [c0, c1, c2] = &self.c;
+        let value = |z: &N| c2.mul(z).add(c1).mul(z).add(c0).mul(z);
+        let rise = |z: &N| c2.mul(z).times(3.0).add(&c1.times(2.0)).mul(z).add(c0);
+        let newton = |z: &N| Some(z.sub(&value(z).sub(right).over(&rise(z))?).middle());
+        let mut z = if guess > 0.0 && guess.is_finite() {
+            N::of(guess, right.bits())
+        } else {
+            // Out of the range of doubles, so they leave it; from above, a step takes off a third at least.
+            let mut z = (right.bits() > 53).then(|| right.over(c0))??.middle();
+            for _ in 0..4000 {
+                let next = newton(&z)?;
+                let near = z.sub(&next).sub(&z.times(2f64.powi(-30))).is_positive();
+                z = next;
+                if !near {
+                    break;
+                }
+            }
+            z
+        };
+        for _ in 0..polishing(right.bits()) {
+            z = newton(&z)?;
+        }
+        let off = value(&z).sub(right).over(right)?.size();
+        off.plus(-1.0 / 64.0).times(-1.0).is_positive().then(|| z.add(&z.mul(&off).times(1.05)))
+    }
+
+    /// s at height z.
+    pub fn slope_at(&self, z: &N) -> Option<N> {
+        let ([c0, c1, c2], [j0, j1, j2]) = (&self.c, &self.j);
+        let rise = c2.mul(z).times(3.0).add(&c1.times(2.0)).mul(z).add(c0);
+        j2.mul(z).add(j1).mul(z).add(j0).over(&rise)
+    }
+}
+
+/// Newton steps from a good double to a precision.
+pub(super) fn polishing(bits: usize) -> usize {
+    if bits <= 53 { 0 } else { (bits / 44).ilog2() as usize + 1 }
+}

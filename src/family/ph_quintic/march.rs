@@ -1,0 +1,245 @@
+//! All solutions with A, B > 0, counted with proof: where the two concave curves of [`super::curves`] meet.
+//!
+//! Let `D = ζ0 - ζ1` be their distance. Between a and b, L apart in x, two certificates need values and slopes at the ends only:
+//! - **No meeting.** A concave function lies above its chord, and below it by no more than `L/4` times the fall of its slope: so does the
+//!   tent of its two tangents. If D > 0 at both ends, ζ0 above its chord and ζ1 below its tent leave `D > 0` while
+//!   `min(D(a), D(b)) > (s1(b) - s1(a)) L/4`; likewise with the curves exchanged.
+//! - **At most one.** `D' = s1 - s0`, and both s increase: `s1(a) > s0(b)` makes D rise throughout, `s0(a) > s1(b)` fall. Then the
+//!   signs of D at the ends tell whether there is one.
+//!
+//! Before the first and behind the last knot the curves are bounded by their limits: A falls and B rises along both.
+//! Intervals with neither certificate are halved. Distances are bounded by `|ln r| >= 2 |r - 1|/(r + 1)`.
+//!
+//! A double meeting would need an algebraic relation between sines of the angles and the curvatures. By the theorem of Lindemann and
+//! Weierstrass the numbers `e^{iφ0/2}`, `e^{iφ1/2}` of doubles with irrational ratio are algebraically independent, and for a
+//! rational ratio one of them is still transcendental: so the relation would have to hold for all angles at once. None such is known;
+//! one would end as undecided at the precision cap.
+
+use super::curves::Curves;
+use crate::num::Real;
+use std::cmp::Ordering::{self, Greater};
+
+/// Both curves at one t.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Knot<N> {
+    /// t, exactly.
+    pub t: N,
+    /// Heights Z of the two curves.
+    pub z: [N; 2],
+    /// Slopes s.
+    s: [N; 2],
+    /// Of the sign of D, and no larger: `2 (Z0 - Z1)/(Z0 + Z1)`.
+    gap: N,
+}
+
+/// A solution: t and Z, enclosed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Root<N> {
+    pub t: N,
+    pub z: N,
+}
+
+/// The equations of a datum, with a copy in doubles for guesses.
+pub(super) struct March<N> {
+    pub curves: Curves<N>,
+    fast: Curves<f64>,
+}
+
+/// How near two knots may come before more precision is asked for, as a power of two.
+fn nearest(bits: usize) -> i32 {
+    if bits <= 53 { -16 } else { -(bits.min(2000) as i32) / 2 }
+}
+
+/// Newton steps from a guess that may be poor where doubles have no range.
+const MOST_STEPS: usize = 64;
+
+/// Knots of one attempt: the most that doubles were seen to need is 60, beside a fold as close as 10^-9.
+fn most_knots(bits: usize) -> usize {
+    if bits <= 53 { 160 } else { 4096 }
+}
+
+impl<N: Real> March<N> {
+    pub fn new(curves: Curves<N>) -> March<N> {
+        let fast = curves.approx();
+        March { curves, fast }
+    }
+
+    fn bits(&self) -> usize {
+        self.curves.cos.bits()
+    }
+
+    fn knot(&self, t: N) -> Option<Knot<N>> {
+        let (near, exact) = (self.fast.at(&t.approx()), self.curves.at(&t));
+        let side = |i: usize| {
+            let z = exact[i].height(&self.curves.right[i], near[i].guess(self.fast.right[i]))?;
+            let s = exact[i].slope_at(&z)?;
+            Some((z, s))
+        };
+        let ((z0, s0), (z1, s1)) = (side(0)?, side(1)?);
+        let gap = z0.sub(&z1).times(2.0).over(&z0.add(&z1))?;
+        Some(Knot { t, z: [z0, z1], s: [s0, s1], gap })
+    }
+
+    /// Heights of both curves at t = 0; the first is `None` when κ0 = 0, for then it has no limit.
+    fn limits(curves: &Curves<N>, fast: &Curves<f64>) -> Option<(Option<N>, N)> {
+        let zero = N::of(0.0, curves.cos.bits());
+        let (near, exact) = (fast.at(&0.0), curves.at(&zero));
+        let height = |i: usize| exact[i].height(&curves.right[i], near[i].guess(fast.right[i]));
+        Some((if fast.bend[0] > 0.0 { Some(height(0)?) } else { None }, height(1)?))
+    }
+
+    /// All solutions, by increasing t; `None` when the precision does not suffice.
+    pub fn roots(&self) -> Option<Vec<Root<N>>> {
+        let mut roots = Vec::new();
+        for (a, b) in self.brackets()? {
+            roots.push(self.enclose(&a, &b)?);
+        }
+        Some(roots)
+    }
+
+    /// How many solutions there are, each between two knots.
+    pub fn brackets(&self) -> Option<Vec<(Knot<N>, Knot<N>)>> {
+        let mut brackets = Vec::new();
+        let (mut a, last) = (self.first()?, self.last()?);
+        let mut waiting = vec![last];
+        for _ in 0..most_knots(self.bits()) {
+            let Some(b) = waiting.last() else { return Some(brackets) };
+            match meets(&a, b) {
+                Some(once) => {
+                    let b = waiting.pop()?;
+                    if once {
+                        brackets.push((a, b.clone()));
+                    }
+                    a = b;
+                }
+                None => {
+                    let between = self.knot(between(&a.t, &b.t)?)?;
+                    waiting.push(between);
+                }
+            }
+        }
+        None
+    }
+
+    /// A knot before which there is no solution.
+    fn first(&self) -> Option<Knot<N>> {
+        let (low, high) = March::limits(&self.curves, &self.fast)?;
+        self.outermost(-1, |knot| {
+            let [z0, z1] = &knot.z;
+            z0.sub(&high).is_positive() || low.as_ref().is_some_and(|low| z1.sub(low).is_positive())
+        })
+    }
+
+    /// A knot behind which there is none: the same for b² = t² Z.
+    fn last(&self) -> Option<Knot<N>> {
+        let (low, high) = March::limits(&self.curves.reversed(), &self.fast.reversed())?;
+        self.outermost(1, |knot| {
+            let square = knot.t.mul(&knot.t);
+            let [y0, y1] = [square.mul(&knot.z[0]), square.mul(&knot.z[1])];
+            y1.sub(&high).is_positive() || low.as_ref().is_some_and(|low| y0.sub(low).is_positive())
+        })
+    }
+
+    fn outermost(&self, side: i32, clear: impl Fn(&Knot<N>) -> bool) -> Option<Knot<N>> {
+        let knot = |exponent: i32| self.knot(N::of(2f64.powi(side * exponent), self.bits()));
+        (2..10).find_map(|i| knot(1 << i).filter(&clear))
+    }
+
+    /// The one solution between two knots.
+    fn enclose(&self, a: &Knot<N>, b: &Knot<N>) -> Option<Root<N>> {
+        let inside = |t: &N| t.sub(&a.t).is_positive() && b.t.sub(t).is_positive();
+        let mut t = N::of(self.guess(a, b), self.bits());
+        if !inside(&t) {
+            t = a.t.add(&b.t).times(0.5).middle();
+        }
+        let mut knot = self.knot(t)?;
+        let step = |knot: &Knot<N>| knot.gap.over(&knot.s[1].sub(&knot.s[0]));
+        let enough = 2f64.powi(-(self.bits().min(1200) as i32) * 3 / 4);
+        for _ in 0..MOST_STEPS {
+            let moved = step(&knot)?;
+            if moved.most() < enough {
+                break;
+            }
+            let next = knot.t.sub(&knot.t.mul(&moved)).middle();
+            if !inside(&next) {
+                break;
+            }
+            knot = self.knot(next)?;
+        }
+        let side = a.gap.certain_sign(0.0)?;
+        // Twice as far as the error of D may move the solution; what is needed, the signs tell.
+        let mut reach = (2.0 * step(&knot)?.most()).max(2f64.powi(4 - self.bits().min(1000) as i32));
+        for _ in 0..4 {
+            let delta = knot.t.times(reach);
+            let (left, right) = (knot.t.sub(&delta).middle(), knot.t.add(&delta).middle());
+            if !(inside(&left) && inside(&right)) {
+                return None;
+            }
+            let (left, right) = (self.knot(left)?, self.knot(right)?);
+            let sign = |knot: &Knot<N>| knot.gap.certain_sign(0.0);
+            if sign(&left) == Some(side) && sign(&right) == Some(side.reverse()) {
+                // Z falls along both curves.
+                return Some(Root { t: left.t.union(&right.t), z: left.z[0].union(&right.z[0]) });
+            }
+            reach *= 16.0;
+        }
+        None
+    }
+
+    /// About where D is 0: Newton's method for D as a function of ln t, kept between the knots.
+    fn guess(&self, a: &Knot<N>, b: &Knot<N>) -> f64 {
+        let (mut low, mut high) = (a.t.approx(), b.t.approx());
+        let side = a.gap.approx() > 0.0;
+        let mut t = (low * high).sqrt();
+        for _ in 0..60 {
+            let cubics = self.fast.at(&t);
+            let z = [0, 1].map(|i| cubics[i].guess(self.fast.right[i]));
+            let gap = (z[0] / z[1]).ln();
+            if (gap > 0.0) == side {
+                low = t;
+            } else {
+                high = t;
+            }
+            let newton = t * (gap / (cubics[0].slope(z[0]) - cubics[1].slope(z[1]))).exp();
+            let next = if newton > low && newton < high { newton } else { (low * high).sqrt() };
+            let moved = (next - t).abs();
+            t = next;
+            if moved <= t * 2f64.powi(-50) {
+                break;
+            }
+        }
+        t
+    }
+}
+
+/// Whether the curves meet once (`true`) or not (`false`) between two knots, when a certificate tells.
+fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Option<bool> {
+    let (at_a, at_b) = (a.gap.certain_sign(0.0)?, b.gap.certain_sign(0.0)?);
+    if at_a == at_b {
+        // The lower curve's tent.
+        let lower = usize::from(at_a == Greater);
+        let reach = b.s[lower].sub(&a.s[lower]).times(0.25 * length(&a.t, &b.t));
+        let apart = |gap: &N| if at_a == Greater { gap.sub(&reach) } else { gap.add(&reach).times(-1.0) };
+        if apart(&a.gap).is_positive() && apart(&b.gap).is_positive() {
+            return Some(false);
+        }
+    }
+    let monotone = a.s[1].sub(&b.s[0]).is_positive() || a.s[0].sub(&b.s[1]).is_positive();
+    monotone.then_some(at_a != at_b && at_a != Ordering::Equal)
+}
+
+/// No less than `ln(b/a)`: `(r - 1)/√r` for their ratio r, with a little for rounding.
+fn length<N: Real>(a: &N, b: &N) -> f64 {
+    b.sub(a).approx() / (a.approx().sqrt() * b.approx().sqrt()) * 1.0001
+}
+
+/// A point between two, not in their middle, where symmetric data have solutions; `None` when they are too close.
+fn between<N: Real>(a: &N, b: &N) -> Option<N> {
+    let (low, high) = (a.approx(), b.approx());
+    if high > 1.2 * low {
+        let t = low.sqrt() * high.sqrt() * 1.037;
+        return Some(N::of(t, a.bits()));
+    }
+    let apart = b.sub(a);
+    (apart.approx() > low * 2f64.powi(nearest(a.bits()))).then(|| a.add(&apart.times(0.469)).middle())
+}

@@ -1,0 +1,113 @@
+//! Pythagorean-hodograph quintic spirals matching G² Hermite data: all of them, counted with proof.
+
+mod curves;
+mod energy;
+mod march;
+mod pair;
+#[cfg(feature = "gpu")]
+mod shader;
+mod shape;
+mod solve;
+mod table;
+mod truth;
+
+pub use super::cubic::Datum;
+pub use solve::{Quintic, Solutions, solve};
+
+use super::{Answer, Chart, Count, Family, Flag, Scalar, Table, coordinates};
+use crate::error::Result;
+use crate::grid::Grid;
+
+/// The family of PH quintics with G² Hermite ends.
+#[derive(Debug, Clone, Copy)]
+pub struct PhQuintic;
+
+/// Bit of SOLVABLE.
+pub const SOLVABLE: u8 = 1;
+/// Bit of SPIRAL.
+pub const SPIRAL: u8 = 1 << 1;
+/// Bit of ANY_SPIRAL.
+pub const ANY_SPIRAL: u8 = 1 << 2;
+
+const FLAGS: &[Flag] = &[
+    Flag {
+        name: "SOLVABLE",
+        label: "solvable",
+        doc: "some PH quintic with w0 = A e^(-i phi0/2), w2 = B e^(i phi1/2), A, B > 0 has these ends, none of whose curvatures is negative",
+    },
+    Flag {
+        name: "SPIRAL",
+        label: "exact PH quintic spiral",
+        doc: "and the curvature of some such curve is monotone: necessary and sufficient",
+    },
+    Flag {
+        name: "ANY_SPIRAL",
+        label: "any spiral at all",
+        doc: "some spiral of any kind has these ends: Q < 0, phi0 < phi1, kappa0 < kappa1 (Kurnosenko)",
+    },
+];
+
+const COUNTS: &[Count] = &[
+    Count {
+        name: "solutions",
+        doc: "number of different solutions A, B > 0; 7 stands for 7 and more (3 are the most seen)",
+        shift: 0,
+        bits: 3,
+    },
+    Count { name: "spirals", doc: "number of solutions whose curve is a spiral; 7 stands for 7 and more", shift: 3, bits: 3 },
+];
+
+const SCALARS: &[Scalar] = &[
+    Scalar { name: "A", doc: "|w0| of the spiral of least bending energy, above 0; A^2 is the start's speed in half chords" },
+    Scalar { name: "B", doc: "|w2| of the spiral of least bending energy, above 0; B^2 is the end's speed in half chords" },
+    Scalar {
+        name: "energy",
+        doc: "bending energy of that spiral, above 0: the integral of the squared curvature over arc length, times half the chord",
+    },
+    Scalar { name: "length", doc: "arc length of that spiral in half chords, above 2" },
+    Scalar {
+        name: "margin",
+        doc: "margin of that spiral, in [0, 1], no unit: least value of the numerator of the curvature's derivative on [0, 1] over its largest Bernstein coefficient",
+    },
+];
+
+const CHARTS: &[Chart] = &[Chart {
+    name: "curvature",
+    axes: &["phi0", "phi1", "kappa0", "kappa1"],
+    doc: "phi0, phi1: angles of the end tangents against the chord, radians, positive, phi0 + phi1 < pi; kappa0, kappa1: signed end curvatures times half the chord",
+}];
+
+impl Family for PhQuintic {
+    fn name(&self) -> &'static str {
+        "ph-quintic"
+    }
+    fn title(&self) -> &'static str {
+        "Pythagorean-hodograph quintic spirals matching G2 Hermite data"
+    }
+    fn charts(&self) -> &'static [Chart] {
+        CHARTS
+    }
+    fn conventions(&self) -> &'static str {
+        "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos phi1, sin phi1); \
+         curvature positive to the left and increasing along the curve; the curve's derivative is w^2 for a quadratic w with Bernstein \
+         coefficients w0, w1, w2; lengths in half chords, angles in radians"
+    }
+    fn flags(&self) -> &'static [Flag] {
+        FLAGS
+    }
+    fn nested(&self) -> &'static [&'static str] {
+        &["SOLVABLE", "ANY_SPIRAL", "SPIRAL"]
+    }
+    fn counts(&self) -> &'static [Count] {
+        COUNTS
+    }
+    fn scalars(&self) -> &'static [Scalar] {
+        SCALARS
+    }
+    fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
+        Ok(Box::new(table::PhTable::new(grid)?))
+    }
+    fn answer(&self, _chart: usize, point: &[f64]) -> Result<Answer> {
+        solve::answer(coordinates(point)?)
+    }
+}

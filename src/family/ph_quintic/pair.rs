@@ -1,0 +1,110 @@
+//! What depends on the two tangent angles alone.
+
+use crate::family::outer::Sines;
+use crate::num::trig::{SIN_ERROR, sin, sin_of_sum};
+use crate::num::{Ball, Interval, Number, Real};
+use std::cell::RefCell;
+use std::f64::consts::PI;
+use std::rc::Rc;
+
+/// The constants of a pair of tangent angles; `Φ = (φ0 + φ1)/2`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair<N> {
+    /// sin Φ.
+    pub sin: N,
+    /// cos Φ, positive.
+    pub cos: N,
+    /// The right-hand sides of the two equations: `30 sin φ0 / sin Φ`, `30 sin φ1 / sin Φ`.
+    pub right: [N; 2],
+    /// For the outer bound.
+    pub outer: Sines<N>,
+    /// φ0 < φ1: without it no spiral of increasing curvature exists.
+    pub rising: bool,
+}
+
+fn right<N: Real>(sin0: &N, sin1: &N, sin: &N) -> Option<[N; 2]> {
+    Some([sin0.times(30.0).over(sin)?, sin1.times(30.0).over(sin)?])
+}
+
+impl Pair<Ball> {
+    /// The pair in doubles; `None` where the sum rounds to π.
+    pub fn new(phi0: f64, phi1: f64) -> Option<Pair<Ball>> {
+        if phi0 + phi1 >= PI {
+            return None;
+        }
+        let near = |value| Ball::near(value, SIN_ERROR);
+        let (sin0, sin1) = (near(sin(phi0)), near(sin(phi1)));
+        // Halving is exact but for subnormal numbers, which cost at most what `near` adds.
+        let half = near(sin_of_sum(0.5 * phi0, 0.5 * phi1));
+        let rising = phi0 < phi1;
+        // The difference of two doubles is off by at most one rounding, relative.
+        let sin_half = Ball::near(if rising { sin(0.5 * (phi1 - phi0)) } else { 0.0 }, SIN_ERROR + 2.0);
+        Some(Pair {
+            cos: near(sin_of_sum(phi0, phi1)).times(0.5).over(&half)?,
+            right: right(&sin0, &sin1, &half)?,
+            sin: half,
+            outer: [sin0, sin1, sin_half.mul(&sin_half)],
+            rising,
+        })
+    }
+}
+
+impl Pair<Interval> {
+    /// [`Pair::exact`], kept for the next call: neighbouring nodes share their angles.
+    pub fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Pair<Interval>>> {
+        type Last = Option<([u64; 2], usize, Rc<Pair<Interval>>)>;
+        thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });
+        let key = [phi0.to_bits(), phi1.to_bits()];
+        LAST.with_borrow_mut(|last| match last {
+            Some((k, b, pair)) if *k == key && *b == bits => Some(pair.clone()),
+            _ => {
+                let pair = Rc::new(Pair::exact(phi0, phi1, bits)?);
+                *last = Some((key, bits, pair.clone()));
+                Some(pair)
+            }
+        })
+    }
+
+    /// The pair in intervals; `None` when the precision does not tell that cos Φ is positive.
+    pub fn exact(phi0: f64, phi1: f64, bits: usize) -> Option<Pair<Interval>> {
+        let half = |phi: f64| Interval::new(phi, bits).scale(0.5).sine_cosine();
+        let ((s0, c0), (s1, c1)) = (half(phi0), half(phi1));
+        let (sin, cos) = (&(&s0 * &c1) + &(&c0 * &s1), &(&c0 * &c1) - &(&s0 * &s1));
+        let (sin0, sin1) = ((&s0 * &c0).scale(2.0), (&s1 * &c1).scale(2.0));
+        let difference = &(&s1 * &c0) - &(&c1 * &s0);
+        (sin.is_positive() && cos.is_positive()).then_some(())?;
+        Some(Pair { cos, right: right(&sin0, &sin1, &sin)?, sin, outer: [sin0, sin1, difference.square()], rising: phi0 < phi1 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn doubles_hold_the_constants() {
+        let mut worst: f64 = 0.0;
+        let angles = [1e-300, 1e-12, 1e-3, 0.1, 0.7, 0.7000000001, 0.9, 1.5, std::f64::consts::FRAC_PI_2, 1.6, 2.2, 3.0, 3.1];
+        let mut compared = 0;
+        for phi0 in angles {
+            for phi1 in angles {
+                let Some(pair) = Pair::<Ball>::new(phi0, phi1) else { continue };
+                let truth = Pair::exact(phi0, phi1, 1200).expect("enough bits");
+                let [s0, s1, square] = &pair.outer;
+                let [t0, t1, t2] = &truth.outer;
+                let mut all = vec![(pair.sin, &truth.sin), (pair.cos, &truth.cos), (*s0, t0), (*s1, t1)];
+                all.extend([(pair.right[0], &truth.right[0]), (pair.right[1], &truth.right[1])]);
+                if pair.rising {
+                    all.push((*square, t2));
+                }
+                for (ball, truth) in all {
+                    let off = truth.plus(-ball.value).approx().abs();
+                    assert!(off <= ball.error, "{phi0} {phi1}: {ball:?} is off by {off}");
+                    worst = worst.max(off / ball.error);
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 500 && worst > 0.1, "{compared} {worst}");
+    }
+}

@@ -1,0 +1,184 @@
+//! The exact answer for one datum: all solutions, which are spirals, and their measures.
+
+use super::curves::Curves;
+use super::pair::Pair;
+use super::truth::{self, Margin, Measures, Truth, chosen, measure};
+use crate::error::Result;
+use crate::family::cubic::Datum;
+use crate::family::hermite::check;
+use crate::family::{Answer, Code};
+use crate::num::{Ball, Real, climb};
+
+/// One PH quintic with the ends of a datum, in its frame: from (-1, 0) to (1, 0).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quintic {
+    /// `|w0| = A`; the start's speed is A².
+    pub a: f64,
+    /// `|w2| = B`; the end's speed is B².
+    pub b: f64,
+    /// The pre-image `w = w0 (1-t)² + 2 w1 t(1-t) + w2 t²` as (real, imaginary); the curve's derivative is w².
+    pub preimage: [[f64; 2]; 3],
+    /// Bézier control points.
+    pub control_points: [[f64; 2]; 6],
+    /// Whether its curvature is monotone: necessary and sufficient.
+    pub spiral: bool,
+    /// Bending energy, the integral of the squared curvature over arc length, times half the chord.
+    pub energy: f64,
+    /// Arc length in half chords.
+    pub length: f64,
+    /// Least value of the numerator of κ' on [0, 1] over its largest Bernstein coefficient: positive inside the region of spirals, 0 on its
+    /// boundary, negative outside; in [-1, 1].
+    pub margin: f64,
+}
+
+/// All that is known of a datum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solutions {
+    code: Code,
+    all: Vec<Quintic>,
+    chosen: Option<usize>,
+}
+
+impl Solutions {
+    /// The flags, bits as in [`super::SOLVABLE`] and its siblings.
+    pub fn flags(&self) -> u8 {
+        self.code.flags()
+    }
+
+    /// All solutions with A, B > 0, by increasing A.
+    pub fn all(&self) -> &[Quintic] {
+        &self.all
+    }
+
+    /// The spiral of least bending energy.
+    pub fn chosen(&self) -> Option<&Quintic> {
+        self.chosen.map(|i| &self.all[i])
+    }
+
+    /// Where in [`Solutions::all`] the chosen one is.
+    pub fn chosen_index(&self) -> Option<usize> {
+        self.chosen
+    }
+}
+
+/// Solves one datum exactly.
+///
+/// # Accuracy
+/// Flags, the number of solutions, the verdict of each, and which has the least energy are proved. A, B, energy and length are proved to
+/// 2^-36, relative, margins to 2^-30, absolute; pre-image and control points follow from them in doubles.
+///
+/// # Errors
+/// [`crate::Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`;
+/// [`crate::Error::Undecided`] at the precision cap.
+///
+/// # Source
+/// Pythagorean-hodograph quintics in complex form (Farouki), (2)-(9); the two equations are in the module's `curves`.
+pub fn solve(datum: &Datum) -> Result<Solutions> {
+    let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
+    check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
+    if let Some(solutions) = Pair::<Ball>::new(phi0, phi1).and_then(|pair| described(datum, &pair)) {
+        return Ok(solutions);
+    }
+    climb(datum, "a solution", |bits| described(datum, &*Pair::cached(phi0, phi1, bits)?)).map(|(solutions, _)| solutions)
+}
+
+/// All numbers as accurate as [`solve`] promises, or `None`.
+fn described<N: Real + Margin>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
+    let truth = truth::solve(pair, [datum.kappa0, datum.kappa1])?;
+    let best = chosen(pair, &truth.solutions)?;
+    let mut all = Vec::new();
+    if let Some(curves) = &truth.curves {
+        // By increasing A: A falls as B/A rises.
+        for solution in truth.solutions.iter().rev() {
+            let measures = measure(pair, curves, solution)?;
+            all.push(quintic(datum, curves, pair, &measures, solution.spiral)?);
+        }
+    }
+    let last = all.len();
+    Some(Solutions { code: truth.code, all, chosen: best.map(|i| last - 1 - i) })
+}
+
+/// The double in the middle of a number known to `2^-36` of itself plus `floor`.
+fn known<N: Real>(x: &N, floor: f64) -> Option<f64> {
+    let value = x.approx();
+    let off = x.sub(&x.middle()).most();
+    (value.is_finite() && off <= 2f64.powi(-37) * value.abs() + floor).then_some(value)
+}
+
+fn quintic<N: Real>(datum: &Datum, curves: &Curves<N>, pair: &Pair<N>, measures: &Measures<N>, spiral: bool) -> Option<Quintic> {
+    let mut numbers = [0.0; 4];
+    for (slot, x) in numbers.iter_mut().zip(&measures.numbers) {
+        *slot = known(x, 0.0)?;
+    }
+    let [a, b, energy, length] = numbers;
+    let quarter = 4.0 * pair.sin.approx();
+    let bends = [datum.kappa0 * a.powi(3) / quarter, datum.kappa1 * b.powi(3) / quarter];
+    debug_assert!(curves.scale.iter().all(|p| *p > 0.0));
+    let preimage = preimage(datum, [a, b], bends);
+    let control_points = control_points(&preimage);
+    Some(Quintic { a, b, preimage, control_points, spiral, energy, length, margin: known(&measures.margin, 2f64.powi(-31))? })
+}
+
+fn preimage(datum: &Datum, [a, b]: [f64; 2], [start, end]: [f64; 2]) -> [[f64; 2]; 3] {
+    let ((s0, c0), (s1, c1)) = ((0.5 * datum.phi0).sin_cos(), (0.5 * datum.phi1).sin_cos());
+    [[a * c0, -a * s0], [start * c1 + end * c0, start * s1 - end * s0], [b * c1, b * s1]]
+}
+
+/// (5) of the paper, from both ends, so that both are met.
+fn control_points(w: &[[f64; 2]; 3]) -> [[f64; 2]; 6] {
+    let fifth = |x: [f64; 2], y: [f64; 2]| [0.2 * (x[0] * y[0] - x[1] * y[1]), 0.2 * (x[0] * y[1] + x[1] * y[0])];
+    let [w0, w1, w2] = *w;
+    let add = |p: [f64; 2], d: [f64; 2], sign: f64| [p[0] + sign * d[0], p[1] + sign * d[1]];
+    let (p0, p5) = ([-1.0, 0.0], [1.0, 0.0]);
+    let p1 = add(p0, fifth(w0, w0), 1.0);
+    let p4 = add(p5, fifth(w2, w2), -1.0);
+    [p0, p1, add(p1, fifth(w0, w1), 1.0), add(p4, fifth(w1, w2), -1.0), p4, p5]
+}
+
+/// [`solve`] in the form of every family.
+pub(super) fn answer(point: &[f64; 4]) -> Result<Answer> {
+    let [phi0, phi1, kappa0, kappa1] = *point;
+    let solutions = solve(&Datum { phi0, phi1, kappa0, kappa1 })?;
+    let solution = |q: &Quintic| {
+        vec![
+            ("A", q.a.into()),
+            ("B", q.b.into()),
+            ("spiral", q.spiral.into()),
+            ("energy", q.energy.into()),
+            ("length", q.length.into()),
+            ("margin", q.margin.into()),
+            ("preimage", q.preimage.into()),
+            ("control_points", q.control_points.into()),
+        ]
+    };
+    let all = solutions.all.iter().map(solution).collect();
+    Ok(Answer { code: solutions.code, derived: vec![], solutions: all, chosen: solutions.chosen })
+}
+
+/// The scalars A, B, energy, length, margin (0 to 4) of the chosen spiral of a datum that has one, each rounded to nearest f32 with proof;
+/// beyond the largest single, that.
+pub(super) fn scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> Result<()> {
+    let fast = Pair::<Ball>::new(datum.phi0, datum.phi1).and_then(|pair| rounded(datum, &pair, which));
+    match fast {
+        Some(values) => {
+            out.copy_from_slice(&values);
+            Ok(())
+        }
+        None => exact_scalars(datum, which, out),
+    }
+}
+
+/// [`scalars`] by intervals alone.
+pub(super) fn exact_scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> Result<()> {
+    let attempt = |bits| rounded(datum, &*Pair::cached(datum.phi0, datum.phi1, bits)?, which);
+    out.copy_from_slice(&climb(datum, "a scalar", attempt)?.0);
+    Ok(())
+}
+
+fn rounded<N: Real + Margin>(datum: &Datum, pair: &Pair<N>, which: &[usize]) -> Option<Vec<f32>> {
+    let Truth { solutions, curves, .. } = truth::solve(pair, [datum.kappa0, datum.kappa1])?;
+    let best = &solutions[chosen(pair, &solutions)??];
+    let measures = measure(pair, &curves?, best)?;
+    let value = |i: &usize| measures.numbers.get(*i).unwrap_or(&measures.margin).to_f32().map(|x| x.min(f32::MAX));
+    which.iter().map(value).collect()
+}

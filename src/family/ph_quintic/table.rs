@@ -1,0 +1,89 @@
+//! The family on a grid.
+
+use super::PhQuintic;
+use super::pair::Pair;
+use super::solve::{exact_scalars, scalars};
+use super::truth::verdict;
+use crate::error::Result;
+use crate::family::cubic::Datum;
+use crate::family::hermite::check_grid;
+use crate::family::rows::{Rows, fill};
+use crate::family::{Code, NO_VALUE, Table, chart_of};
+use crate::grid::{Grid, MAX_AXES};
+use crate::num::{Ball, climb};
+use fearless_simd::{Level, Simd, SimdBase, dispatch};
+
+/// G² Hermite PH quintics on one grid.
+pub(super) struct PhTable<'g> {
+    grid: &'g Grid,
+    level: Level,
+}
+
+impl<'g> PhTable<'g> {
+    pub fn new(grid: &'g Grid) -> Result<PhTable<'g>> {
+        chart_of(&PhQuintic, grid)?;
+        check_grid(grid)?;
+        Ok(PhTable { grid, level: Level::new() })
+    }
+
+    fn datum(&self, node: u64) -> Datum {
+        let [phi0, phi1, kappa0, kappa1, ..] = self.grid.node(node);
+        Datum { phi0, phi1, kappa0, kappa1 }
+    }
+
+    /// The scalars of a node, or none where there is no spiral.
+    fn fill(&self, node: u64, code: Code, out: &mut [f32], by: impl Fn(&Datum, &mut [f32]) -> Result<()>) -> Result<()> {
+        if code.flags() & super::SPIRAL == 0 {
+            out.fill(NO_VALUE);
+            return Ok(());
+        }
+        by(&self.datum(node), out)
+    }
+}
+
+impl Rows for PhTable<'_> {
+    type Constants = Pair<Ball>;
+    const ANGLES: usize = 2;
+
+    fn constants(&self, [phi0, phi1, ..]: &[f64; MAX_AXES]) -> Option<Pair<Ball>> {
+        Pair::<Ball>::new(*phi0, *phi1)
+    }
+
+    /// Node by node: how many knots it takes differs too much for lanes.
+    #[inline(always)]
+    fn codes<S: Simd>(&self, _simd: S, pair: &Pair<Ball>, node: &[f64; MAX_AXES], fourth: S::f64s, out: &mut [Code]) {
+        for (code, kappa1) in out.iter_mut().zip(fourth.as_slice()) {
+            *code = verdict(pair, [node[2], *kappa1]).unwrap_or(Code::UNDECIDED);
+        }
+    }
+}
+
+impl Table for PhTable<'_> {
+    fn filter(&self, start: u64, out: &mut [Code]) {
+        dispatch!(self.level, simd => fill(simd, self, self.grid, start, out));
+    }
+
+    fn exact(&self, node: u64) -> Result<(Code, usize)> {
+        let datum = self.datum(node);
+        let Datum { phi0, phi1, kappa0, kappa1 } = datum;
+        climb(&datum, "a verdict", |bits| verdict(&*Pair::cached(phi0, phi1, bits)?, [kappa0, kappa1]))
+    }
+
+    fn scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+        self.fill(node, code, out, |datum, out| scalars(datum, which, out))
+    }
+
+    fn exact_scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+        self.fill(node, code, out, |datum, out| exact_scalars(datum, which, out))
+    }
+
+    #[cfg(feature = "gpu")]
+    fn shader(&self) -> crate::family::Shader {
+        super::shader::shader()
+    }
+
+    #[cfg(feature = "gpu")]
+    fn shader_inputs(&self, start: u64, len: u64) -> crate::family::ShaderInputs {
+        super::shader::inputs(self.grid, start, len)
+    }
+}

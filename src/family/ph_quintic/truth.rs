@@ -1,0 +1,141 @@
+//! The verdicts of a datum: doubles with error bounds and intervals of growing precision run the same steps.
+
+use super::curves::Curves;
+use super::energy::energy;
+use super::march::{March, Root};
+use super::pair::Pair;
+use super::shape::Shape;
+use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
+use crate::family::{Code, outer};
+use crate::num::bernstein::{MOST_HALVINGS, exact_margin, margin, positive};
+use crate::num::{Ball, Interval, Real};
+
+/// A solution and whether its curvature rises throughout.
+#[derive(Debug, Clone)]
+pub(super) struct Solution<N> {
+    pub root: Root<N>,
+    pub shape: Shape<N>,
+    pub spiral: bool,
+}
+
+/// Everything proved of a datum.
+#[derive(Debug, Clone)]
+pub(super) struct Truth<N> {
+    pub code: Code,
+    /// By increasing B/A; all of them, also where none can be a spiral.
+    pub solutions: Vec<Solution<N>>,
+    pub curves: Option<Curves<N>>,
+}
+
+/// Halvings of the quintic: as fine as doubles show, or as far as it takes.
+fn depth(bits: usize) -> u32 {
+    if bits <= 53 { 20 } else { MOST_HALVINGS }
+}
+
+/// Flags and counts from what is proved: counts above 7 are stored as 7.
+fn code(any: bool, solutions: usize, spirals: usize) -> Code {
+    let flag = |holds: bool, bit: u8| if holds { bit } else { 0 };
+    let flags = flag(solutions > 0, SOLVABLE) | flag(spirals > 0, SPIRAL) | flag(any, ANY_SPIRAL);
+    Code::new(flags, (solutions.min(7) | spirals.min(7) << 3) as u8)
+}
+
+fn any_spiral<N: Real>(pair: &Pair<N>, [kappa0, kappa1]: [f64; 2]) -> Option<bool> {
+    let bits = pair.sin.bits();
+    Some(pair.rising && kappa0 < kappa1 && outer::holds(&pair.outer, &N::of(kappa0, bits), &N::of(kappa1, bits))?)
+}
+
+fn march<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Option<March<N>>> {
+    if kappa.iter().any(|k| *k < 0.0) {
+        return Some(None);
+    }
+    Curves::of(pair, kappa).map(|curves| Some(March::new(curves)))
+}
+
+/// The code alone: where no spiral is possible the solutions are counted, not found.
+pub(super) fn verdict<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Code> {
+    let any = any_spiral(pair, kappa)?;
+    if any {
+        return solve(pair, kappa).map(|truth| truth.code);
+    }
+    let count = match march(pair, kappa)? {
+        Some(march) => march.brackets()?.len(),
+        None => 0,
+    };
+    Some(code(false, count, 0))
+}
+
+/// All solutions; `None` when something is undecided at this precision.
+pub(super) fn solve<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Truth<N>> {
+    let any = any_spiral(pair, kappa)?;
+    let Some(march) = march(pair, kappa)? else {
+        return Some(Truth { code: code(any, 0, 0), solutions: Vec::new(), curves: None });
+    };
+    let mut solutions = Vec::new();
+    for root in march.roots()? {
+        let shape = Shape::new(&march.curves, &root)?;
+        let spiral = any && positive(&shape.quintic(), 0.0, 0.0, depth(pair.sin.bits()))?;
+        solutions.push(Solution { root, shape, spiral });
+    }
+    let spirals = solutions.iter().filter(|s| s.spiral).count();
+    Some(Truth { code: code(any, solutions.len(), spirals), solutions, curves: Some(march.curves) })
+}
+
+/// What is measured of a solution.
+#[derive(Debug, Clone)]
+pub(super) struct Measures<N> {
+    /// A, B, energy, length.
+    pub numbers: [N; 4],
+    pub margin: N,
+}
+
+/// Numbers that have a margin.
+pub(super) trait Margin: Sized {
+    fn of_quintic(c: &[Self; 6]) -> Option<Self>;
+}
+
+impl Margin for Ball {
+    fn of_quintic(c: &[Ball; 6]) -> Option<Ball> {
+        let (value, error) = margin(&c.map(|b| b.value), c.iter().fold(0.0, |most, b| b.error.max(most)));
+        Some(Ball { value, error })
+    }
+}
+
+impl Margin for Interval {
+    fn of_quintic(c: &[Interval; 6]) -> Option<Interval> {
+        exact_margin(c)
+    }
+}
+
+/// The energy alone.
+pub(super) fn energy_of<N: Real>(pair: &Pair<N>, solution: &Solution<N>) -> Option<N> {
+    energy(&solution.shape)?.mul(&pair.sin).mul(&pair.sin).times(4.0).over(&solution.root.z)
+}
+
+/// A, B, energy, length, margin.
+pub(super) fn measure<N: Real + Margin>(pair: &Pair<N>, curves: &Curves<N>, solution: &Solution<N>) -> Option<Measures<N>> {
+    let Root { t, z } = &solution.root;
+    let a = z.sqrt()?;
+    let [s0, s1, s2, s3, s4] = &solution.shape.speed;
+    let fifth = N::of(5.0, z.bits());
+    let length = s0.add(s1).add(s2).add(s3).add(s4).mul(z).over(&fifth)?;
+    Some(Measures {
+        numbers: [a.times(curves.scale[0]), a.mul(t).times(curves.scale[1]), energy_of(pair, solution)?, length],
+        margin: N::of_quintic(&solution.shape.quintic())?,
+    })
+}
+
+/// The spiral of least energy, as an index; `None` when two cannot be told apart.
+pub(super) fn chosen<N: Real>(pair: &Pair<N>, solutions: &[Solution<N>]) -> Option<Option<usize>> {
+    let spirals: Vec<usize> = (0..solutions.len()).filter(|i| solutions[*i].spiral).collect();
+    let (Some(first), true) = (spirals.first(), spirals.len() > 1) else { return Some(spirals.first().copied()) };
+    let mut best = (*first, energy_of(pair, &solutions[*first])?);
+    for i in &spirals[1..] {
+        let energy = energy_of(pair, &solutions[*i])?;
+        match energy.sub(&best.1).certain_sign(0.0)? {
+            std::cmp::Ordering::Less => best = (*i, energy),
+            std::cmp::Ordering::Greater => {}
+            std::cmp::Ordering::Equal => return None,
+        }
+    }
+    Some(Some(best.0))
+}

@@ -1,0 +1,116 @@
+//! The command `curve`.
+
+use super::{Folder, fine, run};
+
+fn curve(from: &str, to: &str, directions: [&str; 2], curvatures: [&str; 2], more: &[&str]) -> super::Said {
+    let all = ["curve", "--from", from, "--to", to, "--start-direction", directions[0], "--end-direction", directions[1]];
+    let rest = ["--start-curvature", curvatures[0], "--end-curvature", curvatures[1]];
+    run(all.iter().chain(&rest).chain(more))
+}
+
+#[test]
+fn curves_join_real_ends() {
+    let folder = Folder::new("");
+    let figure = folder.text("curve.png");
+    let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "4"], &["--json", "--figure", &figure]).json();
+    assert_eq!(json["datum"]["phi0"], 0.7);
+    let points = json["solutions"][0]["control_points"].as_array().unwrap();
+    assert_eq!((points.len(), &points[0], &points[3]), (4, &serde_json::json!([-1.0, 0.0]), &serde_json::json!([1.0, 0.0])));
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    // The same curve ten times as large, mirrored, with vectors for directions.
+    let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
+    assert!(large.out.contains("no C-shaped curve"), "{}", large.out);
+    let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "-80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
+    assert!(large.out.contains("cubic spiral (f0, f1) = (1.6601") && large.out.contains("mirrored"), "{}", large.out);
+}
+
+#[test]
+fn no_curve_is_an_answer_with_numbers() {
+    let folder = Folder::new("");
+    let said = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "1.2"], &[]);
+    assert!(said.code == Some(0) && said.out.contains("kappa1 = 1.2 must exceed 1.466"), "{}", said.out);
+    let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--json"]).json();
+    assert_eq!(json["why"]["condition"], "inflection");
+    let wavy = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "2.2"], &["--figure", &folder.text("wavy.png")]);
+    assert!(wavy.code == Some(0) && wavy.out.contains("loses monotone curvature"), "{}", wavy.out);
+    assert!(folder.at("wavy.png").exists());
+    let none = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--figure", &folder.text("none.png")]);
+    assert!(none.code == Some(1) && none.err.contains("none.png was not drawn"), "{}", none.err);
+    assert!(!folder.at("none.png").exists());
+}
+
+fn number(json: &serde_json::Value) -> f64 {
+    json.as_f64().unwrap_or_else(|| panic!("{json} is no number"))
+}
+
+#[test]
+fn involutes_join_any_ends_with_a_spiral() {
+    let folder = Folder::new("");
+    let figure = folder.text("involute.png");
+    let ends = ["--from", "3,1", "--to", "7,4", "--start-direction", "0.2", "--end-direction", "2.4"];
+    let curvatures = ["--start-curvature", "-0.1", "--end-curvature", "1.6", "--samples", "33", "--json", "--figure", &figure];
+    let all = ["curve", "--family", "involute"].into_iter().chain(ends).chain(curvatures);
+    let json = fine(all.clone()).json();
+    let samples = json["samples"].as_array().unwrap();
+    let (first, last) = (&samples[0], &samples[32]);
+    assert_eq!((&first["point"], &last["point"]), (&serde_json::json!([3.0, 1.0]), &serde_json::json!([7.0, 4.0])));
+    let near = |value: &serde_json::Value, wanted: f64| (number(value) - wanted).abs() <= 1e-12 * wanted.abs();
+    assert!(near(&first["direction"], 0.2) && near(&last["direction"], 2.4) && near(&first["curvature"], -0.1), "{first} {last}");
+    assert!(near(&last["curvature"], 1.6) && near(&last["s"], number(&json["length"])));
+    assert!(samples.windows(2).all(|w| number(&w[0]["curvature"]) < number(&w[1]["curvature"])));
+    assert!(samples.windows(2).all(|w| number(&w[0]["s"]) < number(&w[1]["s"])));
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    // A turn more about an end makes another curve; equal curvatures make none.
+    let turned = fine(all.clone().chain(["--turns", "0,1"])).json();
+    assert!(number(&turned["length"]) > number(&json["length"]) && turned["turns"] == serde_json::json!([0, 1]), "{turned}");
+    let none =
+        fine(all.filter(|a| *a != "--json" && *a != "--figure" && *a != figure).map(|a| if a == "1.6" { "-0.1" } else { a }));
+    assert!(none.out.contains("no spiral of any kind: the curvatures at both ends are the same"), "{}", none.out);
+}
+
+#[test]
+fn segments_are_added_to_lines_and_arcs() {
+    let folder = Folder::new("");
+    let figure = folder.text("segment.png");
+    let segment = |family: &str, base: &str, more: &[&str]| {
+        let all = ["curve", "--family", family, "--base", base, "--from", "10,5", "--start-direction", "30deg", "--turn", "left"];
+        run(all.into_iter().chain(["--radius", "20", "--angle", "45deg"]).chain(more.iter().copied()))
+    };
+    for (family, points) in [("reach-cubic", 4), ("reach-ph", 6)] {
+        for base in ["line", "circle"] {
+            let json = segment(family, base, &["--m", "0.8", "--q", "1.9", "--json", "--figure", &figure]).json();
+            let by_shape = &json["segment"];
+            let control = by_shape["control_points"].as_array().unwrap();
+            assert_eq!((control.len(), &control[0]), (points, &serde_json::json!([10.0, 5.0])));
+            assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+            assert_eq!(by_shape["case"], if base == "line" { 1 } else { 2 });
+            // The end point asked for gives the shape back.
+            let end = control[points - 1].as_array().unwrap();
+            let json = segment(family, base, &["--to", &format!("{},{}", end[0], end[1]), "--json"]).json();
+            assert!(
+                (number(&json["segment"]["m"]) - 0.8).abs() < 1e-12 && (number(&json["segment"]["q"]) - 1.9).abs() < 1e-12,
+                "{json}"
+            );
+        }
+        let near = segment(family, "line", &["--to", "30,30"]);
+        assert!(near.code == Some(0) && near.out.contains(&format!("no segment of `{family}`: the end point")), "{}", near.out);
+    }
+}
+
+#[test]
+fn options_of_other_families_are_refused() {
+    let refused = |args: &[&str], parts: &[&str]| {
+        let said = run(args.iter().copied());
+        assert_eq!((said.code, &said.out[..]), (Some(2), ""), "{args:?}");
+        assert!(parts.iter().all(|part| said.err.contains(part)), "{}", said.err);
+    };
+    refused(&["curve", "--from", "0,0"], &["`--family cubic` needs", "`--to`", "`--end-curvature`"]);
+    refused(&["curve", "--family", "reach-ph", "--to", "1,1"], &["needs", "`--radius`"]);
+    refused(&["curve", "--family", "reach-ph", "--m", "1"], &["`--to` or its shape `--m` and `--q`"]);
+    refused(&["curve", "--family", "clothoid"], &["clothoid", "involute"]);
+    let ends =
+        ["curve", "--from", "0,0", "--to", "1,0", "--start-direction", "0", "--end-direction", "1", "--start-curvature", "1"];
+    let all: Vec<&str> = ends.into_iter().chain(["--end-curvature", "2", "--turns", "1,0"]).collect();
+    refused(&all, &["`--turns` means nothing to `--family cubic`"]);
+    refused(&["query", "--family", "reach-ph", "--phi0", "1"], &["a datum of `reach-ph` needs `--theta --xi --eta`", "`--phi0`"]);
+}
