@@ -103,16 +103,19 @@ fn speed(h: Hodograph, square: f32) -> array<f32, 21> {
     return d;
 }
 
+// COEFFICIENTS numbers, and two zeros.
+alias Coefficients = array<vec4<f32>, 10>;
+
 // Bernstein coefficients and how far each may be off.
 struct Form {
-    value: array<f32, COEFFICIENTS>,
-    error: array<f32, COEFFICIENTS>,
+    value: Coefficients,
+    error: Coefficients,
 }
 
 fn numerator(h: Hodograph, square: f32) -> Form {
     var t = turning(h);
     var d = speed(h, square);
-    var form: Form;
+    var form = Form(Coefficients(), Coefficients());
     // Sums of X D and (2i - 3j) X D, values and sizes, for this index, the one before and that before.
     var now = vec4<f32>();
     var before = vec4<f32>();
@@ -131,30 +134,129 @@ fn numerator(h: Hodograph, square: f32) -> Form {
         let value = now.y + (2.0 * before.y + 24.0 * before.x) + (2.0 * earlier.y + 48.0 * earlier.x);
         let size = now.w + (2.0 * before.w + 24.0 * before.z) + (2.0 * earlier.w + 48.0 * earlier.z);
         let factor = inputs[s];
-        form.value[s] = value * factor;
-        form.error[s] = size * factor * ERROR + FLOOR;
+        form.value[s / 4u][s % 4u] = value * factor;
+        form.error[s / 4u][s % 4u] = size * factor * ERROR + FLOOR;
         earlier = before;
         before = now;
     }
     return form;
 }
 
-// Twice the polynomial: the greatest that it may be, which only can prove no, and the least.
-fn spiral(given: Form) -> u32 {
-    var form = given;
-    for (var side = 0u; side < 2u; side += 1u) {
-        let sign = select(-1.0, 1.0, side == 0u);
-        var largest = 0.0;
-        var c: array<f32, COEFFICIENTS>;
+// Least, and largest in size.
+fn least(c: Coefficients) -> f32 {
+    let a = min(min(min(c[0], c[1]), min(c[2], c[3])), min(min(c[4], c[5]), min(c[6], min(c[7], c[8]))));
+    return min(min(min(a.x, a.y), min(a.z, a.w)), min(c[9].x, c[9].y));
+}
+
+fn largest(c: Coefficients) -> f32 {
+    let a = max(max(abs(c[0]), abs(c[1])), max(abs(c[2]), abs(c[3])));
+    let b = max(max(abs(c[4]), abs(c[5])), max(abs(c[6]), abs(c[7])));
+    let d = max(max(a, b), max(abs(c[8]), abs(c[9])));
+    return max(max(d.x, d.y), max(d.z, d.w));
+}
+
+// One step of de Casteljau's algorithm, from a list and the same without its first.
+fn mean(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
+    return 0.5 * (a + vec4<f32>(a.yzw, b.x));
+}
+
+fn step(c: Coefficients) -> Coefficients {
+    return Coefficients(
+        mean(c[0], c[1]),
+        mean(c[1], c[2]),
+        mean(c[2], c[3]),
+        mean(c[3], c[4]),
+        mean(c[4], c[5]),
+        mean(c[5], c[6]),
+        mean(c[6], c[7]),
+        mean(c[7], c[8]),
+        mean(c[8], c[9]),
+        mean(c[9], vec4<f32>()),
+    );
+}
+
+// Signs on [0, 1] as in num/bernstein.rs, for coefficients that are exact; each halving adds 37 roundings of the piece's largest.
+//
+// It is written with few iterations of loops, 38 for a halving, because lavapipe leaves all loops of an invocation after
+// 65535 of them: some 4000 a node. There are 40 for a halving, and 700 before.
+fn positive(coefficients: Coefficients) -> u32 {
+    // Depth first with the right halves waiting: one a level, and the piece in hand.
+    var waiting: array<Coefficients, MOST_LEVELS>;
+    var levels: array<u32, MOST_LEVELS>;
+    var errors: array<f32, MOST_LEVELS>;
+    waiting[0] = coefficients;
+    levels[0] = 0u;
+    errors[0] = 0.0;
+    var count = 1u;
+    var halvings = 0u;
+    var answer = POSITIVE;
+    loop {
+        if count == 0u {
+            break;
+        }
+        count -= 1u;
+        var piece = waiting[count];
+        let level = levels[count];
+        let e = errors[count];
+        // The outer coefficients are values of the polynomial.
+        if piece[0].x < -e || piece[9].y < -e {
+            return NEGATIVE;
+        }
+        if least(piece) > e {
+            continue;
+        }
+        let size = largest(piece);
+        if level + 2u >= MOST_LEVELS || halvings >= MOST_HALVINGS || size <= e {
+            answer = UNKNOWN;
+            continue;
+        }
+        halvings += 1u;
+        var left = Coefficients();
+        var right = Coefficients();
         for (var i = 0u; i < COEFFICIENTS; i += 1u) {
-            c[i] = form.value[i] + sign * form.error[i];
-            largest = max(largest, abs(c[i]));
+            let j = COEFFICIENTS - 1u - i;
+            left[i / 4u][i % 4u] = piece[0].x;
+            right[j / 4u][j % 4u] = piece[j / 4u][j % 4u];
+            piece = step(piece);
         }
-        let rounding = f32(COEFFICIENTS - 1u) * UNIT * largest;
-        let found = positive(c, rounding, rounding);
-        if found == select(POSITIVE, NEGATIVE, side == 0u) {
-            return found;
-        }
+        // What steps took from beyond the last coefficient has reached none of these.
+        let after = e + 1.01 * f32(COEFFICIENTS - 1u) * UNIT * size;
+        waiting[count] = right;
+        levels[count] = level + 1u;
+        errors[count] = after;
+        waiting[count + 1u] = left;
+        levels[count + 1u] = level + 1u;
+        errors[count + 1u] = after;
+        count += 2u;
+    }
+    return answer;
+}
+
+// The polynomial plus or minus its error.
+fn shifted(form: Form, sign: f32) -> Coefficients {
+    let v = form.value;
+    let e = form.error;
+    return Coefficients(
+        v[0] + sign * e[0],
+        v[1] + sign * e[1],
+        v[2] + sign * e[2],
+        v[3] + sign * e[3],
+        v[4] + sign * e[4],
+        v[5] + sign * e[5],
+        v[6] + sign * e[6],
+        v[7] + sign * e[7],
+        v[8] + sign * e[8],
+        v[9] + sign * e[9],
+    );
+}
+
+// The greatest that the polynomial may be only can prove no, the least only yes.
+fn spiral(form: Form) -> u32 {
+    if positive(shifted(form, 1.0)) == NEGATIVE {
+        return NEGATIVE;
+    }
+    if positive(shifted(form, -1.0)) == POSITIVE {
+        return POSITIVE;
     }
     return UNKNOWN;
 }

@@ -183,9 +183,8 @@ fn check(request: &Request) -> Vec<Part> {
         }
     }
     for part in &path.parts {
-        let signs: Vec<f64> = (1..400)
-            .map(|i| part.curve.jet(part.from + (part.to - part.from) * f64::from(i) / 400.0).curvature_dt())
-            .collect();
+        let signs: Vec<f64> =
+            (1..400).map(|i| part.curve.jet(part.from + (part.to - part.from) * f64::from(i) / 400.0).curvature_dt()).collect();
         assert!(part.spiral && (signs.iter().all(|s| *s > 0.0) || signs.iter().all(|s| *s < 0.0)), "{request:?}");
     }
     path.parts
@@ -210,18 +209,15 @@ fn the_five_templates_have_the_known_places() {
     assert!(matches!(outcome, Outcome::NoSpirals { .. }));
     let parts = &outcome.path().parts;
     assert!(near(parts[1].ends()[0].point, point(&known["join"])) && near(parts[1].ends()[1].point, point(&known["end"])));
-    assert!(near(parts[1].curve.jet(0.5).point, point(&known["mid2"])));
+    assert!(near(parts[1].curve.jet(0.3).point, point(&known["mid2"])));
     assert_eq!((parts[1].curve.p, parts[1].curve.q), (-0.5, 0.5));
 
     // Run backwards, the first spiral ends at the joint; the vectors have it on the right.
     for (name, other) in [("s_shape", -1.0), ("c_shape", 1.0)] {
         let known = &templates[name];
         let [first, second] = [0, 1].map(|which| segment(known, which));
-        let template = if other < 0.0 {
-            Template::S { first: second, second: first }
-        } else {
-            Template::C { first: second, second: first }
-        };
+        let template =
+            if other < 0.0 { Template::S { first: second, second: first } } else { Template::C { first: second, second: first } };
         let turn = if other < 0.0 { Turn::Right } else { Turn::Left };
         let parts = check(&Request { turn, ..at_origin(template) });
         let ends = known["ends"].as_array().unwrap();

@@ -1,4 +1,4 @@
-// Signs of a polynomial in Bernstein form on [0, 1]; twin of num/bernstein.rs in f32. A family says how many COEFFICIENTS.
+// Signs of a quintic in Bernstein form on [0, 1]; twin of num/bernstein.rs in f32.
 
 const NEGATIVE: u32 = 0u;
 const POSITIVE: u32 = 1u;
@@ -8,10 +8,10 @@ const UNKNOWN: u32 = 2u;
 const MOST_HALVINGS: u32 = 10u;
 
 // POSITIVE, NEGATIVE (somewhere), or UNKNOWN, for coefficients that may each be off by `error`; each halving adds `rounding`:
-// a step of one addition, exactly halved, for each coefficient but one.
-fn positive(coefficients: array<f32, COEFFICIENTS>, error: f32, rounding: f32) -> u32 {
+// five steps of one addition, exactly halved.
+fn positive(coefficients: array<f32, 6>, error: f32, rounding: f32) -> u32 {
     // Depth first with the right halves waiting: one a level, and the piece in hand.
-    var waiting: array<array<f32, COEFFICIENTS>, 12>;
+    var waiting: array<array<f32, 6>, 12>;
     var levels: array<u32, 12>;
     waiting[0] = coefficients;
     levels[0] = 0u;
@@ -25,17 +25,17 @@ fn positive(coefficients: array<f32, COEFFICIENTS>, error: f32, rounding: f32) -
         var piece = waiting[count];
         let level = levels[count];
         let e = error + rounding * f32(level);
-        // The outer coefficients are values of the polynomial.
-        if piece[0] < -e || piece[COEFFICIENTS - 1u] < -e {
+        // The outer coefficients are values of the quintic.
+        if piece[0] < -e || piece[5] < -e {
             return NEGATIVE;
         }
         var certain = 0u;
         var above = 0u;
-        for (var i = 0u; i < COEFFICIENTS; i += 1u) {
+        for (var i = 0u; i < 6u; i += 1u) {
             above += u32(piece[i] > e);
             certain += u32(abs(piece[i]) > e);
         }
-        if above == COEFFICIENTS {
+        if above == 6u {
             continue;
         }
         if level == MOST_HALVINGS || certain == 0u {
@@ -43,13 +43,13 @@ fn positive(coefficients: array<f32, COEFFICIENTS>, error: f32, rounding: f32) -
             continue;
         }
         var left = piece;
-        for (var step = 1u; step < COEFFICIENTS; step += 1u) {
+        for (var step = 1u; step < 6u; step += 1u) {
             left[step - 1u] = piece[0];
-            for (var i = 0u; i < COEFFICIENTS - step; i += 1u) {
+            for (var i = 0u; i < 6u - step; i += 1u) {
                 piece[i] = (piece[i] + piece[i + 1u]) * 0.5;
             }
         }
-        left[COEFFICIENTS - 1u] = piece[0];
+        left[5] = piece[0];
         waiting[count] = piece;
         levels[count] = level + 1u;
         waiting[count + 1u] = left;

@@ -13,6 +13,7 @@ use std::sync::atomic::AtomicBool;
 mod adapters;
 mod any_spiral;
 mod cubic;
+mod ph_quintic;
 mod reach;
 mod trig_quintic;
 
@@ -31,9 +32,10 @@ struct Subject {
 }
 
 fn subjects() -> Vec<Subject> {
-    let subjects = vec![cubic::subject(), any_spiral::subject(), reach::cubic(), reach::ph(), trig_quintic::subject()];
+    let subjects =
+        vec![cubic::subject(), any_spiral::subject(), reach::cubic(), reach::ph(), ph_quintic::subject(), trig_quintic::subject()];
     assert_eq!(subjects.len(), family::all().len(), "every family is compared");
-    subjects.into_iter().filter(|s| s.family.name()=="trig-quintic").collect()/*TEMP*/
+    subjects
 }
 
 fn lin(name: &str, lo: f64, hi: f64, count: usize) -> Axis {

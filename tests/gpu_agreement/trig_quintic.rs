@@ -33,34 +33,3 @@ fn grids() -> Vec<(&'static str, Grid)> {
         ),
     ]
 }
-
-#[test]
-fn debug_open() {
-    use spiral_atlas::eval::gpu::{Engine, Settings};
-    use spiral_atlas::family::{Code, Family};
-    let grid = &grids()[0].1;
-    let table = TrigQuintic.table(grid).unwrap();
-    let mut truth = vec![Code::UNDECIDED; grid.len() as usize];
-    table.filter(0, &mut truth);
-    let mut hist = vec![vec![[0u32; 3]; 30]; 5];
-    let mut engine = Engine::new(None, &*table, grid, &Settings::default()).unwrap();
-    let mut shown = 0;
-    engine.run(0..grid.len(), &std::sync::atomic::AtomicBool::new(false), |start, codes| {
-        for (i, code) in codes.iter().enumerate() {
-            let node = start + i as u64;
-            let index = grid.index(node);
-            let t = truth[node as usize];
-            for a in 0..5 {
-                hist[a][index[a]][0] += 1;
-                hist[a][index[a]][1] += u32::from(*code == Code::UNDECIDED);
-                hist[a][index[a]][2] += u32::from(*code != Code::UNDECIDED && t != Code::UNDECIDED && *code != t);
-            }
-            if *code != Code::UNDECIDED && t != Code::UNDECIDED && *code != t && shown < 20 {
-                shown += 1;
-                println!("{:?} {:?} {:?} {:?}", index, grid.node(node), code, t);
-            }
-        }
-        Ok(())
-    }).unwrap();
-    for a in 0..5 { println!("axis {a}: {:?}", hist[a].iter().filter(|h| h[0] > 0).collect::<Vec<_>>()); }
-}

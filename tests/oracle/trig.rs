@@ -113,7 +113,7 @@ fn numerator(points: &[[Iv; 2]], p: f64, q: f64, bits: usize) -> Sure<Poly> {
     // The first two sides are parallel: κ has a double zero at the start.
     let zero = Iv::new(0.0, bits);
     for c in &mut cross.0[..2] {
-        assert!(c.sign().is_err() || c.is_exact_zero());
+        assert!(c.sign().is_err() || c.is_exact_zero(), "not parallel");
         *c = zero.clone();
     }
     let square = x.mul(&x).add(&y.mul(&y));
@@ -123,7 +123,17 @@ fn numerator(points: &[[Iv; 2]], p: f64, q: f64, bits: usize) -> Sure<Poly> {
     let falling = cross.mul(&v).mul(&square.derivative()).times(-1.5);
     let mut all = rising.add(&through_v).add(&falling);
     all.0.truncate(39);
-    Ok(Poly(all.0.split_off(1)))
+    let mut slope = all.0.split_off(1);
+    // Without p and q the hodograph has the factor V, and this its fourth power, which no Sturm chain would survive.
+    if p == 0.0 && q == 0.0 {
+        for _ in 0..4 {
+            for i in (0..slope.len() - 2).rev() {
+                slope[i] = &slope[i] - &slope[i + 2];
+            }
+            slope.drain(..2);
+        }
+    }
+    Ok(Poly(slope))
 }
 
 /// Whether a polynomial with a positive value at 0 is at least 0 on [0, 1]; it has no multiple roots. With a root at 1 itself there

@@ -4,11 +4,11 @@ use crate::curve::Jet;
 use crate::curve::length::arc_length;
 use crate::curve::vector::{Vector, add, scale};
 use crate::error::{Error, Result};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::f64::consts::FRAC_PI_2;
 
 /// `z(t) = Σ Pi gi(t)`, t in [0, 1]: (1), (2) of Misro, Ramli and Ali. Kept as its start and the sides of its polygon, so that nothing is lost far from the origin.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrigBezier {
     /// P0.
     pub start: [f64; 2],
@@ -18,6 +18,19 @@ pub struct TrigBezier {
     pub p: f64,
     /// Shape parameter of the end.
     pub q: f64,
+}
+
+/// As its control points, p and q.
+impl Serialize for TrigBezier {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Told {
+            p: f64,
+            q: f64,
+            control_points: [[f64; 2]; 6],
+        }
+        Told { p: self.p, q: self.q, control_points: self.points() }.serialize(serializer)
+    }
 }
 
 /// A function of the angle `πt/2` and its first two derivatives.

@@ -191,15 +191,19 @@ fn local(template: &Template, scaling: Scaling) -> Result<(Vec<Part>, [f64; 3])>
         Template::S { first, second } | Template::C { first, second } => {
             let (one, two) = (part(first)?, part(second)?);
             let other = if matches!(template, Template::S { .. }) { -1.0 } else { 1.0 };
-            let parts =
-                vec![Part { curve: flipped(&one.curve, [-1.0, 1.0]).reversed(), ..one }, Part { curve: flipped(&two.curve, [1.0, other]), ..two }];
+            let parts = vec![
+                Part { curve: flipped(&one.curve, [-1.0, 1.0]).reversed(), ..one },
+                Part { curve: flipped(&two.curve, [1.0, other]), ..two },
+            ];
             (parts, [1.0 / first.radius, 0.0, other / second.radius])
         }
         Template::CircleInCircle { inner, outer } => {
             positive("outer", *outer)?;
             if *outer <= inner.radius {
                 let radius = inner.radius;
-                return Err(Error::Domain(format!("the outer radius is {outer:?}; it must be above that of the inner circle, {radius:?}")));
+                return Err(Error::Domain(format!(
+                    "the outer radius is {outer:?}; it must be above that of the inner circle, {radius:?}"
+                )));
             }
             let whole = part(inner)?;
             // The paper starts where the curvature is 0.
@@ -232,7 +236,9 @@ fn positive(name: &str, value: f64) -> Result<()> {
 fn why_not(template: &Template, scaling: Scaling) -> Result<Option<String>> {
     let segments = match template {
         Template::LineCircle(segment) | Template::CircleInCircle { inner: segment, .. } => vec![segment],
-        Template::LineLine { first, second } | Template::S { first, second } | Template::C { first, second } => vec![first, second],
+        Template::LineLine { first, second } | Template::S { first, second } | Template::C { first, second } => {
+            vec![first, second]
+        }
     };
     for Segment { shape, radius } in segments {
         let Shape { ratio, theta, m, p, q } = *shape;
@@ -265,7 +271,9 @@ impl Path {
         }
         let mut s = 0.0;
         let part = |part: &Part| {
-            let t = |i: usize| if i + 1 == count { part.to } else { part.from + (part.to - part.from) * i as f64 / (count - 1) as f64 };
+            let t = |i: usize| {
+                if i + 1 == count { part.to } else { part.from + (part.to - part.from) * i as f64 / (count - 1) as f64 }
+            };
             let sample = |i: usize| {
                 s += if i == 0 { 0.0 } else { part.curve.length_between(t(i - 1), t(i)) };
                 let jet = part.curve.jet(t(i));

@@ -41,10 +41,7 @@ pub(super) fn shader() -> Shader {
         ("LEAST", 1.0 / MOST),
         ("KAPPA_MOST", KAPPA_MOST),
     ];
-    let mut constants = format!(
-        "const COEFFICIENTS: u32 = 6u;\nconst PAIR_STRIDE: u32 = {PAIR_STRIDE}u;\nconst UNDECIDED: u32 = {}u;\n",
-        Code::UNDECIDED.0
-    );
+    let mut constants = format!("const PAIR_STRIDE: u32 = {PAIR_STRIDE}u;\nconst UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
     for (name, value) in flags {
         constants += &format!("const {name}: u32 = {value}u;\n");
     }

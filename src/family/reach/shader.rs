@@ -43,10 +43,7 @@ pub(super) fn shader(kind: Kind) -> Shader {
         ("DRAWN_ABOVE", star * (1.0 + 4.0 * P.unit)),
         ("DRAWN_BELOW", star * (1.0 - 4.0 * P.unit)),
     ];
-    let mut constants = format!(
-        "const COEFFICIENTS: u32 = 6u;\nconst ANGLE_STRIDE: u32 = {ANGLE_STRIDE}u;\nconst UNDECIDED: u32 = {}u;\n",
-        Code::UNDECIDED.0
-    );
+    let mut constants = format!("const ANGLE_STRIDE: u32 = {ANGLE_STRIDE}u;\nconst UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
     for (name, value) in flags {
         constants += &format!("const {name}: u32 = {value}u;\n");
     }

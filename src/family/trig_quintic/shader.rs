@@ -13,6 +13,10 @@ use std::cmp::Ordering::Less;
 const PAIR_STRIDE: usize = 5;
 const P_STRIDE: usize = 2;
 const Q_STRIDE: usize = 3;
+/// Pieces that wait: a piece of 2^-10 shows features that the error of f32 coefficients does not hide anyway.
+const MOST_LEVELS: usize = 12;
+/// Halvings of one polynomial; see `positive` in the shader.
+const MOST_HALVINGS: usize = 32;
 /// 2^-24.
 const UNIT: f64 = 1.0 / (1u32 << 24) as f64;
 /// m, y and their inverses stay below this, and `1/(4 + p)`, `1/(4 + q)` below [`MOST_END`]. Then the sides, normalised, lie within
@@ -32,7 +36,17 @@ pub(super) fn shader() -> Shader {
         ("PRINTED_RATIO", PRINTED_RATIO),
         ("END_CURVATURE_AS_PRINTED", END_CURVATURE_AS_PRINTED),
     ];
-    let counts = [("COEFFICIENTS", K), ("PAIR_STRIDE", PAIR_STRIDE), ("P_STRIDE", P_STRIDE), ("Q_STRIDE", Q_STRIDE)];
+    let counts = [
+        ("NEGATIVE", 0),
+        ("POSITIVE", 1),
+        ("UNKNOWN", 2),
+        ("COEFFICIENTS", K),
+        ("MOST_LEVELS", MOST_LEVELS),
+        ("MOST_HALVINGS", MOST_HALVINGS),
+        ("PAIR_STRIDE", PAIR_STRIDE),
+        ("P_STRIDE", P_STRIDE),
+        ("Q_STRIDE", Q_STRIDE),
+    ];
     let mut constants = format!("const UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
     for (name, value) in flags {
         constants += &format!("const {name}: u32 = {value}u;\n");
@@ -43,9 +57,8 @@ pub(super) fn shader() -> Shader {
     for (name, value) in [("UNIT", UNIT), ("ERROR", ERROR), ("FLOOR", FLOOR)] {
         constants += &format!("const {name}: f32 = {value:e};\n");
     }
-    let bernstein = ("lib/bernstein.wgsl", include_str!("../../../shaders/lib/bernstein.wgsl"));
     let own = ("trig_quintic.wgsl", include_str!("../../../shaders/trig_quintic.wgsl"));
-    Shader { constants, fragments: vec![bernstein, own] }
+    Shader { constants, fragments: vec![own] }
 }
 
 /// The factors of Bernstein's basis, then pairs, then the axes of m, p and q.
