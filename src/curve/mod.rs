@@ -32,6 +32,7 @@ mod ph;
 mod placement;
 pub mod reach;
 mod spiral;
+pub mod trig;
 mod vector;
 mod why;
 

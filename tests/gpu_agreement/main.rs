@@ -15,6 +15,7 @@ mod any_spiral;
 mod cubic;
 mod ph_quintic;
 mod reach;
+mod trig_quintic;
 
 /// What is compared for one family.
 struct Subject {
@@ -31,10 +32,16 @@ struct Subject {
 }
 
 fn subjects() -> Vec<Subject> {
-    let subjects = vec![cubic::subject(), ph_quintic::subject(), any_spiral::subject(), reach::cubic(), reach::ph()];
+    let subjects = vec![
+        cubic::subject(),
+        ph_quintic::subject(),
+        any_spiral::subject(),
+        reach::cubic(),
+        reach::ph(),
+        trig_quintic::subject(),
+    ];
     assert_eq!(subjects.len(), family::all().len(), "every family is compared");
-    let only = std::env::var("ONLY_TMP").unwrap_or_default();
-    subjects.into_iter().filter(|s| s.family.name().contains(&only)).collect()
+    subjects
 }
 
 fn lin(name: &str, lo: f64, hi: f64, count: usize) -> Axis {

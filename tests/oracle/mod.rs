@@ -12,6 +12,7 @@ mod margin;
 pub mod ph;
 pub mod poly;
 pub mod reach;
+pub mod trig;
 
 pub use curve::Ends;
 
