@@ -32,8 +32,14 @@ struct Subject {
 }
 
 fn subjects() -> Vec<Subject> {
-    let subjects =
-        vec![cubic::subject(), any_spiral::subject(), reach::cubic(), reach::ph(), ph_quintic::subject(), trig_quintic::subject()];
+    let subjects = vec![
+        cubic::subject(),
+        any_spiral::subject(),
+        reach::cubic(),
+        reach::ph(),
+        ph_quintic::subject(),
+        trig_quintic::subject(),
+    ];
     assert_eq!(subjects.len(), family::all().len(), "every family is compared");
     subjects
 }
