@@ -3,9 +3,9 @@ use spiral_atlas::family::trig_quintic::{SPIRAL, TrigQuintic};
 use spiral_atlas::grid::Grid;
 use std::f64::consts::FRAC_PI_2;
 
-/// A polynomial of degree 37 brings more rounding than the other families have: 1 node in 12 may be open.
+/// A polynomial of degree 37 brings more rounding than the other families have: 1 node in 25 may be open.
 pub fn subject() -> Subject {
-    Subject { family: &TrigQuintic, grids: grids(), nodes: 280_000, rare: 12, flag: SPIRAL, often: 10 }
+    Subject { family: &TrigQuintic, grids: grids(), nodes: 67_000, rare: 25, flag: SPIRAL, often: 10 }
 }
 
 /// Five axes of different counts; the paper's own data, ties of the plain flags and all ends of the domain among the nodes.
@@ -15,10 +15,10 @@ fn grids() -> Vec<(&'static str, Grid)> {
             "around the thresholds",
             grid(vec![
                 lin("ratio", 3.0, 9.0, 5),
-                lin("theta", 0.1, 1.5, 9),
-                lin("m", 0.3, 6.0, 13),
-                lin("p", -3.9, 1.0, 17),
-                lin("q", -3.9, 1.0, 29),
+                lin("theta", 0.1, 1.5, 7),
+                lin("m", 0.3, 6.0, 9),
+                lin("p", -3.9, 1.0, 11),
+                lin("q", -3.9, 1.0, 19),
             ]),
         ),
         (
