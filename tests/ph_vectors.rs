@@ -82,12 +82,21 @@ fn every_published_solution() {
         assert_eq!(found.flags() & SOLVABLE != 0, !want.is_empty());
         assert_eq!(found.flags() & SPIRAL != 0, want.iter().any(|r| r[2] == 1.0));
         assert!(any.is_none_or(|any| (any == 1.0) == (found.flags() & ANY_SPIRAL != 0)), "{datum:?}");
+        // The comparison notices a changed number, verdict and count.
+        for i in 0..5 {
+            let mut wrong = want.clone();
+            let Some(row) = wrong.first_mut() else { break };
+            row[i] = if i == 2 { 1.0 - row[i] } else { row[i] * (1.0 + 1e-11) };
+            assert_eq!(faults(&wrong, found.all()).len(), 1);
+            wrong.pop();
+            assert_eq!(faults(&wrong, found.all()).len(), 1);
+        }
         compared += want.len();
         spirals += found.all().iter().filter(|q| q.spiral).count();
         scalars_agree(&datum, &found);
     }
     println!("{compared} solutions, {spirals} spirals");
-    assert!(compared >= 80 && spirals >= 25, "{compared} {spirals}");
+    assert!(compared >= 69 && spirals >= 45, "{compared} {spirals}");
 }
 
 /// The stored scalars are the chosen spiral's, rounded.

@@ -41,7 +41,7 @@ enum Command {
     Info(info::Args),
     Adapters(adapters::Args),
     Query(query::Args),
-    Curve(curve::Args),
+    Curve(Box<curve::Args>),
     Path(path::Args),
     /// Print shell completions.
     #[command(after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]

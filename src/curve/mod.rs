@@ -33,6 +33,7 @@ mod placement;
 mod quintic;
 pub mod reach;
 mod spiral;
+pub mod trig;
 mod vector;
 mod why;
 

@@ -88,18 +88,15 @@ impl Real for Ball {
     #[inline(always)]
     fn over(&self, divisor: &Ball) -> Option<Ball> {
         let least = divisor.value.abs() - divisor.error;
-        if !(least > 0.0) {
-            return None;
-        }
+        // Not for NaN either.
+        (least > 0.0).then_some(())?;
         let value = self.value / divisor.value;
         let inputs = self.error + value.abs() * divisor.error;
         Some(Ball { value, error: (inputs / least * GROW + value.abs() * (2.0 * UNIT)) * GROW + TINY })
     }
     /// `|√x - √y| <= |x - y| / √y`.
     fn sqrt(&self) -> Option<Ball> {
-        if !(self.value > self.error) {
-            return None;
-        }
+        (self.value > self.error).then_some(())?;
         let value = self.value.sqrt();
         Some(Ball { value, error: (self.error / value + value * UNIT) * GROW + TINY })
     }

@@ -13,6 +13,11 @@ pub type Quintic<N> = [N; 6];
 pub trait Certain: Number {
     /// The sign if it is certain, given that the value may be off by `error` in either direction.
     fn certain_sign(&self, error: f64) -> Option<Ordering>;
+    /// Its absolute value, as far as rounding errors depend on it: 0 where numbers carry their own.
+    #[inline(always)]
+    fn grain(&self) -> f64 {
+        0.0
+    }
 }
 
 impl Certain for f64 {
@@ -25,6 +30,10 @@ impl Certain for f64 {
         } else {
             None
         }
+    }
+    #[inline(always)]
+    fn grain(&self) -> f64 {
+        self.abs()
     }
 }
 
@@ -56,12 +65,23 @@ pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
 ///
 /// # Arguments
 /// - `error`: how far each coefficient may be from the truth (0 for intervals).
-/// - `rounding`: error added by each halving: `K - 1` units of 2^-53 of the largest coefficient for doubles, 0 for intervals.
+/// - `rounding`: error added by the first halving: `K - 1` units of 2^-53 of the largest coefficient for doubles, 0 for intervals;
+///   a piece's own is in proportion to its own largest coefficient.
 /// - `depth`: most halvings of a piece before giving up.
 ///
 /// Coefficients bound the polynomial from below on their piece (convex hull); the outer two are its values there.
 /// A zero is never decided: the truth at a tie needs more than this test.
 pub fn positive<N: Certain, const K: usize>(c: &[N; K], error: f64, rounding: f64, depth: u32) -> Option<bool> {
+    // Relative from here on, because pieces may be much smaller than the whole.
+    let unit = if rounding > 0.0 { 1.01 * rounding / largest(c).max(f64::MIN_POSITIVE) } else { 0.0 };
+    positive_piece(c, error, unit, depth)
+}
+
+fn largest<N: Certain, const K: usize>(c: &[N; K]) -> f64 {
+    c.iter().fold(0.0, |most, v| v.grain().max(most))
+}
+
+fn positive_piece<N: Certain, const K: usize>(c: &[N; K], error: f64, unit: f64, depth: u32) -> Option<bool> {
     if [&c[0], &c[K - 1]].iter().any(|v| v.certain_sign(error) == Some(Ordering::Less)) {
         return Some(false);
     }
@@ -73,12 +93,12 @@ pub fn positive<N: Certain, const K: usize>(c: &[N; K], error: f64, rounding: f6
         return None;
     }
     let (left, right) = halve(c);
-    let error = error + rounding;
-    match positive(&left, error, rounding, depth - 1) {
+    let error = error + unit * largest(c);
+    match positive_piece(&left, error, unit, depth - 1) {
         Some(false) => Some(false),
-        Some(true) => positive(&right, error, rounding, depth - 1),
+        Some(true) => positive_piece(&right, error, unit, depth - 1),
         // One half may still prove it negative.
-        None => match positive(&right, error, rounding, depth - 1) {
+        None => match positive_piece(&right, error, unit, depth - 1) {
             Some(false) => Some(false),
             _ => None,
         },

@@ -13,7 +13,9 @@ use std::sync::atomic::AtomicBool;
 mod adapters;
 mod any_spiral;
 mod cubic;
+mod ph_quintic;
 mod reach;
+mod trig_quintic;
 
 /// What is compared for one family.
 struct Subject {
@@ -30,7 +32,14 @@ struct Subject {
 }
 
 fn subjects() -> Vec<Subject> {
-    let subjects = vec![cubic::subject(), any_spiral::subject(), reach::cubic(), reach::ph()];
+    let subjects = vec![
+        cubic::subject(),
+        ph_quintic::subject(),
+        any_spiral::subject(),
+        reach::cubic(),
+        reach::ph(),
+        trig_quintic::subject(),
+    ];
     assert_eq!(subjects.len(), family::all().len(), "every family is compared");
     subjects
 }

@@ -3,7 +3,7 @@ use spiral_atlas::family::ph_quintic::{PhQuintic, SPIRAL};
 use spiral_atlas::grid::Grid;
 
 pub fn subject() -> Subject {
-    Subject { family: &PhQuintic, grids: grids(), nodes: 500_000, rare: 20, flag: SPIRAL, often: 50 }
+    Subject { family: &PhQuintic, grids: grids(), nodes: 500_000, rare: 100, flag: SPIRAL, often: 50 }
 }
 
 /// Grids of four different counts.
@@ -15,7 +15,7 @@ fn grids() -> Vec<(&'static str, Grid)> {
                 lin("phi0", 0.05, 1.1, 13),
                 lin("phi1", 0.1, 1.55, 17),
                 lin("kappa0", 0.01, 0.9, 29),
-                log("kappa1", 0.4, 80.0, 31),
+                log("kappa1", 0.4, 80.0, 37),
             ]),
         ),
         (

@@ -9,8 +9,10 @@ mod curve;
 pub mod data;
 pub mod iv;
 mod margin;
+pub mod ph;
 pub mod poly;
 pub mod reach;
+pub mod trig;
 
 pub use curve::Ends;
 

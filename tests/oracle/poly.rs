@@ -81,7 +81,10 @@ impl Sturm {
             if rest.0.is_empty() {
                 break;
             }
-            chain.push(Poly(rest.0.iter().map(|c| -c).collect()));
+            // Without division coefficients are squared at every step; a power of two keeps their exponents in range.
+            let largest = rest.0.iter().map(Iv::exponent).filter(|e| *e > i32::MIN).max().unwrap_or(0);
+            let scale = Iv::power_of_two(-largest, rest.0[0].bits());
+            chain.push(Poly(rest.0.iter().map(|c| &-c * &scale).collect()));
         }
         chain.last().expect("two at least").lead()?;
         Ok(Sturm(chain))

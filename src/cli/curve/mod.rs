@@ -4,6 +4,7 @@ mod cubic;
 mod involute;
 mod ph;
 mod reach;
+mod trig;
 
 use super::{Outcome, output};
 use spiral_atlas::curve::{Ends, Turn, direction_of, reach::Base};
@@ -25,6 +26,9 @@ const SAMPLES: usize = 801;
 /// Added to the end of a line or of an arc (`reach-cubic`, `reach-ph`): a segment between curvature 0 and 1/radius that turns by an
 /// angle, given by its shape numbers m and q or by its end point.
 ///
+/// From a line or a circle to a line or a circle (`trig-quintic`): quintic trigonometric spirals in one of five templates, each given by the angle that
+/// it turns, its radius and its shape numbers.
+///
 /// When there is none, says which condition fails, with numbers; that is an answer too, and exits with 0.
 #[derive(clap::Args)]
 #[command(
@@ -33,7 +37,9 @@ const SAMPLES: usize = 801;
                         spiral-atlas curve --family involute --from 0,0 --to 2,0 --start-direction 1,-0.84 \\\n      \
                         --end-direction 0.17,0.98 --start-curvature -0.3 --end-curvature 4 --json\n  \
                         spiral-atlas curve --family reach-ph --base line --from 10,5 --start-direction 30deg --turn left \\\n      \
-                        --radius 20 --angle 45deg --to 30,25"
+                        --radius 20 --angle 45deg --to 30,25\n  \
+                        spiral-atlas curve --family trig-quintic --template line-circle --from 10,5 --start-direction 30deg \\\n      \
+                        --turn left --radius 20 --angle 42deg --m 1"
 )]
 pub struct Args {
     /// What kind of curve.
@@ -81,6 +87,24 @@ pub struct Args {
     /// Shape q, instead of the end point.
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = REACH)]
     q: Option<f64>,
+    /// What is joined, in the direction of travel; `--from` is its start, for `s` and `c` the point between the spirals.
+    #[arg(long, value_name = "NAME", value_parser = ["line-circle", "line-line", "s", "c", "circle-in-circle"], help_heading = TRIG)]
+    template: Option<String>,
+    /// s / tan(angle/2); left out: 6, or with --as-printed the paper's (6 + m)/2.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = TRIG)]
+    ratio: Option<f64>,
+    /// Shape p, from -4 to 1; left out: 0, and so is q.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = TRIG)]
+    p: Option<f64>,
+    /// Angle, radius, ratio, m, p, q of the second spiral; left out: as the first.
+    #[arg(long, value_name = "ANGLE,RADIUS,RATIO,M,P,Q", value_parser = parse_second, allow_hyphen_values = true, help_heading = TRIG)]
+    second: Option<[f64; 6]>,
+    /// Radius of the outer circle, for `circle-in-circle`.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = TRIG)]
+    outer: Option<f64>,
+    /// Scale the curve as the paper does, which misses the end curvature.
+    #[arg(long, help_heading = TRIG)]
+    as_printed: bool,
     /// Draw the curve with its polygon and end circles, its curvature and the derivative of that.
     #[arg(long, value_name = "FILE.png")]
     figure: Option<PathBuf>,
@@ -89,7 +113,8 @@ pub struct Args {
     json: bool,
 }
 
-const REACH: &str = "For `reach-cubic` and `reach-ph`";
+const REACH: &str = "For `reach-cubic`, `reach-ph` and `trig-quintic`";
+const TRIG: &str = "For `trig-quintic`";
 
 /// Families that make curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -99,6 +124,7 @@ enum Family {
     Involute,
     ReachCubic,
     ReachPh,
+    TrigQuintic,
 }
 
 /// What a family found.
@@ -128,6 +154,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         }
         Family::ReachCubic => Box::new(reach::find(Kind::Cubic, &args.segment())?),
         Family::ReachPh => Box::new(reach::find(Kind::Ph, &args.segment())?),
+        Family::TrigQuintic => Box::new(trig::find(&args.template())?),
     };
     output::print(&if args.json { found.json()? + "\n" } else { found.text() + "\n" })?;
     if let Some(path) = &args.figure {
@@ -142,7 +169,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 
 impl Args {
     /// Every option with a value of its own that not all families know, and whether it is given.
-    fn given(&self) -> [(&'static str, bool); 14] {
+    fn given(&self) -> [(&'static str, bool); 20] {
         [
             ("--from", self.from.is_some()),
             ("--to", self.to.is_some()),
@@ -158,6 +185,12 @@ impl Args {
             ("--angle", self.angle.is_some()),
             ("--m", self.m.is_some()),
             ("--q", self.q.is_some()),
+            ("--template", self.template.is_some()),
+            ("--ratio", self.ratio.is_some()),
+            ("--p", self.p.is_some()),
+            ("--second", self.second.is_some()),
+            ("--outer", self.outer.is_some()),
+            ("--as-printed", self.as_printed),
         ]
     }
 
@@ -212,6 +245,49 @@ impl Args {
     }
 }
 
+impl Args {
+    /// The template and where it lies.
+    fn template(&self) -> trig::Request {
+        use spiral_atlas::curve::trig::{Scaling, Segment, Template};
+        use spiral_atlas::family::trig_quintic::Shape;
+        let name = self.template.as_deref().unwrap_or_default();
+        let mut needed = vec!["--template", "--from", "--start-direction", "--turn", "--radius", "--angle", "--m"];
+        let mut allowed = vec!["--ratio", "--p", "--q", "--as-printed"];
+        match name {
+            "circle-in-circle" => needed.push("--outer"),
+            "line-circle" => {}
+            _ => allowed.push("--second"),
+        }
+        self.check(&needed, &allowed);
+        let (m, radius) = (self.m.unwrap_or_default(), self.radius.unwrap_or_default());
+        let ratio = self.ratio.unwrap_or(if self.as_printed { 0.5 * (6.0 + m) } else { 6.0 });
+        let shape = Shape {
+            ratio,
+            theta: self.angle.unwrap_or_default(),
+            m,
+            p: self.p.unwrap_or_default(),
+            q: self.q.unwrap_or_default(),
+        };
+        let first = Segment { shape, radius };
+        let second = self
+            .second
+            .map_or(first, |[theta, radius, ratio, m, p, q]| Segment { shape: Shape { ratio, theta, m, p, q }, radius });
+        trig::Request {
+            template: match name {
+                "line-circle" => Template::LineCircle(first),
+                "line-line" => Template::LineLine { first, second },
+                "s" => Template::S { first, second },
+                "c" => Template::C { first, second },
+                _ => Template::CircleInCircle { inner: first, outer: self.outer.unwrap_or_default() },
+            },
+            at: self.from.unwrap_or_default(),
+            direction: self.start_direction.unwrap_or_default(),
+            turn: if self.turn.as_deref() == Some("right") { Turn::Right } else { Turn::Left },
+            scaling: if self.as_printed { Scaling::AsPrinted } else { Scaling::Corrected },
+        }
+    }
+}
+
 /// A circle of curvature for a figure.
 fn circle(at: [f64; 2], direction: f64, curvature: f64, label: &str) -> EndCircle {
     EndCircle { at, direction: [direction.cos(), direction.sin()], curvature, label: label.into() }
@@ -235,6 +311,17 @@ fn parse_point(text: &str) -> std::result::Result<[f64; 2], String> {
 fn parse_turns(text: &str) -> std::result::Result<[u32; 2], String> {
     let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
     both.ok_or_else(|| format!("{text:?} is not two numbers of turns `n1,n2`"))
+}
+
+/// An angle and five numbers with commas between.
+fn parse_second(text: &str) -> std::result::Result<[f64; 6], String> {
+    let wrong = || format!("{text:?} is not an angle and five finite numbers `angle,radius,ratio,m,p,q`");
+    let mut cells = text.split(',').map(str::trim);
+    let angle = cells.next().and_then(|cell| parse_angle(cell).ok()).ok_or_else(wrong)?;
+    let rest: Option<Vec<f64>> = cells.map(|cell| cell.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let rest: [f64; 5] = rest.and_then(|rest| rest.try_into().ok()).ok_or_else(wrong)?;
+    let [radius, ratio, m, p, q] = rest;
+    Ok([angle, radius, ratio, m, p, q])
 }
 
 /// An angle, or a vector.

@@ -21,8 +21,10 @@ pub(super) struct Params {
     hop: [u32; 4],
     offsets: [u32; 4],
     count: u32,
+    /// 2.
+    two: u32,
     // A uniform's size is a multiple of 16 bytes.
-    padding: [u32; 3],
+    padding: [u32; 2],
 }
 
 impl Params {
@@ -41,7 +43,16 @@ impl Params {
         }
         // It wraps, as the shaders' own arithmetic does.
         first[0] = rest as u32;
-        Params { shape, first, one: digits(&shape, 1), hop: digits(&shape, 2 * GROUP_SIZE - 2), offsets, count, padding: [0; 3] }
+        Params {
+            shape,
+            first,
+            one: digits(&shape, 1),
+            hop: digits(&shape, 2 * GROUP_SIZE - 2),
+            offsets,
+            count,
+            two: 2,
+            padding: [0; 2],
+        }
     }
 }
 

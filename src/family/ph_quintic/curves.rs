@@ -30,6 +30,8 @@ pub(super) struct Curves<N> {
     pub cos: N,
     /// The right-hand sides.
     pub right: [N; 2],
+    /// `30 sin((φ1 - φ0)/2) / sin Φ`.
+    pub skew: N,
     /// Coefficients, by the powers of t in the comments of [`Curves::at`].
     flat: [N; 2],
     own: [N; 2],
@@ -58,18 +60,18 @@ impl<N: Real> Curves<N> {
         let scale = [scale(bend[0].approx()), scale(bend[1].approx())];
         let cubed = |x: &N, p: f64| x.times(p).times(p).times(p);
         let bend = [cubed(&bend[0], scale[0]), cubed(&bend[1], scale[1])];
-        Some(Curves::new(scale, bend, pair.cos.clone(), pair.right.clone()))
+        Some(Curves::new(scale, bend, pair.cos.clone(), pair.right.clone(), pair.skew.clone()))
     }
 
     /// About the same in doubles, for guesses.
     pub fn approx(&self) -> Curves<f64> {
         let near = |x: &[N; 2]| [x[0].approx(), x[1].approx()];
-        Curves::new(self.scale, near(&self.bend), self.cos.approx(), near(&self.right))
+        Curves::new(self.scale, near(&self.bend), self.cos.approx(), near(&self.right), self.skew.approx())
     }
 }
 
 impl<N: Number> Curves<N> {
-    fn new(scale: [f64; 2], bend: [N; 2], cos: N, right: [N; 2]) -> Curves<N> {
+    fn new(scale: [f64; 2], bend: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
         let [p, q] = scale;
         let c = cos.times(2.0);
         let [alpha, beta] = &bend;
@@ -83,13 +85,14 @@ impl<N: Number> Curves<N> {
             bend,
             cos,
             right,
+            skew,
         }
     }
 
     /// The same datum with its ends exchanged: Z and t become b² and 1/t, and the curves change places.
     pub fn reversed(&self) -> Curves<N> {
         let swap = |x: &[N; 2]| [x[1].clone(), x[0].clone()];
-        Curves::new([self.scale[1], self.scale[0]], swap(&self.bend), self.cos.clone(), swap(&self.right))
+        Curves::new([self.scale[1], self.scale[0]], swap(&self.bend), self.cos.clone(), swap(&self.right), self.skew.times(-1.0))
     }
 
     /// Both left-hand sides at t.

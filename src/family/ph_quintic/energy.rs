@@ -8,22 +8,25 @@
 use super::shape::Shape;
 use crate::num::{Number, Real};
 
-/// Most halvings of a piece.
-const DEPTH: u32 = 60;
-
 /// The energy times `Z / (4 sin² Φ)`; `None` when the precision does not suffice.
 pub(super) fn energy<N: Real>(shape: &Shape<N>) -> Option<N> {
-    piece(&shape.speed, &shape.turn, DEPTH)
-}
-
-/// The integral over a piece, as a share of the whole.
-fn piece<N: Real>(speed: &[N; 5], turn: &[N; 3], depth: u32) -> Option<N> {
-    if let Some(c) = centred(speed)? {
-        return series(speed, &c, turn);
+    // One halving more for each halving of the distance to a zero of σ, as close as doubles can put it.
+    let most = if shape.speed[0].bits() <= 53 { 64 } else { 1000 };
+    let mut sum = N::of(0.0, shape.speed[0].bits());
+    let mut waiting = vec![(shape.speed.clone(), shape.turn.clone(), 0)];
+    while let Some((speed, turn, depth)) = waiting.pop() {
+        if let Some(c) = centred(&speed)? {
+            sum = sum.add(&series(&speed, &c, &turn)?.times(2f64.powi(-depth)));
+            continue;
+        }
+        if depth == most {
+            return None;
+        }
+        let ((s0, s1), (t0, t1)) = (halve(&speed), halve(&turn));
+        waiting.push((s1, t1, depth + 1));
+        waiting.push((s0, t0, depth + 1));
     }
-    let ((s0, s1), (t0, t1)) = (halve(speed), halve(turn));
-    let depth = depth.checked_sub(1)?;
-    Some(piece(&s0, &t0, depth)?.add(&piece(&s1, &t1, depth)?).times(0.5))
+    Some(sum)
 }
 
 /// Both halves (de Casteljau).

@@ -8,7 +8,7 @@
 //!   signs of D at the ends tell whether there is one.
 //!
 //! Before the first and behind the last knot the curves are bounded by their limits: A falls and B rises along both.
-//! Intervals with neither certificate are halved. Distances are bounded by `|ln r| >= 2 |r - 1|/(r + 1)`.
+//! Intervals with neither certificate are halved. ([`super::narrow`] has two more, for φ0 + φ1 close to π.) Distances are bounded by `|ln r| >= 2 |r - 1|/(r + 1)`.
 //!
 //! A double meeting would need an algebraic relation between sines of the angles and the curvatures. By the theorem of Lindemann and
 //! Weierstrass the numbers `e^{iφ0/2}`, `e^{iφ1/2}` of doubles with irrational ratio are algebraically independent, and for a
@@ -16,6 +16,7 @@
 //! one would end as undecided at the precision cap.
 
 use super::curves::Curves;
+use super::narrow;
 use crate::num::Real;
 use std::cmp::Ordering::{self, Greater};
 
@@ -27,9 +28,9 @@ pub(super) struct Knot<N> {
     /// Heights Z of the two curves.
     pub z: [N; 2],
     /// Slopes s.
-    s: [N; 2],
+    pub s: [N; 2],
     /// Of the sign of D, and no larger: `2 (Z0 - Z1)/(Z0 + Z1)`.
-    gap: N,
+    pub gap: N,
 }
 
 /// A solution: t and Z, enclosed.
@@ -51,7 +52,7 @@ fn nearest(bits: usize) -> i32 {
 }
 
 /// Newton steps from a guess that may be poor where doubles have no range.
-const MOST_STEPS: usize = 64;
+const MOST_STEPS: usize = 200;
 
 /// Knots of one attempt: the most that doubles were seen to need is 60, beside a fold as close as 10^-9.
 fn most_knots(bits: usize) -> usize {
@@ -104,7 +105,7 @@ impl<N: Real> March<N> {
         let mut waiting = vec![last];
         for _ in 0..most_knots(self.bits()) {
             let Some(b) = waiting.last() else { return Some(brackets) };
-            match meets(&a, b) {
+            match meets(&a, b).or_else(|| narrow::meets(&self.curves, &a, b)) {
                 Some(once) => {
                     let b = waiting.pop()?;
                     if once {
@@ -147,12 +148,12 @@ impl<N: Real> March<N> {
 
     /// The one solution between two knots.
     fn enclose(&self, a: &Knot<N>, b: &Knot<N>) -> Option<Root<N>> {
-        let inside = |t: &N| t.sub(&a.t).is_positive() && b.t.sub(t).is_positive();
-        let mut t = N::of(self.guess(a, b), self.bits());
-        if !inside(&t) {
-            t = a.t.add(&b.t).times(0.5).middle();
-        }
-        let mut knot = self.knot(t)?;
+        let side = a.gap.certain_sign(0.0)?;
+        let (mut low, mut high) = (a.t.clone(), b.t.clone());
+        let within = |t: &N, low: &N, high: &N| t.sub(low).is_positive() && high.sub(t).is_positive();
+        let middle = |low: &N, high: &N| low.add(high).times(0.5).middle();
+        let guess = N::of(self.guess(a, b), self.bits());
+        let mut knot = self.knot(if within(&guess, &low, &high) { guess } else { middle(&low, &high) })?;
         let step = |knot: &Knot<N>| knot.gap.over(&knot.s[1].sub(&knot.s[0]));
         let enough = 2f64.powi(-(self.bits().min(1200) as i32) * 3 / 4);
         for _ in 0..MOST_STEPS {
@@ -160,13 +161,15 @@ impl<N: Real> March<N> {
             if moved.most() < enough {
                 break;
             }
-            let next = knot.t.sub(&knot.t.mul(&moved)).middle();
-            if !inside(&next) {
-                break;
+            match knot.gap.certain_sign(0.0) {
+                Some(sign) if sign == side => low = knot.t.clone(),
+                Some(_) => high = knot.t.clone(),
+                None => break,
             }
-            knot = self.knot(next)?;
+            let newton = knot.t.sub(&knot.t.mul(&moved)).middle();
+            knot = self.knot(if within(&newton, &low, &high) { newton } else { middle(&low, &high) })?;
         }
-        let side = a.gap.certain_sign(0.0)?;
+        let inside = |t: &N| within(t, &a.t, &b.t);
         // Twice as far as the error of D may move the solution; what is needed, the signs tell.
         let mut reach = (2.0 * step(&knot)?.most()).max(2f64.powi(4 - self.bits().min(1000) as i32));
         for _ in 0..4 {

@@ -3,6 +3,7 @@
 mod curves;
 mod energy;
 mod march;
+mod narrow;
 mod pair;
 #[cfg(feature = "gpu")]
 mod shader;

@@ -16,6 +16,8 @@ pub(super) struct Pair<N> {
     pub cos: N,
     /// The right-hand sides of the two equations: `30 sin φ0 / sin Φ`, `30 sin φ1 / sin Φ`.
     pub right: [N; 2],
+    /// `30 sin((φ1 - φ0)/2) / sin Φ`: the right-hand sides differ by `-2 cos Φ` times this.
+    pub skew: N,
     /// For the outer bound.
     pub outer: Sines<N>,
     /// φ0 < φ1: without it no spiral of increasing curvature exists.
@@ -38,10 +40,12 @@ impl Pair<Ball> {
         let half = near(sin_of_sum(0.5 * phi0, 0.5 * phi1));
         let rising = phi0 < phi1;
         // The difference of two doubles is off by at most one rounding, relative.
-        let sin_half = Ball::near(if rising { sin(0.5 * (phi1 - phi0)) } else { 0.0 }, SIN_ERROR + 2.0);
+        let apart = Ball::near(sin(0.5 * (phi1 - phi0).abs()), SIN_ERROR + 2.0);
+        let sin_half = if rising { apart } else { Ball::of(0.0, 53) };
         Some(Pair {
             cos: near(sin_of_sum(phi0, phi1)).times(0.5).over(&half)?,
             right: right(&sin0, &sin1, &half)?,
+            skew: apart.times(if rising { 30.0 } else { -30.0 }).over(&half)?,
             sin: half,
             outer: [sin0, sin1, sin_half.mul(&sin_half)],
             rising,
@@ -73,7 +77,14 @@ impl Pair<Interval> {
         let (sin0, sin1) = ((&s0 * &c0).scale(2.0), (&s1 * &c1).scale(2.0));
         let difference = &(&s1 * &c0) - &(&c1 * &s0);
         (sin.is_positive() && cos.is_positive()).then_some(())?;
-        Some(Pair { cos, right: right(&sin0, &sin1, &sin)?, sin, outer: [sin0, sin1, difference.square()], rising: phi0 < phi1 })
+        Some(Pair {
+            cos,
+            right: right(&sin0, &sin1, &sin)?,
+            skew: difference.scale(30.0).over(&sin)?,
+            sin,
+            outer: [sin0, sin1, difference.square()],
+            rising: phi0 < phi1,
+        })
     }
 }
 
@@ -93,7 +104,7 @@ mod tests {
                 let [s0, s1, square] = &pair.outer;
                 let [t0, t1, t2] = &truth.outer;
                 let mut all = vec![(pair.sin, &truth.sin), (pair.cos, &truth.cos), (*s0, t0), (*s1, t1)];
-                all.extend([(pair.right[0], &truth.right[0]), (pair.right[1], &truth.right[1])]);
+                all.extend([(pair.right[0], &truth.right[0]), (pair.right[1], &truth.right[1]), (pair.skew, &truth.skew)]);
                 if pair.rising {
                     all.push((*square, t2));
                 }

@@ -21,8 +21,9 @@ const TERM: f64 = 36.0 * UNIT;
 const SHAPE: f64 = 40.0 * UNIT;
 /// Sines and curvatures: one rounding, four operations, and a little for the f64 errors below.
 const OUTER: f64 = 6.0 * UNIT;
-/// Curvatures outside this and its inverse are left to f64, apart from 0.
+/// Curvatures beyond this, or nonzero ones below [`LEAST_KAPPA`], are left to f64.
 const MOST: f64 = (1u32 << 24) as f64;
+const LEAST_KAPPA: f64 = 1.0 / (1u64 << 60) as f64;
 /// Heights Z outside are left to f64: what is flushed below 2^-126 in a coefficient stays below 2^-50 in a sum that must be at least
 /// [`LEAST`].
 const MOST_Z: f64 = (1u32 << 24) as f64;
@@ -67,7 +68,7 @@ pub(super) fn inputs(grid: &Grid, start: u64, len: u64) -> ShaderInputs {
 
 /// κ, a power of two p, and κp³, from 1/8 to 1 for κ above 1.
 fn axis_words(kappa: f64) -> [f32; AXIS_STRIDE] {
-    if kappa != 0.0 && !(1.0 / MOST..=MOST).contains(&kappa.abs()) {
+    if kappa != 0.0 && !(LEAST_KAPPA..=MOST).contains(&kappa.abs()) {
         return [2.0 * MOST as f32, 1.0, 0.0];
     }
     let p = if kappa > 1.0 { 2f64.powi(-((kappa.log2() / 3.0).ceil() as i32)) } else { 1.0 };

@@ -1,6 +1,5 @@
 //! The exact answer for one datum: all solutions, which are spirals, and their measures.
 
-use super::curves::Curves;
 use super::pair::Pair;
 use super::truth::{self, Margin, Measures, Truth, chosen, measure};
 use crate::curve::PhQuintic;
@@ -90,7 +89,7 @@ fn described<N: Real + Margin>(datum: &Datum, pair: &Pair<N>) -> Option<Solution
         // By increasing A: A falls as B/A rises.
         for solution in truth.solutions.iter().rev() {
             let measures = measure(pair, curves, solution)?;
-            all.push(quintic(datum, curves, pair, &measures, solution.spiral)?);
+            all.push(quintic(datum, pair, &measures, solution.spiral)?);
         }
     }
     let last = all.len();
@@ -104,7 +103,7 @@ fn known<N: Real>(x: &N, floor: f64) -> Option<f64> {
     (value.is_finite() && off <= 2f64.powi(-37) * value.abs() + floor).then_some(value)
 }
 
-fn quintic<N: Real>(datum: &Datum, curves: &Curves<N>, pair: &Pair<N>, measures: &Measures<N>, spiral: bool) -> Option<Quintic> {
+fn quintic<N: Real>(datum: &Datum, pair: &Pair<N>, measures: &Measures<N>, spiral: bool) -> Option<Quintic> {
     let mut numbers = [0.0; 4];
     for (slot, x) in numbers.iter_mut().zip(&measures.numbers) {
         *slot = known(x, 0.0)?;
@@ -112,7 +111,6 @@ fn quintic<N: Real>(datum: &Datum, curves: &Curves<N>, pair: &Pair<N>, measures:
     let [a, b, energy, length] = numbers;
     let quarter = 4.0 * pair.sin.approx();
     let bends = [datum.kappa0 * a.powi(3) / quarter, datum.kappa1 * b.powi(3) / quarter];
-    debug_assert!(curves.scale.iter().all(|p| *p > 0.0));
     let curve = PhQuintic::between([-1.0, 0.0], [1.0, 0.0], preimage(datum, [a, b], bends));
     Some(Quintic { a, b, curve, spiral, energy, length, margin: known(&measures.margin, 2f64.powi(-31))? })
 }

@@ -8,7 +8,7 @@ use crate::num::bernstein::positive;
 use std::cmp::Ordering::Equal;
 
 /// The shape of a curve, taken as exact.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Shape {
     /// `s / tan(θ/2)`, positive.
     pub ratio: f64,

@@ -6,7 +6,7 @@ use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use super::{END_RISES, PRINTED_RATIO, SPIRAL};
 use crate::family::Code;
 use crate::num::Lanes;
-use crate::num::bernstein::positive;
+use crate::num::bernstein::{Certain, positive};
 use fearless_simd::{Simd, SimdBase};
 
 /// 2^-53.
@@ -19,12 +19,12 @@ const DEPTH: u32 = 40;
 
 /// Relative error of the numerator's coefficients against the sums of their terms' absolute values, given the errors of the frame.
 ///
-/// The first side is `3(my)²`; then as [`hodograph`] and [`numerator`] count; one more for the Bernstein factor. Second order
-/// is covered by the last 3.
+/// The first side is `3(my)²`; then as [`hodograph`] and [`numerator`] count; one more for the Bernstein factor. The last 5 are two
+/// for adding the error itself, and what is of second order.
 pub(super) const fn coefficient_error([y, last, square]: [f64; 3], of_m: f64, of_pq: f64) -> f64 {
     let first = 2.0 * (y + of_m + 1.0) + 2.0;
     let sides = if first > last { first } else { last };
-    4.0 * (sides + 5.0 + of_pq) + square + 48.0 + 1.0 + 3.0
+    4.0 * (sides + 5.0 + of_pq) + square + 48.0 + 1.0 + 5.0
 }
 
 /// Whether m and the ratio are small enough, and large enough.
@@ -36,10 +36,17 @@ pub(super) fn is_ordinary(m: f64, ratio: f64) -> bool {
 pub(super) const ERROR: f64 = coefficient_error(FRAME_ERRORS, 0.0, 1.0) * UNIT;
 
 /// The sign of the numerator from Bernstein coefficients and the sums of absolute values of their terms.
-pub(super) fn decide(value: &[f64; K], size: &[f64; K], relative: f64) -> Option<bool> {
-    let error = size.iter().fold(0.0f64, |most, s| most.max(*s)) * relative;
-    let largest = value.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-    positive(value, error, largest * ((K - 1) as f64 * UNIT), DEPTH)
+pub(super) fn decide<N: Certain>(value: &[N; K], size: &[f64; K], relative: f64) -> Option<bool> {
+    // The least polynomial may prove it positive, the greatest disprove it: coefficients differ much in size, and so do their errors.
+    let side = |sign: f64| {
+        let c: [N; K] = std::array::from_fn(|i| value[i].plus(sign * relative * size[i]));
+        let largest = size.iter().fold(0.0f64, |most, s| most.max(*s)) * 1.01;
+        positive(&c, 0.0, largest * ((K - 1) as f64 * UNIT), DEPTH)
+    };
+    match side(-1.0) {
+        Some(true) => Some(true),
+        _ => side(1.0).filter(|positive| !positive),
+    }
 }
 
 /// The codes of a vector of nodes that share ratio, θ, m and p.

@@ -13,6 +13,7 @@ mod threshold;
 pub use exact::Shape;
 
 use super::{Answer, Chart, Count, Family, Flag, NO_VALUE, Scalar, Table, coordinates, verdict};
+use crate::curve::trig::Scaling;
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -61,6 +62,26 @@ const CHARTS: &[Chart] = &[Chart {
           p, q: shape parameters at start and end, in (-4, 1]",
 }];
 
+/// The proved flags of one shape: END_RISES, SPIRAL and so on.
+///
+/// # Errors
+/// [`crate::Error::Domain`] for a value outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
+pub fn flags(shape: &Shape) -> Result<u8> {
+    let Shape { ratio, theta, m, p, q } = *shape;
+    verdict(&TrigQuintic, 0, &[ratio, theta, m, p, q]).map(|code| code.flags())
+}
+
+/// The scalar `threshold` at one shape, whatever its own ratio: rounded to nearest with proof, none where the ratio 64 gives no spiral.
+///
+/// # Errors
+/// As [`flags`].
+pub fn least_ratio(shape: &Shape) -> Result<Option<f32>> {
+    let Shape { ratio, theta, m, p, q } = *shape;
+    [ratio, theta, m, p, q].into_iter().enumerate().try_for_each(|(which, value)| frame::check(which, value))?;
+    let value = threshold::least_ratio(shape)?;
+    Ok((value != NO_VALUE).then_some(value))
+}
+
 impl Family for TrigQuintic {
     fn name(&self) -> &'static str {
         "trig-quintic"
@@ -94,13 +115,19 @@ impl Family for TrigQuintic {
     fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;
         let shape = Shape::from(*coordinates(point)?);
-        let threshold = threshold::least_ratio(&shape)?;
         let mut derived =
             vec![("s", (shape.ratio * (0.5 * shape.theta).tan()).into()), ("scale", (15.0 / (4.0 + shape.q).powi(2)).into())];
-        if threshold != NO_VALUE {
+        if let Some(threshold) = least_ratio(&shape)? {
             derived.push(("threshold", f64::from(threshold).into()));
         }
-        Ok(Answer { code, derived, solutions: Vec::new(), chosen: None })
+        let curve = shape.curve(1.0, Scaling::Corrected);
+        let spiral = code.flags() & SPIRAL != 0;
+        Ok(Answer {
+            code,
+            derived,
+            solutions: vec![vec![("spiral", spiral.into()), ("control_points", curve.points().into())]],
+            chosen: spiral.then_some(0),
+        })
     }
 }
 

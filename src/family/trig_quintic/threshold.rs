@@ -8,7 +8,7 @@
 //! No theorem says that a smaller ratio gives no spiral, and for small m large ratios give none at all; hence the definition.
 
 use super::exact::{HALVINGS, Shape, bernstein};
-use super::filter::{ERROR, UNIT, is_ordinary};
+use super::filter::{ERROR, UNIT, decide, is_ordinary};
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
@@ -52,7 +52,7 @@ pub(super) fn exact_least_ratio(shape: &Shape) -> Result<f32> {
     climb(shape, "a scalar", |bits| {
         let frame = Frame::exact(1.0, shape.theta, bits)?;
         let c = in_ratio(&frame, [shape.m, shape.p, shape.q].map(|x| Interval::new(x, bits)), -1.0).map(bernstein);
-        let sweep = Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0, unit: 0.0, depth: HALVINGS };
+        let sweep = Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0 };
         hint.and_then(|hint| sweep.search(Some(hint))).or_else(|| sweep.search(None))
     })
     .map(|(value, _)| value)
@@ -63,7 +63,7 @@ fn fast(shape: &Shape) -> Option<Sweep<f64>> {
     let frame = Frame::new(1.0, shape.theta).filter(|_| is_ordinary(shape.m, 1.0))?;
     let [c, size] =
         [-1.0, 1.0].map(|sign| in_ratio(&frame, [shape.m, shape.p, shape.q], sign).map(|c| from_fn(|i| c[i] * BERNSTEIN[i])));
-    Some(Sweep { c, size, error: F_ERROR, unit: (K - 1) as f64 * UNIT, depth: 40 })
+    Some(Sweep { c, size, error: F_ERROR })
 }
 
 /// The coefficients of f by powers of the ratio; a frame of ratio 1.
@@ -127,11 +127,8 @@ struct Sweep<N> {
     c: [[N; K]; DEGREE + 1],
     /// Sums of the absolute values of terms.
     size: [[f64; K]; DEGREE + 1],
-    /// Error relative to these.
+    /// Error relative to these; 0 for intervals.
     error: f64,
-    /// Error of a halving relative to the largest coefficient.
-    unit: f64,
-    depth: u32,
 }
 
 /// What a piece of the range holds.
@@ -206,11 +203,10 @@ impl<N: Certain> Sweep<N> {
     /// The sign of a form that combines the coefficients from `first` on with weights of about these sizes.
     fn positive(&self, value: &[N; K], weights: &[f64], first: usize) -> Option<bool> {
         if self.error == 0.0 {
-            return positive(value, 0.0, 0.0, self.depth);
+            return positive(value, 0.0, 0.0, HALVINGS);
         }
-        let size = |i: usize| self.size[first..].iter().zip(weights).map(|(c, w)| c[i] * w).sum::<f64>();
-        let largest = (0..K).map(size).fold(0.0f64, f64::max);
-        positive(value, largest * self.error, largest * self.unit, self.depth)
+        let size = from_fn(|i| self.size[first..].iter().zip(weights).map(|(c, w)| c[i] * w).sum::<f64>());
+        decide(value, &size, self.error)
     }
 
     /// All ratios from `low`, which gives a spiral, to `high`.

@@ -1,0 +1,101 @@
+//! `curve --family trig-quintic`: the five templates of Misro, Ramli and Ali, with spirals that are some.
+
+use super::super::output;
+use super::{Found, SAMPLES};
+use serde::Serialize;
+use spiral_atlas::Result;
+pub use spiral_atlas::curve::trig::Request;
+use spiral_atlas::curve::trig::{Outcome, Path, Template, path};
+use spiral_atlas::curve::{EndCircle, Jet, Sample};
+use spiral_atlas::plot::{self, CurveFigure, Graph};
+
+/// What was asked and what was found.
+#[derive(Debug, Serialize)]
+pub struct Told {
+    request: Request,
+    outcome: Outcome,
+}
+
+pub fn find(request: &Request) -> Result<Told> {
+    Ok(Told { request: *request, outcome: path(request)? })
+}
+
+impl Told {
+    fn title(&self) -> String {
+        let name = match self.request.template {
+            Template::LineCircle(_) => "line to circle",
+            Template::LineLine { .. } => "line to line",
+            Template::S { .. } => "S, circle to circle",
+            Template::C { .. } => "C, circle to circle",
+            Template::CircleInCircle { .. } => "circle in circle",
+        };
+        match &self.outcome {
+            Outcome::Spirals(path) if path.parts.len() == 1 => format!("{name}: a trigonometric spiral"),
+            Outcome::Spirals(_) => format!("{name}: two trigonometric spirals"),
+            Outcome::NoSpirals { why, .. } => {
+                format!("{name}, {}", if why.starts_with("as printed") { "as printed: not a spiral" } else { "not a spiral" })
+            }
+        }
+    }
+}
+
+impl Found for Told {
+    fn json(&self) -> Result<String> {
+        output::to_json(self)
+    }
+
+    fn text(&self) -> String {
+        let mut text = match &self.outcome {
+            Outcome::Spirals(_) => self.title() + "\n",
+            Outcome::NoSpirals { why, .. } => format!("{why}\n"),
+        };
+        for part in &self.outcome.path().parts {
+            let (curve, [from, to]) = (part.curve, [part.from, part.to]);
+            text += &format!("p = {:?}, q = {:?}, t from {from:?} to {to:?}; control points\n", curve.p, curve.q);
+            for [x, y] in curve.points() {
+                text += &format!("  ({x:?}, {y:?})\n");
+            }
+        }
+        text.trim_end().to_owned()
+    }
+
+    fn figure(&self) -> Result<CurveFigure> {
+        let path = self.outcome.path();
+        let samples: Vec<Sample> = path.samples(SAMPLES)?.into_iter().flatten().collect();
+        let control = path.parts.iter().flat_map(|part| part.curve.points()).collect();
+        let note = match &self.outcome {
+            Outcome::Spirals(_) => String::new(),
+            Outcome::NoSpirals { why, .. } => why.clone(),
+        };
+        Ok(CurveFigure {
+            title: self.title(),
+            note,
+            curve: samples.iter().map(|s| s.point).collect(),
+            control,
+            circles: circles(path),
+            parameter: "s".into(),
+            curvature: Graph { label: "κ".into(), points: samples.iter().map(|s| [s.s, s.curvature]).collect() },
+            derivative: Graph { label: "dκ/ds".into(), points: samples.iter().map(|s| [s.s, s.curvature_ds]).collect() },
+        })
+    }
+}
+
+/// What the path joins, as the figure wants it.
+fn circles(path: &Path) -> Vec<plot::EndCircle> {
+    let (Some(first), Some(last)) = (path.parts.first(), path.parts.last()) else { return Vec::new() };
+    let places: Vec<(Jet, &str)> = [(first.ends()[0], "what it starts from"), (last.ends()[1], "what it leads to")]
+        .into_iter()
+        .chain(path.parts[1..].iter().map(|part| (part.ends()[0], "between")))
+        .collect();
+    let circle = |((jet, label), circle): ((Jet, &str), &EndCircle)| {
+        let curvature = match circle {
+            EndCircle::Line { .. } => 0.0,
+            EndCircle::Circle { centre, radius } => {
+                let arm = [centre[0] - jet.point[0], centre[1] - jet.point[1]];
+                (jet.first[0] * arm[1] - jet.first[1] * arm[0]).signum() / radius
+            }
+        };
+        plot::EndCircle { at: jet.point, direction: jet.first, curvature, label: label.into() }
+    };
+    places.into_iter().zip(&path.circles).map(circle).collect()
+}
