@@ -31,17 +31,35 @@ struct Subject {
     often: u64,
 }
 
-fn subjects() -> Vec<Subject> {
-    let subjects = vec![
-        cubic::subject(),
-        ph_quintic::subject(),
-        any_spiral::subject(),
-        reach::cubic(),
-        reach::ph(),
-        trig_quintic::subject(),
-    ];
-    assert_eq!(subjects.len(), family::all().len(), "every family is compared");
-    subjects
+/// Two tests for each family.
+macro_rules! families {
+    ($($name:ident => $subject:expr,)*) => {
+        $(mod $name {
+            #[test]
+            fn every_byte_is_the_cpus_on_every_adapter() {
+                super::every_byte($subject);
+            }
+            #[test]
+            fn few_nodes_climb_from_f32_and_none_is_wrong_before_the_climb() {
+                super::few_nodes($subject);
+            }
+        })*
+
+        #[test]
+        fn every_family_is_compared() {
+            let compared = [$($subject.family.name()),*];
+            assert!(family::all().iter().all(|f| compared.contains(&f.name())), "{compared:?}");
+        }
+    };
+}
+
+families! {
+    on_cubic => crate::cubic::subject(),
+    on_ph_quintic => crate::ph_quintic::subject(),
+    on_any_spiral => crate::any_spiral::subject(),
+    on_reach_cubic => crate::reach::cubic(),
+    on_reach_ph => crate::reach::ph(),
+    on_trig_quintic => crate::trig_quintic::subject(),
 }
 
 fn lin(name: &str, lo: f64, hi: f64, count: usize) -> Axis {
@@ -81,61 +99,57 @@ fn differences(one: &[Chunk], two: &[Chunk]) -> (usize, usize) {
     (one.iter().zip(&two).filter(|(a, b)| a != b).count(), one.len())
 }
 
-#[test]
-fn every_byte_is_the_cpus_on_every_adapter() {
-    for Subject { family, grids, nodes: least, .. } in subjects() {
-        let mut nodes = 0;
-        for (name, grid) in grids {
-            let name = format!("{}, {name}", family.name());
-            let job = Job { family, grid: &grid, scalars: &[] };
-            let (cpu, report) = all_chunks(&job, &Backend::Cpu);
-            println!("{name}: {} nodes, {} undecided after f64, {} bits", grid.len(), report.undecided_f64, report.most_bits);
-            for adapter in adapters::labels() {
-                let (gpu, report) = all_chunks(&job, &Backend::Gpu(Some(adapter.clone())));
-                let f32 = report.undecided_f32.unwrap();
-                println!("  {adapter}: {f32} undecided after f32, {:.1e} of all", f32 as f64 / grid.len() as f64);
-                let (different, compared) = differences(&cpu, &gpu);
-                assert_eq!(compared as u64, 2 * grid.len());
-                assert_eq!(different, 0, "{name}, {adapter}");
-            }
-            nodes += grid.len();
-            // The comparison notices one flipped bit, and only that.
-            let mut flipped = cpu.clone();
-            let at = flipped.len() / 2;
-            let node = flipped[at].len() / 3;
-            flipped[at].flags[node] ^= 16;
-            assert_eq!(differences(&cpu, &flipped).0, 1);
+fn every_byte(subject: Subject) {
+    let Subject { family, grids, nodes: least, .. } = subject;
+    let mut nodes = 0;
+    for (name, grid) in grids {
+        let name = format!("{}, {name}", family.name());
+        let job = Job { family, grid: &grid, scalars: &[] };
+        let (cpu, report) = all_chunks(&job, &Backend::Cpu);
+        println!("{name}: {} nodes, {} undecided after f64, {} bits", grid.len(), report.undecided_f64, report.most_bits);
+        for adapter in adapters::labels() {
+            let (gpu, report) = all_chunks(&job, &Backend::Gpu(Some(adapter.clone())));
+            let f32 = report.undecided_f32.unwrap();
+            println!("  {adapter}: {f32} undecided after f32, {:.1e} of all", f32 as f64 / grid.len() as f64);
+            let (different, compared) = differences(&cpu, &gpu);
+            assert_eq!(compared as u64, 2 * grid.len());
+            assert_eq!(different, 0, "{name}, {adapter}");
         }
-        assert!(nodes >= least, "{}: {nodes} nodes", family.name());
+        nodes += grid.len();
+        // The comparison notices one flipped bit, and only that.
+        let mut flipped = cpu.clone();
+        let at = flipped.len() / 2;
+        let node = flipped[at].len() / 3;
+        flipped[at].flags[node] ^= 16;
+        assert_eq!(differences(&cpu, &flipped).0, 1);
     }
+    assert!(nodes >= least, "{}: {nodes} nodes", family.name());
 }
 
-#[test]
-fn few_nodes_climb_from_f32_and_none_is_wrong_before_the_climb() {
-    for Subject { family, grids, rare, flag, often, .. } in subjects() {
-        let grid = &grids[0].1;
-        let table = family.table(grid).unwrap();
-        let mut truth = vec![Code::UNDECIDED; grid.len() as usize];
-        table.filter(0, &mut truth);
-        for adapter in adapters::labels() {
-            let name = format!("{}, {adapter}", family.name());
-            let mut engine = Engine::new(Some(&adapter), &*table, grid, &Settings::default()).unwrap();
-            let (mut open, mut wrong, mut yes) = (0u64, 0u64, 0u64);
-            let stats = engine
-                .run(0..grid.len(), &AtomicBool::new(false), |start, codes| {
-                    for (code, truth) in codes.iter().zip(&truth[start as usize..]) {
-                        open += u64::from(*code == Code::UNDECIDED);
-                        // What doubles leave open, the byte-for-byte comparison judges.
-                        wrong += u64::from(*code != Code::UNDECIDED && *truth != Code::UNDECIDED && code != truth);
-                        yes += u64::from(*code != Code::UNDECIDED && code.flags() & flag != 0);
-                    }
-                    Ok(())
-                })
-                .unwrap();
-            println!("{name}: {open} of {} open after f32, {yes} with the flag", grid.len());
-            assert_eq!((stats.nodes, wrong), (grid.len(), 0), "{name}");
-            assert!(open > 0 && open * rare <= grid.len(), "{name}: {open} of {} open", grid.len());
-            assert!(yes * often > grid.len(), "{name}: only {yes} with the flag");
-        }
+fn few_nodes(subject: Subject) {
+    let Subject { family, grids, rare, flag, often, .. } = subject;
+    let grid = &grids[0].1;
+    let table = family.table(grid).unwrap();
+    let mut truth = vec![Code::UNDECIDED; grid.len() as usize];
+    table.filter(0, &mut truth);
+    for adapter in adapters::labels() {
+        let name = format!("{}, {adapter}", family.name());
+        let mut engine = Engine::new(Some(&adapter), &*table, grid, &Settings::default()).unwrap();
+        let (mut open, mut wrong, mut yes) = (0u64, 0u64, 0u64);
+        let stats = engine
+            .run(0..grid.len(), &AtomicBool::new(false), |start, codes| {
+                for (code, truth) in codes.iter().zip(&truth[start as usize..]) {
+                    open += u64::from(*code == Code::UNDECIDED);
+                    // What doubles leave open, the byte-for-byte comparison judges.
+                    wrong += u64::from(*code != Code::UNDECIDED && *truth != Code::UNDECIDED && code != truth);
+                    yes += u64::from(*code != Code::UNDECIDED && code.flags() & flag != 0);
+                }
+                Ok(())
+            })
+            .unwrap();
+        println!("{name}: {open} of {} open after f32, {yes} with the flag", grid.len());
+        assert_eq!((stats.nodes, wrong), (grid.len(), 0), "{name}");
+        assert!(open > 0 && open * rare <= grid.len(), "{name}: {open} of {} open", grid.len());
+        assert!(yes * often > grid.len(), "{name}: only {yes} with the flag");
     }
 }
