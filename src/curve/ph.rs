@@ -51,8 +51,11 @@ pub struct PhSolution {
     pub energy: f64,
     /// Bézier control points in the user's direction of travel; the curve starts and ends exactly where asked.
     pub control_points: Vec<[f64; 2]>,
-    /// The same relative to the start point: what to differentiate when the coordinates are far from the origin.
+    /// The same relative to the start point, for coordinates far from the origin.
     pub local_control_points: Vec<[f64; 2]>,
+    /// The sides of the control polygon, from the pre-image, each to a few ulp of itself: a fifth of the derivative's control points, and
+    /// what to differentiate where an end's tangent is short.
+    pub legs: Vec<[f64; 2]>,
 }
 
 /// Finds the PH quintic spiral of least bending energy between two ends, or says why there is none. Straight ends (curvature 0) are
@@ -60,8 +63,9 @@ pub struct PhSolution {
 ///
 /// # Accuracy
 /// As [`super::spiral`]: existence is proved for the normalised doubles in [`PhAnswer::datum`]. End points are the user's, exactly; end
-/// directions and curvatures of [`PhSolution::local_control_points`] are the user's to about 1e-14 over the length of the end's
-/// tangent in half chords; length and energy to 2^-36 relative, usually a few ulp.
+/// directions and curvatures of [`PhSolution::legs`] are the user's to 1e-12, relative. Control points are rounded at the size of the
+/// chord: what is computed from them is known to 1e-15 over the end's leg in half chords (directions), or over its square (curvatures).
+/// Length and energy to 2^-36 relative, usually a few ulp.
 ///
 /// # Errors
 /// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control point leaves the range of doubles. That
@@ -111,6 +115,7 @@ impl PhSolution {
             energy: energy / placement.unit(),
             control_points: user,
             local_control_points: local,
+            legs: placement.to_user_legs(&curve.legs()),
         })
     }
 }

@@ -166,6 +166,14 @@ impl Placement {
         mapped
     }
 
+    /// Sides of a control polygon of the normalised frame in the user's, in the user's order of travel.
+    pub fn to_user_legs(&self, legs: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let sign = if self.reversed { -1.0 } else { 1.0 };
+        let mut mapped: Vec<_> = legs.iter().map(|leg| scale(self.step(0.0, *leg), sign)).collect();
+        self.put_in_order(&mut mapped);
+        mapped
+    }
+
     /// The normalised datum and what was done to get it, in words.
     pub(super) fn described(&self, datum: &Datum) -> String {
         let Datum { phi0, phi1, kappa0, kappa1 } = datum;

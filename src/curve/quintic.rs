@@ -78,6 +78,13 @@ impl PhQuintic {
         [self.start, p1, add(p1, w0 * w1, 1.0), add(p4, w1 * w2, -1.0), p4, self.end]
     }
 
+    /// The sides of the control polygon, each to a few ulp of itself: a fifth of the derivative's control points.
+    pub fn legs(&self) -> [[f64; 2]; 5] {
+        let [w0, w1, w2] = complex(&self.preimage);
+        let middle = (w1 * w1 * 2.0 + w0 * w2) / 3.0;
+        [w0 * w0, w0 * w1, middle, w1 * w2, w2 * w2].map(|leg| [0.2 * leg.re, 0.2 * leg.im])
+    }
+
     /// The point at t; exact at 0 and 1.
     pub fn point(&self, t: f64) -> [f64; 2] {
         let mut p = self.control_points();

@@ -32,18 +32,24 @@ fn ends([phi0, phi1, kappa0, kappa1]: [f64; 4], turned: f64, half: f64, mirrored
 
 /// How far, relative to the curvature's own size, the curve is from its ends, and whether its curvature is monotone at 400 points.
 fn check(ends: &Ends, found: &PhSolution) -> (f64, bool) {
-    let jet = |t: f64| Jet::of_bezier(&found.local_control_points, t);
-    let (first, last) = (jet(0.0), jet(1.0));
-    let turn = |jet: &Jet, direction: f64| (jet.direction() - direction).sin().abs();
+    // A fifth of the derivative, and of the second.
+    let curvature = |t: f64| {
+        let Jet { point: a, first: b, .. } = Jet::of_bezier(&found.legs, t);
+        0.2 * (a[0] * b[1] - a[1] * b[0]) / a[0].hypot(a[1]).powi(3)
+    };
+    let leg = |i: usize| found.legs[i];
+    let turn = |leg: [f64; 2], direction: f64| (leg[1].atan2(leg[0]) - direction).sin().abs();
+    // (n - 1)/n of the cross product of the first two sides over the cube of the first, for degree n = 5.
+    let bend = |own: [f64; 2], a: [f64; 2], b: [f64; 2]| 0.8 * (a[0] * b[1] - a[1] * b[0]) / own[0].hypot(own[1]).powi(3);
     let sharp = ends.start_curvature.abs().max(ends.end_curvature.abs());
     let off = [
-        turn(&first, ends.start_direction),
-        turn(&last, ends.end_direction),
-        (first.curvature() - ends.start_curvature).abs() / sharp,
-        (last.curvature() - ends.end_curvature).abs() / sharp,
+        turn(leg(0), ends.start_direction),
+        turn(leg(4), ends.end_direction),
+        (bend(leg(0), leg(0), leg(1)) - ends.start_curvature).abs() / sharp,
+        (bend(leg(4), leg(3), leg(4)) - ends.end_curvature).abs() / sharp,
     ];
     let growth = (ends.end_curvature - ends.start_curvature).signum();
-    let curvatures: Vec<f64> = (0..=400).map(|i| growth * jet(f64::from(i) / 400.0).curvature()).collect();
+    let curvatures: Vec<f64> = (0..=400).map(|i| growth * curvature(f64::from(i) / 400.0)).collect();
     (off.into_iter().fold(0.0, f64::max), curvatures.windows(2).all(|w| w[0] <= w[1] + 1e-12 * sharp))
 }
 
@@ -100,14 +106,16 @@ proptest! {
         mirrored: bool, reversed: bool,
     ) {
         let kappa0 = x * phi0.sin();
-        let kappa1 = phi1.sin() * (1.0 + 20.0 * y * y);
+        let kappa1 = phi1.sin() * (1.0 + (8.0 * y * y).exp());
         let ends = ends([phi0, phi1, kappa0, kappa1], turned, half, mirrored, reversed);
         let answer = ph_spiral(&ends).unwrap();
         for solution in &answer.solutions {
             let (off, monotone) = check(&ends, solution);
-            // Control points are rounded at the size of the chord; a curvature feels that over the square of its leg.
-            let leg = solution.a.min(solution.b).powi(2) / 5.0;
-            prop_assert!(off < 100.0 * EPS / (leg * leg), "{off}: {answer:?}");
+            prop_assert!(off < 1e-12, "{off}: {answer:?}");
+            // The sides and the control points are of one curve.
+            let sides = solution.local_control_points.windows(2).map(|w| [w[1][0] - w[0][0], w[1][1] - w[0][1]]);
+            let apart = sides.zip(&solution.legs).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max);
+            prop_assert!(apart < 64.0 * EPS * half, "{apart}");
             prop_assert!(monotone || !solution.spiral, "{answer:?}");
         }
         prop_assert_eq!(answer.chosen().is_some(), answer.solutions.iter().any(|s| s.spiral));

@@ -124,6 +124,36 @@ impl<N: Number> Curves<N> {
     }
 }
 
+impl<N: Real> Curves<N> {
+    /// `s' = Σ w (j - ks)² / Σ w k` of both curves at t, with their heights and slopes there; all may be enclosures over an interval.
+    pub fn slope_changes(&self, t: &N, at: impl Fn(usize) -> (N, N)) -> Option<[N; 2]> {
+        let cubics = self.at(t);
+        let t2 = t.mul(t);
+        let t3 = t2.mul(t);
+        let first = t.times(self.scale[0] * self.scale[1]);
+        let (flat, fourth) = (self.flat[1].mul(&t2).times(4.0), self.own[1].mul(&t2.mul(&t2)).times(16.0));
+        let both = self.both.mul(&t3).times(9.0);
+        let sixth = self.last[1].mul(&t3.mul(&t3)).times(36.0);
+        // Each term times the square of its power of t, by powers of Z.
+        let squares = [
+            [first.add(&flat), fourth.add(&self.across[0].mul(t)), both.clone()],
+            [first, fourth.add(&self.across[1].mul(&t3).times(9.0)), both.add(&sixth)],
+        ];
+        let change = |i: usize| {
+            let (z, s) = at(i);
+            let Cubic { c, j } = &cubics[i];
+            let term = |k: usize| {
+                let turned = s.times((k + 1) as f64);
+                squares[i][k].sub(&turned.times(2.0).mul(&j[k])).add(&turned.mul(&turned).mul(&c[k]))
+            };
+            let sum = |[a, b, c]: [N; 3]| c.mul(&z).add(&b).mul(&z).add(&a);
+            let weight = |k: usize| c[k].times((k + 1) as f64);
+            sum([term(0), term(1), term(2)]).over(&sum([weight(0), weight(1), weight(2)]))
+        };
+        Some([change(0)?, change(1)?])
+    }
+}
+
 impl Cubic<f64> {
     /// About where the cubic reaches `right`: Newton's method, which comes down to it from the least height one term alone would need.
     pub fn guess(&self, right: f64) -> f64 {

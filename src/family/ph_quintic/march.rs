@@ -16,7 +16,7 @@
 //! one would end as undecided at the precision cap.
 
 use super::curves::Curves;
-use super::narrow;
+use super::{fork, narrow};
 use crate::num::Real;
 use std::cmp::Ordering::{self, Greater};
 
@@ -105,7 +105,7 @@ impl<N: Real> March<N> {
         let mut waiting = vec![last];
         for _ in 0..most_knots(self.bits()) {
             let Some(b) = waiting.last() else { return Some(brackets) };
-            match meets(&a, b).or_else(|| narrow::meets(&self.curves, &a, b)) {
+            match meets(&a, b).or_else(|| narrow::meets(&self.curves, &a, b)).or_else(|| fork::meets(&self.curves, &a, b)) {
                 Some(once) => {
                     let b = waiting.pop()?;
                     if once {
@@ -232,7 +232,7 @@ fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Option<bool> {
 }
 
 /// No less than `ln(b/a)`: `(r - 1)/√r` for their ratio r, with a little for rounding.
-fn length<N: Real>(a: &N, b: &N) -> f64 {
+pub(super) fn length<N: Real>(a: &N, b: &N) -> f64 {
     b.sub(a).approx() / (a.approx().sqrt() * b.approx().sqrt()) * 1.0001
 }
 

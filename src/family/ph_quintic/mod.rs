@@ -2,6 +2,7 @@
 
 mod curves;
 mod energy;
+mod fork;
 mod march;
 mod narrow;
 mod pair;
