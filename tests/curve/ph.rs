@@ -111,7 +111,8 @@ proptest! {
         let answer = ph_spiral(&ends).unwrap();
         for solution in &answer.solutions {
             let (off, monotone) = check(&ends, solution);
-            prop_assert!(off < 1e-12, "{off}: {answer:?}");
+            // Where B is so short beside A that no spiral is, w1 lies nearly along w2 and their product cancels.
+            prop_assert!(off < if solution.spiral { 1e-12 } else { 1e-10 }, "{off}: {answer:?}");
             // The sides and the control points are of one curve.
             let sides = solution.local_control_points.windows(2).map(|w| [w[1][0] - w[0][0], w[1][1] - w[0][1]]);
             let apart = sides.zip(&solution.legs).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max);
