@@ -21,15 +21,15 @@ impl Jet {
     /// Differences come first, then de Casteljau's algorithm: those of neighbouring points are exact, so nothing cancels later.
     pub fn of_bezier(p: &[[f64; 2]], t: f64) -> Jet {
         let differences = |p: &[Vector]| p.windows(2).map(|w| sub(w[1], w[0])).collect::<Vec<_>>();
-        let first = differences(p);
-        let second = differences(&first);
-        let third = differences(&second);
+        let mut first = differences(p);
+        let mut second = differences(&first);
+        let mut third = differences(&second);
         let degree = first.len() as f64;
         Jet {
-            point: casteljau(p, t),
-            first: scale(casteljau(&first, t), degree),
-            second: scale(casteljau(&second, t), degree * (degree - 1.0)),
-            third: scale(casteljau(&third, t), degree * (degree - 1.0) * (degree - 2.0)),
+            point: casteljau(&mut p.to_vec(), t),
+            first: scale(casteljau(&mut first, t), degree),
+            second: scale(casteljau(&mut second, t), degree * (degree - 1.0)),
+            third: scale(casteljau(&mut third, t), degree * (degree - 1.0) * (degree - 2.0)),
         }
     }
 
@@ -79,14 +79,12 @@ impl Jet {
     }
 }
 
-/// The point of a Bézier curve; (0, 0) without control points.
-fn casteljau(p: &[Vector], t: f64) -> Vector {
-    let mut p = p.to_vec();
-    while p.len() > 1 {
-        for i in 1..p.len() {
-            p[i - 1] = lerp(p[i - 1], p[i], t);
+/// The point of a Bézier curve, (0, 0) without control points; they are used up.
+pub(super) fn casteljau(p: &mut [Vector], t: f64) -> Vector {
+    for last in (1..p.len()).rev() {
+        for i in 0..last {
+            p[i] = lerp(p[i], p[i + 1], t);
         }
-        p.pop();
     }
     p.first().copied().unwrap_or([0.0, 0.0])
 }

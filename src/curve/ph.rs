@@ -50,12 +50,12 @@ pub struct PhSolution {
     /// Bending energy: the integral of the squared curvature over arc length, 1 / length.
     pub energy: f64,
     /// Bézier control points in the user's direction of travel; the curve starts and ends exactly where asked.
-    pub control_points: Vec<[f64; 2]>,
+    pub control_points: [[f64; 2]; 6],
     /// The same relative to the start point, for coordinates far from the origin.
-    pub local_control_points: Vec<[f64; 2]>,
+    pub local_control_points: [[f64; 2]; 6],
     /// The sides of the control polygon, from the pre-image, each to a few ulp of itself: a fifth of the derivative's control points, and
     /// what to differentiate where an end's tangent is short.
-    pub legs: Vec<[f64; 2]>,
+    pub legs: [[f64; 2]; 5],
 }
 
 /// Finds the PH quintic spiral of least bending energy between two ends, or says why there is none. Straight ends (curvature 0) are

@@ -152,24 +152,24 @@ impl Placement {
     /// # Accuracy
     /// The images of (-1, 0) and (1, 0) are the user's points, exactly. Others are found from the nearer of the two, within
     /// 4 ulp of their distance from it and half an ulp of the result.
-    pub fn to_user(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        let mut mapped: Vec<_> = points.iter().map(|z| self.user_point(*z)).collect();
+    pub fn to_user<const N: usize>(&self, points: &[[f64; 2]; N]) -> [[f64; 2]; N] {
+        let mut mapped = points.map(|z| self.user_point(z));
         self.put_in_order(&mut mapped);
         mapped
     }
 
     /// The same relative to the user's start point, free of the rounding of far-away coordinates: what to differentiate.
-    pub fn to_user_local(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    pub fn to_user_local<const N: usize>(&self, points: &[[f64; 2]; N]) -> [[f64; 2]; N] {
         let origin = if self.reversed { 1.0 } else { -1.0 };
-        let mut mapped: Vec<_> = points.iter().map(|z| self.step(origin, *z)).collect();
+        let mut mapped = points.map(|z| self.step(origin, z));
         self.put_in_order(&mut mapped);
         mapped
     }
 
     /// Sides of a control polygon of the normalised frame in the user's, in the user's order of travel.
-    pub fn to_user_legs(&self, legs: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    pub fn to_user_legs<const N: usize>(&self, legs: &[[f64; 2]; N]) -> [[f64; 2]; N] {
         let sign = if self.reversed { -1.0 } else { 1.0 };
-        let mut mapped: Vec<_> = legs.iter().map(|leg| scale(self.step(0.0, *leg), sign)).collect();
+        let mut mapped = legs.map(|leg| scale(self.step(0.0, leg), sign));
         self.put_in_order(&mut mapped);
         mapped
     }
@@ -187,17 +187,12 @@ impl Placement {
 
     /// The curve of a datum and one root (f0, f1), in the user's frame and direction of travel.
     pub fn place(&self, datum: &Datum, f0: f64, f1: f64) -> CubicBezier {
-        let mut p = CubicBezier::from_ratios(datum.phi0, datum.phi1, f0, f1).p.map(|z| self.user_point(z));
-        self.put_in_order(&mut p);
-        CubicBezier { p }
+        CubicBezier { p: self.to_user(&CubicBezier::from_ratios(datum.phi0, datum.phi1, f0, f1).p) }
     }
 
     /// The same relative to the user's start point, free of the rounding of far-away coordinates: the one to differentiate.
     pub fn place_local(&self, datum: &Datum, f0: f64, f1: f64) -> CubicBezier {
-        let origin = if self.reversed { 1.0 } else { -1.0 };
-        let mut p = CubicBezier::from_ratios(datum.phi0, datum.phi1, f0, f1).p.map(|z| self.step(origin, z));
-        self.put_in_order(&mut p);
-        CubicBezier { p }
+        CubicBezier { p: self.to_user_local(&CubicBezier::from_ratios(datum.phi0, datum.phi1, f0, f1).p) }
     }
 
     /// Angles of the user's end directions against the chord, radians, positive to the left: α and β of [`Placement::normalise`].

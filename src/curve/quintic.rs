@@ -4,7 +4,7 @@
 //! arc length, unit tangent, curvature and offsets are polynomials or quotients of them (Farouki et al., (2)-(9)).
 
 use super::extrema::{self, product, sign_changes};
-use super::jet::Jet;
+use super::jet::{Jet, casteljau};
 use crate::family::ph_quintic::energy_integral;
 use crate::num::{Ball, Interval, Real};
 use num_complex::Complex64;
@@ -87,13 +87,7 @@ impl PhQuintic {
 
     /// The point at t; exact at 0 and 1.
     pub fn point(&self, t: f64) -> [f64; 2] {
-        let mut p = self.control_points();
-        for last in (1..p.len()).rev() {
-            for i in 0..last {
-                p[i] = super::vector::lerp(p[i], p[i + 1], t);
-            }
-        }
-        p[0]
+        casteljau(&mut self.control_points(), t)
     }
 
     /// Point and derivatives at t; the derivatives come from the pre-image, so they do not suffer far from the origin.

@@ -1,4 +1,4 @@
-//! What families on any grid share: the loop over nodes, and the tables of a shader.
+//! What families on any grid share: the loop over nodes, the constants and the tables of a shader.
 
 use super::Code;
 use crate::grid::{Grid, MAX_AXES};
@@ -62,6 +62,17 @@ fn row<S: Simd, R: Rows>(simd: S, rows: &R, constants: &R::Constants, node: &[f6
         };
         rows.codes(simd, constants, node, lanes, codes);
     }
+}
+
+/// A shader's constants in WGSL: flags, whole numbers, numbers, and what marks an undecided node.
+#[cfg(feature = "gpu")]
+pub(super) fn constants(flags: &[(&str, u8)], counts: &[(&str, usize)], numbers: &[(&str, f64)]) -> String {
+    let whole = |name: &str, value: usize| format!("const {name}: u32 = {value}u;\n");
+    let mut text = whole("UNDECIDED", Code::UNDECIDED.0.into());
+    text.extend(flags.iter().map(|(name, bit)| whole(name, (*bit).into())));
+    text.extend(counts.iter().map(|(name, count)| whole(name, *count)));
+    text.extend(numbers.iter().map(|(name, value)| format!("const {name}: f32 = {value:e};\n")));
+    text
 }
 
 /// A shader's tables: the constants that the nodes `start .. start + len` need, by the index of their first `angles` axes, then the

@@ -10,7 +10,10 @@ mod verdicts;
 #[path = "../oracle/iv.rs"]
 #[allow(dead_code, reason = "each test program uses a part of this module")]
 mod iv;
+#[path = "../oracle/random.rs"]
+mod random;
 
+pub use random::Random;
 use spiral_atlas::family::{Code, by_name};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 
@@ -32,26 +35,7 @@ pub fn codes_of(datum: Datum) -> (Code, Code) {
     (fast[0], table.exact(0).expect("decided").0)
 }
 
-/// Splitmix64: small, seeded, the same everywhere.
-pub struct Random(pub u64);
-
 impl Random {
-    pub fn word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in `[lo, hi)`.
-    pub fn uniform(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + (hi - lo) * ((self.word() >> 11) as f64 / (1u64 << 53) as f64)
-    }
-
-    pub fn below(&mut self, n: u64) -> u64 {
-        self.word() % n
-    }
-
     /// Of either sign, ten to a uniform exponent.
     pub fn decades(&mut self, lo: f64, hi: f64) -> f64 {
         let sign = if self.below(2) == 0 { 1.0 } else { -1.0 };

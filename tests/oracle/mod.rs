@@ -11,6 +11,7 @@ pub mod iv;
 mod margin;
 pub mod ph;
 pub mod poly;
+pub mod random;
 pub mod reach;
 pub mod trig;
 

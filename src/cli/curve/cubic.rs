@@ -1,20 +1,11 @@
 //! `curve --family cubic`: Habib & Sakai, section 3.2.
 
-use super::super::output;
 use super::{Found, SAMPLES, end_circles};
-use spiral_atlas::curve::{Answer, Ends, Figure, spiral};
+use spiral_atlas::curve::{Answer, Figure};
 use spiral_atlas::plot::{CurveFigure, Graph};
 use spiral_atlas::{Error, Result};
 
-pub fn find(ends: &Ends) -> Result<Answer> {
-    spiral(ends)
-}
-
 impl Found for Answer {
-    fn json(&self) -> Result<String> {
-        output::to_json(self)
-    }
-
     fn text(&self) -> String {
         self.to_string()
     }

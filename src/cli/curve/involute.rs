@@ -1,6 +1,5 @@
 //! `curve --family involute`: the spiral that exists whenever any does (Kurnosenko).
 
-use super::super::output;
 use super::{Found, SAMPLES, end_circles};
 use serde::Serialize;
 use spiral_atlas::curve::{Ends, Frame, Involute, InvoluteOutcome, InvolutePoint, Spiral, Split, involute_between};
@@ -70,10 +69,6 @@ impl Told {
 }
 
 impl Found for Told {
-    fn json(&self) -> Result<String> {
-        output::to_json(self)
-    }
-
     fn text(&self) -> String {
         let Spiral { q, omega, turns, .. } = self.spiral;
         let mut text = match &self.spiral.outcome {

@@ -7,9 +7,10 @@ mod reach;
 mod trig;
 
 use super::{Outcome, output};
-use spiral_atlas::curve::{Ends, Turn, direction_of, reach::Base};
+use serde::Serialize;
+use spiral_atlas::curve::{Ends, Jet, Turn, direction_of, ph_spiral, reach::Base, spiral};
 use spiral_atlas::family::reach::Kind;
-use spiral_atlas::plot::{self, CurveFigure, EndCircle};
+use spiral_atlas::plot::{self, CurveFigure, EndCircle, Graph};
 use spiral_atlas::recipe::parse_angle;
 use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
@@ -127,10 +128,8 @@ enum Family {
     TrigQuintic,
 }
 
-/// What a family found.
-trait Found {
-    /// As JSON with indents.
-    fn json(&self) -> Result<String>;
+/// What a family found; told as JSON too.
+trait Found: Serialize {
     /// In words.
     fn text(&self) -> String;
     /// What is drawn.
@@ -145,29 +144,33 @@ pub fn run(args: &Args) -> Result<Outcome> {
     if let Some(path) = args.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
         return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
     }
-    let found: Box<dyn Found> = match args.family {
-        Family::Cubic => Box::new(cubic::find(&args.ends(&[]))?),
-        Family::PhQuintic => Box::new(ph::find(&args.ends(&[]))?),
+    match args.family {
+        Family::Cubic => args.tell(&spiral(&args.ends(&[]))?),
+        Family::PhQuintic => args.tell(&ph_spiral(&args.ends(&[]))?),
         Family::Involute => {
             let ends = args.ends(&["--turns", "--samples"]);
-            Box::new(involute::find(&ends, args.turns.unwrap_or_default(), args.samples.unwrap_or(101))?)
+            args.tell(&involute::find(&ends, args.turns.unwrap_or_default(), args.samples.unwrap_or(101))?)
         }
-        Family::ReachCubic => Box::new(reach::find(Kind::Cubic, &args.segment())?),
-        Family::ReachPh => Box::new(reach::find(Kind::Ph, &args.segment())?),
-        Family::TrigQuintic => Box::new(trig::find(&args.template())?),
-    };
-    output::print(&if args.json { found.json()? + "\n" } else { found.text() + "\n" })?;
-    if let Some(path) = &args.figure {
-        let figure = found.figure().map_err(|e| Error::Domain(format!("{} was not drawn: {e}", path.display())))?;
-        spiral_atlas::files::write_file(path, &plot::curve_png(&figure, SIZE)?)?;
-        if !args.json {
-            output::print(&format!("drawn in {}\n", path.display()))?;
-        }
+        Family::ReachCubic => args.tell(&reach::find(Kind::Cubic, &args.segment())?),
+        Family::ReachPh => args.tell(&reach::find(Kind::Ph, &args.segment())?),
+        Family::TrigQuintic => args.tell(&trig::find(&args.template())?),
     }
-    Ok(Outcome::Fine)
 }
 
 impl Args {
+    /// Prints what was found, and draws it where that is asked for.
+    fn tell(&self, found: &impl Found) -> Result<Outcome> {
+        output::print(&((if self.json { output::to_json(found)? } else { found.text() }) + "\n"))?;
+        if let Some(path) = &self.figure {
+            let figure = found.figure().map_err(|e| Error::Domain(format!("{} was not drawn: {e}", path.display())))?;
+            spiral_atlas::files::write_file(path, &plot::curve_png(&figure, SIZE)?)?;
+            if !self.json {
+                output::print(&format!("drawn in {}\n", path.display()))?;
+            }
+        }
+        Ok(Outcome::Fine)
+    }
+
     /// Every option with a value of its own that not all families know, and whether it is given.
     fn given(&self) -> [(&'static str, bool); 20] {
         [
@@ -243,9 +246,7 @@ impl Args {
             target,
         }
     }
-}
 
-impl Args {
     /// The template and where it lies.
     fn template(&self) -> trig::Request {
         use spiral_atlas::curve::trig::{Scaling, Segment, Template};
@@ -299,6 +300,18 @@ fn end_circles(ends: &Ends) -> Vec<EndCircle> {
         circle(ends.start, ends.start_direction, ends.start_curvature, "circle of curvature at the start"),
         circle(ends.end, ends.end_direction, ends.end_curvature, "circle of curvature at the end"),
     ]
+}
+
+/// A Bézier curve given relative to its start, its curvature, and the derivative of that.
+fn drawn([x, y]: [f64; 2], local_control_points: &[[f64; 2]]) -> (Vec<[f64; 2]>, Graph, Graph) {
+    let step = |i: usize| i as f64 / (SAMPLES - 1) as f64;
+    let jets: Vec<(f64, Jet)> = (0..SAMPLES).map(step).map(|t| (t, Jet::of_bezier(local_control_points, t))).collect();
+    let graph = |label: &str, value: fn(&Jet) -> f64| Graph {
+        label: label.into(),
+        points: jets.iter().map(|(t, jet)| [*t, value(jet)]).collect(),
+    };
+    let curve = jets.iter().map(|(_, jet)| [x + jet.point[0], y + jet.point[1]]).collect();
+    (curve, graph("κ", Jet::curvature), graph("dκ/dt", Jet::curvature_dt))
 }
 
 /// Two numbers with a comma between.

@@ -1,13 +1,13 @@
 //! `curve --family reach-cubic|reach-ph`: a segment added to the end of a line or of an arc (Habib & Sakai, CGIV 2004).
 
 use super::super::output;
-use super::{Found, SAMPLES, circle};
+use super::{Found, circle, drawn};
 use serde::Serialize;
+use spiral_atlas::curve::Turn;
 pub use spiral_atlas::curve::reach::Request;
 use spiral_atlas::curve::reach::{Added, Base, Outcome, add_segment};
-use spiral_atlas::curve::{Jet, Turn};
 use spiral_atlas::family::reach::{Kind, Level};
-use spiral_atlas::plot::{CurveFigure, Graph};
+use spiral_atlas::plot::CurveFigure;
 use spiral_atlas::{Error, Result};
 
 /// What was asked and what was found.
@@ -25,10 +25,6 @@ pub fn find(kind: Kind, request: &Request) -> Result<Told> {
 }
 
 impl Found for Told {
-    fn json(&self) -> Result<String> {
-        output::to_json(self)
-    }
-
     fn text(&self) -> String {
         match &self.outcome {
             Outcome::None { why } => format!("no segment of `{}`: {why}", self.kind.name()),
@@ -46,9 +42,7 @@ impl Found for Told {
     fn figure(&self) -> Result<CurveFigure> {
         let Outcome::Segment(added) = &self.outcome else { return Err(Error::Domain("there is no segment".into())) };
         let request = &self.request;
-        let step = |i: usize| i as f64 / (SAMPLES - 1) as f64;
-        let jets: Vec<(f64, Jet)> = (0..SAMPLES).map(step).map(|t| (t, Jet::of_bezier(&added.local_control_points, t))).collect();
-        let [x, y] = request.start;
+        let (curve, curvature, derivative) = drawn(request.start, &added.local_control_points);
         let bent = if request.turn == Turn::Right { -1.0 } else { 1.0 } / request.radius;
         let curvatures = if request.base == Base::Line { [0.0, bent] } else { [bent, 0.0] };
         let end = added.control_points.last().copied().unwrap_or(request.start);
@@ -61,15 +55,15 @@ impl Found for Told {
                 output::angle(request.theta)
             ),
             note: format!("{}, case {}: (ξ, η) = ({:.6}, {:.6})", self.kind.name(), added.case, added.xi, added.eta),
-            curve: jets.iter().map(|(_, jet)| [x + jet.point[0], y + jet.point[1]]).collect(),
+            curve,
             control: added.control_points.clone(),
             circles: vec![
                 circle(request.start, request.direction, curvatures[0], "what it is added to"),
                 circle(end, added.end_direction, curvatures[1], "circle of curvature at the end"),
             ],
             parameter: "t".into(),
-            curvature: Graph { label: "κ".into(), points: jets.iter().map(|(t, jet)| [*t, jet.curvature()]).collect() },
-            derivative: Graph { label: "dκ/dt".into(), points: jets.iter().map(|(t, jet)| [*t, jet.curvature_dt()]).collect() },
+            curvature,
+            derivative,
         })
     }
 }

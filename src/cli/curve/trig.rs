@@ -1,6 +1,5 @@
 //! `curve --family trig-quintic`: the five templates of Misro, Ramli and Ali, with spirals that are some.
 
-use super::super::output;
 use super::{Found, SAMPLES};
 use serde::Serialize;
 use spiral_atlas::Result;
@@ -40,10 +39,6 @@ impl Told {
 }
 
 impl Found for Told {
-    fn json(&self) -> Result<String> {
-        output::to_json(self)
-    }
-
     fn text(&self) -> String {
         let mut text = match &self.outcome {
             Outcome::Spirals(_) => self.title() + "\n",

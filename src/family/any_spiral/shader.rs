@@ -1,8 +1,8 @@
 //! What the shader `any_spiral.wgsl` reads.
 
 use super::pair::Pair;
-use super::{Code, EXISTS, INFLECTION, RISING};
-use crate::family::rows::tables;
+use super::{EXISTS, INFLECTION, RISING};
+use crate::family::rows::{constants, tables};
 use crate::family::{Shader, ShaderInputs, outer};
 use crate::grid::Grid;
 
@@ -20,16 +20,9 @@ const LEAST_SQUARE: f64 = LEAST_SINE / (1u32 << 20) as f64;
 const OUTER: f64 = 6.0 / (1u32 << 24) as f64;
 
 pub(super) fn shader() -> Shader {
-    let mut constants = format!("const UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
-    for (name, value) in [("EXISTS", EXISTS), ("RISING", RISING), ("INFLECTION", INFLECTION)] {
-        constants += &format!("const {name}: u32 = {value}u;\n");
-    }
-    for (name, value) in [("PAIR_STRIDE", PAIR_STRIDE), ("FIRST_STRIDE", FIRST_STRIDE)] {
-        constants += &format!("const {name}: u32 = {value}u;\n");
-    }
-    for (name, value) in [("MOST", MOST), ("OUTER", OUTER)] {
-        constants += &format!("const {name}: f32 = {value:e};\n");
-    }
+    let flags = [("EXISTS", EXISTS), ("RISING", RISING), ("INFLECTION", INFLECTION)];
+    let strides = [("PAIR_STRIDE", PAIR_STRIDE), ("FIRST_STRIDE", FIRST_STRIDE)];
+    let constants = constants(&flags, &strides, &[("MOST", MOST), ("OUTER", OUTER)]);
     let own = ("any_spiral.wgsl", include_str!("../../../shaders/any_spiral.wgsl"));
     Shader { constants, fragments: vec![outer::FRAGMENT, own] }
 }

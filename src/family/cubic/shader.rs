@@ -3,8 +3,8 @@
 use super::pair::Pair;
 use super::poly::Bounds;
 use super::precision::Precision;
-use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
-use crate::family::rows::tables;
+use super::{ANY_SPIRAL, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
+use crate::family::rows::{constants, tables};
 use crate::family::{Shader, ShaderInputs, outer};
 use crate::grid::Grid;
 
@@ -41,13 +41,7 @@ pub(super) fn shader() -> Shader {
         ("LEAST", 1.0 / MOST),
         ("KAPPA_MOST", KAPPA_MOST),
     ];
-    let mut constants = format!("const PAIR_STRIDE: u32 = {PAIR_STRIDE}u;\nconst UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
-    for (name, value) in flags {
-        constants += &format!("const {name}: u32 = {value}u;\n");
-    }
-    for (name, value) in numbers {
-        constants += &format!("const {name}: f32 = {value:e};\n");
-    }
+    let constants = constants(&flags, &[("PAIR_STRIDE", PAIR_STRIDE)], &numbers);
     Shader {
         constants,
         fragments: vec![

@@ -2,8 +2,8 @@
 
 use super::pair::Pair;
 use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
-use crate::family::rows::tables;
-use crate::family::{Code, Shader, ShaderInputs, outer};
+use crate::family::rows::{constants, tables};
+use crate::family::{Shader, ShaderInputs, outer};
 use crate::grid::Grid;
 use crate::num::Ball;
 
@@ -32,13 +32,8 @@ const LEAST_Z: f64 = 1.0 / MOST_Z;
 const LEAST: f64 = 1.0 / (1u32 << 10) as f64;
 
 pub(super) fn shader() -> Shader {
-    let mut constants = format!("const UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
-    for (name, value) in [("SOLVABLE", SOLVABLE), ("SPIRAL", SPIRAL), ("ANY_SPIRAL", ANY_SPIRAL)] {
-        constants += &format!("const {name}: u32 = {value}u;\n");
-    }
-    for (name, value) in [("PAIR_STRIDE", PAIR_STRIDE), ("AXIS_STRIDE", AXIS_STRIDE)] {
-        constants += &format!("const {name}: u32 = {value}u;\n");
-    }
+    let flags = [("SOLVABLE", SOLVABLE), ("SPIRAL", SPIRAL), ("ANY_SPIRAL", ANY_SPIRAL)];
+    let strides = [("PAIR_STRIDE", PAIR_STRIDE), ("AXIS_STRIDE", AXIS_STRIDE)];
     let numbers = [
         ("UNIT", UNIT),
         ("TERM", TERM),
@@ -48,9 +43,7 @@ pub(super) fn shader() -> Shader {
         ("MOST_Z", MOST_Z),
         ("LEAST_Z", LEAST_Z),
     ];
-    for (name, value) in numbers {
-        constants += &format!("const {name}: f32 = {value:e};\n");
-    }
+    let constants = constants(&flags, &strides, &numbers);
     Shader {
         constants,
         fragments: vec![

@@ -5,7 +5,8 @@ use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::num::Interval;
 use crate::num::bernstein::{MOST_HALVINGS, positive};
-use std::cmp::Ordering::{Equal, Greater, Less};
+use crate::num::root::{Curve, bracketed, enclose};
+use std::cmp::Ordering::{Greater, Less};
 
 /// The segment of a case: `u`, `m > 0`.
 #[derive(Debug, Clone)]
@@ -95,10 +96,7 @@ fn least_drawn_m(kind: Kind, bits: usize) -> Option<Interval> {
 /// The only u with m above [`MONOTONE_M`] where G is 0; `Some(None)` when there is none with `m > 0`.
 fn ph_root(alpha: &Interval, beta: &Interval, g: &Interval) -> Option<Option<Interval>> {
     let bits = alpha.bits();
-    let value = |u: &Interval| {
-        let (left, right) = ph_sides(beta, &ph_m(alpha, g, u), u);
-        &left - &right
-    };
+    let residual = Residual { alpha, beta, g };
     // αu² - 24gu = 3 + LEAST_M
     let twelve = g.scale(12.0);
     let under = &twelve.square() + &alpha.scale(3.0 + LEAST_M);
@@ -107,12 +105,12 @@ fn ph_root(alpha: &Interval, beta: &Interval, g: &Interval) -> Option<Option<Int
     if start.plus(-MONOTONE_M).sign()? != Greater || start.sign()? != Less {
         return None;
     }
-    if value(&from).sign()? != Less {
+    if residual.value(&from).sign()? != Less {
         return Some(None);
     }
     let (mut low, mut high) = (from.clone(), from.scale(2.0));
     let mut power = 1;
-    while value(&high).sign()? != Greater {
+    while residual.value(&high).sign()? != Greater {
         power *= 2;
         if power > 1 << 16 {
             return None;
@@ -120,51 +118,40 @@ fn ph_root(alpha: &Interval, beta: &Interval, g: &Interval) -> Option<Option<Int
         low = high;
         high = &from * &Interval::power_of_two(power, bits);
     }
-    // Newton's method for G/u³, nearly straight in u, kept inside the bracket.
-    let inside = |x: &Interval, low: &Interval, high: &Interval| x.compare(low) == Some(Greater) && x.compare(high) == Some(Less);
-    let mut u = (&low + &high).scale(0.5).middle();
-    let tiny = Interval::power_of_two(-(bits as isize), bits);
-    for _ in 0..4 * bits {
-        let g_u = value(&u);
-        let Some(sign) = g_u.sign().filter(|s| *s != Equal) else { break };
-        if sign == Less {
-            low = u.clone();
-        } else {
-            high = u.clone();
-        }
-        let step = slope(alpha, beta, g, &u, &g_u);
-        let newton = (&u * &g_u).over(&step).map(|step| (&u - &step).middle());
-        let next = newton.filter(|n| inside(n, &low, &high)).unwrap_or_else(|| (&low + &high).scale(0.5).middle());
-        let (moved, limit) = (&next - &u, &u * &tiny);
-        u = next;
-        if moved.compare(&limit) != Some(Greater) && (-&moved).compare(&limit) != Some(Greater) {
-            break;
-        }
-    }
-    enclose(&u, &from, value)
+    let root = enclose(&residual, &bracketed(&low, &high, &residual)?)?;
+    (root.lower().compare(&from)? != Less).then_some(Some(root))
 }
 
-/// `u G' - 3G`, the slope of G/u³ times u⁴.
-fn slope(alpha: &Interval, beta: &Interval, g: &Interval, u: &Interval, value: &Interval) -> Interval {
-    let m = ph_m(alpha, g, u);
-    let (_, right) = ph_sides(beta, &m, u);
-    let m_slope = &u.scale(2.0) * &(&(alpha * u) - &g.scale(12.0));
-    let direct = &(&m.plus(3.0) * u).scale(2.0) - &right.scale(3.0);
-    let through_m = &(&u.scale(2.0) + &m.scale(6.0).plus(3.0)) * &m_slope;
-    &(&direct + &through_m) - &value.scale(3.0)
+/// G/u³, nearly straight in u.
+struct Residual<'i> {
+    alpha: &'i Interval,
+    beta: &'i Interval,
+    g: &'i Interval,
 }
 
-/// Proves the root around a guess: certain signs at `u(1 - δ)` and `u(1 + δ)`, with the least δ that works.
-fn enclose(guess: &Interval, from: &Interval, value: impl Fn(&Interval) -> Interval) -> Option<Option<Interval>> {
-    let bits = guess.bits();
-    let mut exponent = -(bits as isize) + 12;
-    while exponent < -(bits as isize) / 4 {
-        let delta = guess * &Interval::power_of_two(exponent, bits);
-        let (low, high) = ((guess - &delta).lower(), (guess + &delta).upper());
-        if value(&low).sign() == Some(Less) && value(&high).sign() == Some(Greater) {
-            return (low.compare(from)? != Less).then(|| Some(low.union(&high)));
-        }
-        exponent += 10 + (bits / 64) as isize;
+impl Residual<'_> {
+    /// G.
+    fn value(&self, u: &Interval) -> Interval {
+        let (left, right) = ph_sides(self.beta, &ph_m(self.alpha, self.g, u), u);
+        &left - &right
     }
-    None
+}
+
+impl Curve for Residual<'_> {
+    /// `uG` and `uG' - 3G`: value and slope, both times u⁴, which changes neither signs nor Newton's steps.
+    fn at(&self, u: &Interval) -> Option<(Interval, Interval)> {
+        let value = self.value(u);
+        let m = ph_m(self.alpha, self.g, u);
+        let (_, right) = ph_sides(self.beta, &m, u);
+        let m_slope = &u.scale(2.0) * &(&(self.alpha * u) - &self.g.scale(12.0));
+        let direct = &(&m.plus(3.0) * u).scale(2.0) - &right.scale(3.0);
+        let through_m = &(&u.scale(2.0) + &m.scale(6.0).plus(3.0)) * &m_slope;
+        Some((u * &value, &(&direct + &through_m) - &value.scale(3.0)))
+    }
+
+    fn guess(&self, u: f64) -> f64 {
+        let m = ph_m(&self.alpha.approx(), &self.g.approx(), &u);
+        let (left, right) = ph_sides(&self.beta.approx(), &m, &u);
+        (left - right) / u.powi(3)
+    }
 }

@@ -4,8 +4,8 @@ use super::angle::Angle;
 use super::filter::{Precision, SMALL, least_drawn_m};
 use super::poly::{LEAST_M, MONOTONE_M};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
-use crate::family::rows::tables;
-use crate::family::{Code, Shader, ShaderInputs};
+use crate::family::rows::{constants, tables};
+use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 
 /// Numbers of an angle in the table; the order is that of `read_angle`.
@@ -43,13 +43,7 @@ pub(super) fn shader(kind: Kind) -> Shader {
         ("DRAWN_ABOVE", star * (1.0 + 4.0 * P.unit)),
         ("DRAWN_BELOW", star * (1.0 - 4.0 * P.unit)),
     ];
-    let mut constants = format!("const ANGLE_STRIDE: u32 = {ANGLE_STRIDE}u;\nconst UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
-    for (name, value) in flags {
-        constants += &format!("const {name}: u32 = {value}u;\n");
-    }
-    for (name, value) in numbers {
-        constants += &format!("const {name}: f32 = {value:e};\n");
-    }
+    let constants = constants(&flags, &[("ANGLE_STRIDE", ANGLE_STRIDE)], &numbers);
     let own = match kind {
         Kind::Cubic => ("reach_cubic.wgsl", include_str!("../../../shaders/reach_cubic.wgsl")),
         Kind::Ph => ("reach_ph.wgsl", include_str!("../../../shaders/reach_ph.wgsl")),

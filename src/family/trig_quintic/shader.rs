@@ -4,8 +4,8 @@ use super::filter::coefficient_error;
 use super::plain::{PRINTED_Q, end_slope, printed_ratio};
 use super::poly::{BERNSTEIN, Frame, K};
 use super::{END_CURVATURE_AS_PRINTED, END_RISES, PRINTED_RATIO, SPIRAL};
-use crate::family::rows::tables;
-use crate::family::{Code, Shader, ShaderInputs};
+use crate::family::rows::{constants, tables};
+use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 use std::cmp::Ordering::Less;
 
@@ -47,16 +47,7 @@ pub(super) fn shader() -> Shader {
         ("P_STRIDE", P_STRIDE),
         ("Q_STRIDE", Q_STRIDE),
     ];
-    let mut constants = format!("const UNDECIDED: u32 = {}u;\n", Code::UNDECIDED.0);
-    for (name, value) in flags {
-        constants += &format!("const {name}: u32 = {value}u;\n");
-    }
-    for (name, value) in counts {
-        constants += &format!("const {name}: u32 = {value}u;\n");
-    }
-    for (name, value) in [("UNIT", UNIT), ("ERROR", ERROR), ("FLOOR", FLOOR)] {
-        constants += &format!("const {name}: f32 = {value:e};\n");
-    }
+    let constants = constants(&flags, &counts, &[("UNIT", UNIT), ("ERROR", ERROR), ("FLOOR", FLOOR)]);
     let own = ("trig_quintic.wgsl", include_str!("../../../shaders/trig_quintic.wgsl"));
     Shader { constants, fragments: vec![own] }
 }
