@@ -66,8 +66,10 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
     let inside = |x: &Interval, low: &Interval, high: &Interval| x.compare(low) == Some(Greater) && x.compare(high) == Some(Less);
     let middle = |low: &Interval, high: &Interval| (low + high).scale(0.5).middle();
     let (first, last) = (low.approx(), high.approx());
-    let guess = Interval::new(find(|x| f.guess(x), first, last, f64::EPSILON * first.abs().max(last.abs())), bits);
-    let mut x = if inside(&guess, &low, &high) { guess } else { middle(&low, &high) };
+    // Ends beyond the range of doubles leave no guess.
+    let guess = Some(find(|x| f.guess(x), first, last, f64::EPSILON * first.abs().max(last.abs()))).filter(|x| x.is_finite());
+    let guess = guess.map(|x| Interval::new(x, bits)).filter(|x| inside(x, &low, &high));
+    let mut x = guess.unwrap_or_else(|| middle(&low, &high));
     let tiny = Interval::power_of_two(-(bits as isize), bits);
     for _ in 0..4 * bits {
         let (value, slope) = f.at(&x)?;
