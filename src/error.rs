@@ -30,11 +30,13 @@ pub enum Error {
     },
     /// A verdict could not be proved at the precision cap.
     #[error(
-        "node {node} at {coordinates}: {what} is not decided at the cap of {bits} bits; move the node or drop it from the grid"
+        "{}{coordinates}: {what} is not decided at the cap of {bits} bits; {}",
+        node.map_or(String::new(), |n| format!("node {n} at ")),
+        if node.is_some() { "move the node or drop it from the grid" } else { "change a number by a unit in its last place" }
     )]
     Undecided {
-        /// Flat index, or `-` for a single datum.
-        node: String,
+        /// Flat index; none for a single datum.
+        node: Option<u64>,
         /// The node's coordinates.
         coordinates: String,
         /// The condition in question.

@@ -27,7 +27,12 @@ impl Draft {
         // Temporary files are private by default; these become ordinary ones.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder(&target)).map_err(|e| e.kind())?;
+        let folder = folder(&target);
+        if !folder.is_dir() {
+            return Err(Error::other(format!("there is no folder `{}`", folder.display())));
+        }
+        // The kind alone: the error names the temporary file.
+        let file = builder.tempfile_in(folder).map_err(|e| e.kind())?;
         Ok(Draft { target, file })
     }
 

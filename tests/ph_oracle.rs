@@ -166,6 +166,27 @@ fn near_symmetric_data() {
     assert!(tally.solutions[3] > 5 && tally.spirals > 3, "{:?}", tally.solutions);
 }
 
+/// Symmetric data where one solution is about to become three, and their neighbours.
+#[test]
+fn forks() {
+    let mut tally = Tally::default();
+    let tiny = [1e-4, 1e-5, 1e-7, 1e-9].map(|x| (x, x));
+    for (phi, kappa) in tiny.into_iter().chain([(1.0, 0.5835894701), (0.3, 0.2867208939305582), (0.01, 0.009999500030548204)]) {
+        // The oracle cannot tell that mirror images have one energy; that they are such images can be seen.
+        let symmetric = solved([phi, phi, kappa, kappa]);
+        let curves = symmetric.all();
+        assert!(matches!(curves.len(), 1 | 3), "{phi} {kappa}: {curves:?}");
+        for (one, other) in curves.iter().zip(curves.iter().rev()) {
+            assert!((one.a - other.b).abs() < 1e-9 * one.a, "{phi} {kappa}: {curves:?}");
+        }
+        for kappa1 in [kappa.next_up(), kappa.next_down()] {
+            tally.case([phi, phi, kappa, kappa1]);
+        }
+    }
+    tally.finish("forks", 14);
+    assert!(tally.solutions[1] > 0 && tally.solutions[3] > 0, "{:?}", tally.solutions);
+}
+
 #[test]
 fn no_curvature_at_an_end() {
     let (mut r, mut tally) = (Random(23), Tally::default());

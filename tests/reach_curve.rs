@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 
 type Point = [f64; 2];
 
-/// Point and first two derivatives by de Casteljau's algorithm, with the start as the origin.
-fn jet(points: &[Point], t: f64) -> [Point; 3] {
-    let n = points.len() as f64 - 1.0;
+/// First two derivatives by de Casteljau's algorithm, from the sides of the control polygon.
+fn jet(legs: &[Point], t: f64) -> [Point; 2] {
+    let n = legs.len() as f64;
     let mix =
         |row: &[Point]| -> Vec<Point> { row.windows(2).map(|w| [0, 1].map(|i| w[0][i] + t * (w[1][i] - w[0][i]))).collect() };
     let steps = |row: &[Point]| -> Vec<Point> { row.windows(2).map(|w| [0, 1].map(|i| w[1][i] - w[0][i])).collect() };
@@ -20,26 +20,20 @@ fn jet(points: &[Point], t: f64) -> [Point; 3] {
         }
         row[0]
     };
-    let local: Vec<Point> = points.iter().map(|p| [0, 1].map(|i| p[i] - points[0][i])).collect();
-    let (first, second) = (steps(&local), steps(&steps(&local)));
-    [value(&local), value(&first).map(|x| x * n), value(&second).map(|x| x * n * (n - 1.0))]
+    [value(legs).map(|x| x * n), value(&steps(legs)).map(|x| x * n * (n - 1.0))]
 }
 
-fn curvature(points: &[Point], t: f64) -> f64 {
-    let [_, a, b] = jet(points, t);
+fn curvature(legs: &[Point], t: f64) -> f64 {
+    let [a, b] = jet(legs, t);
     (a[0] * b[1] - a[1] * b[0]) / a[0].hypot(a[1]).powi(3)
 }
 
-/// All end data that are off by more than 1e-12, in units of r; curvatures as far as the shorter end leg lets them be known.
+/// All end data that are off by more than 1e-12, in units of r.
 fn faults(request: &Request, added: &Added) -> Vec<String> {
-    let points = &added.local_control_points;
-    let n = points.len();
-    let leg = |i: usize| (points[i + 1][0] - points[i][0]).hypot(points[i + 1][1] - points[i][1]) / request.radius;
-    let size = points[n - 1][0].hypot(points[n - 1][1]) / request.radius;
-    let bent = 1e-12 + 1e-14 * size / leg(0).min(leg(n - 2)).powi(2);
+    let legs = &added.legs;
     let sign = if request.turn == Turn::Left { 1.0 } else { -1.0 };
     let heading = |t: f64| {
-        let [_, d, _] = jet(points, t);
+        let [d, _] = jet(legs, t);
         d[1].atan2(d[0])
     };
     let turned = |angle: f64| angle.sin().atan2(angle.cos());
@@ -50,19 +44,26 @@ fn faults(request: &Request, added: &Added) -> Vec<String> {
         ("start direction", turned(heading(0.0) - request.direction), 0.0, 1e-12),
         ("end direction", turned(heading(1.0) - request.direction), turned(sign * request.theta), 1e-12),
         ("end direction as told", turned(heading(1.0) - added.end_direction), 0.0, 1e-12),
-        ("start curvature", curvature(points, 0.0) * request.radius, bends[0], bent),
-        ("end curvature", curvature(points, 1.0) * request.radius, bends[1], bent),
+        ("start curvature", curvature(legs, 0.0) * request.radius, bends[0], 1e-12),
+        ("end curvature", curvature(legs, 1.0) * request.radius, bends[1], 1e-12),
     ];
     let mut faults: Vec<String> = checks
         .iter()
         .filter(|(_, is, want, near)| (is - want).abs().partial_cmp(near).is_none_or(|o| o.is_gt()))
         .map(|(what, is, want, _)| format!("{what} is {is:?}, must be {want:?}"))
         .collect();
+    let points = &added.local_control_points;
+    let size = points[points.len() - 1][0].hypot(points[points.len() - 1][1]);
+    for (w, leg) in points.windows(2).zip(legs) {
+        if (w[1][0] - w[0][0] - leg[0]).hypot(w[1][1] - w[0][1] - leg[1]) > 1e-14 * size {
+            faults.push(format!("a side is {leg:?}, but the points are {w:?}"));
+        }
+    }
     // Curvature grows away from the line, or dies away from the circle.
-    let samples: Vec<f64> = (0..=2000).map(|i| sign * curvature(points, f64::from(i) / 2000.0)).collect();
+    let samples: Vec<f64> = (0..=2000).map(|i| sign * curvature(legs, f64::from(i) / 2000.0)).collect();
     let rising = if request.base == Base::Line { 1.0 } else { -1.0 };
     let largest = samples.iter().fold(0.0f64, |most, k| most.max(k.abs()));
-    let monotone = samples.windows(2).all(|w| rising * (w[1] - w[0]) >= -bent * largest);
+    let monotone = samples.windows(2).all(|w| rising * (w[1] - w[0]) >= -1e-12 * largest);
     if monotone != (added.level >= Level::Exact) {
         faults.push(format!("level {:?}, but monotone is {monotone}", added.level));
     }
@@ -103,11 +104,12 @@ fn shapes_have_their_end_data_and_their_level() {
             assert_eq!(faults(&request, &added), [""; 0], "{kind:?} {request:?}");
             levels[added.level as usize] += 1;
             assert_eq!(added.control_points.len(), if kind == Kind::Cubic { 4 } else { 6 });
-            // A point moved by little is noticed.
-            for i in 0..added.control_points.len() {
-                let mut wrong = added.clone();
+            // A point or a side moved by little is noticed.
+            for i in 0..added.legs.len() {
+                let (mut wrong, mut other) = (added.clone(), added.clone());
                 wrong.local_control_points[i][1] += 1e-5;
-                assert!(!faults(&request, &wrong).is_empty(), "{kind:?} {i} {request:?}");
+                other.legs[i][1] += 1e-11;
+                assert!(!faults(&request, &wrong).is_empty() && !faults(&request, &other).is_empty(), "{kind:?} {i} {request:?}");
             }
             let wrong = Added { level: if added.level == Level::Exists { Level::Exact } else { Level::Exists }, ..added };
             assert!(!faults(&request, &wrong).is_empty());

@@ -136,7 +136,7 @@ impl Answer {
             text += &format!("  {name} = {}\n", word(value));
         }
         if self.solutions.is_empty() {
-            text += &format!("no curve of `{}` has these ends\n", family.name());
+            text += &format!("`{}` has no curve for these ends\n", family.name());
         }
         for (i, solution) in self.solutions.iter().enumerate() {
             let chosen = if self.chosen == Some(i) { ", chosen" } else { "" };

@@ -3,7 +3,8 @@
 use super::extrema;
 use super::jet::Jet;
 use super::length::arc_length;
-use super::vector::{lerp, scale, sub};
+use super::vector::{add, lerp, scale, sub};
+use crate::family::cubic::Datum;
 use serde::Serialize;
 
 /// A cubic Bézier curve, `P(t) = Σ C(3,i) t^i (1-t)^(3-i) p_i` for t in [0, 1]: Habib & Sakai, (3.1).
@@ -36,6 +37,26 @@ impl CubicBezier {
         CubicBezier {
             p: [[-1.0, 0.0], [-1.0 + h0 * phi0.cos(), -h0 * phi0.sin()], [1.0 - h1 * phi1.cos(), -h1 * phi1.sin()], [1.0, 0.0]],
         }
+    }
+
+    /// The sides of the control polygon of [`CubicBezier::from_ratios`] for a datum and one of its roots.
+    ///
+    /// # Accuracy
+    /// A few ulp of each. The middle one is made from the end curvatures, so that the sides meet those and the end directions to a few ulp
+    /// over `sin(phi0 + phi1)` and `1 - f/3` of the other end, however short an end's tangent is; their sum is the chord as nearly as the
+    /// root is one.
+    ///
+    /// # Source
+    /// Habib & Sakai, (3.3), (3.4).
+    pub fn legs(datum: &Datum, f0: f64, f1: f64) -> [[f64; 2]; 3] {
+        let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
+        let sine = (phi0 + phi1).sin();
+        let third = 2.0 / (3.0 * sine);
+        let (h0, h1) = (third * phi1.sin() * f0, third * phi0.sin() * f1);
+        // κ0 = 2/3 (p1 - p0) × (p2 - p1) / |p1 - p0|³.
+        let [g0, g1] = [kappa1 * h1 * h1, kappa0 * h0 * h0].map(|x| 1.5 * x / sine);
+        let (along0, along1) = ([phi0.cos(), -phi0.sin()], [phi1.cos(), phi1.sin()]);
+        [scale(along0, h0), add(scale(along0, g0), scale(along1, g1)), scale(along1, h1)]
     }
 
     /// The point at t; exact at 0 and 1.

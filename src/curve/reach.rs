@@ -71,6 +71,8 @@ pub struct Added {
     pub control_points: Vec<[f64; 2]>,
     /// The same relative to the start: what to differentiate, free of the rounding of far-away coordinates.
     pub local_control_points: Vec<[f64; 2]>,
+    /// The sides of the control polygon, each to a few ulp of itself: what to differentiate where an end's tangent is short.
+    pub legs: Vec<[f64; 2]>,
     /// Direction of travel at the end, radians.
     pub end_direction: f64,
 }
@@ -96,8 +98,8 @@ fn level_name<S: serde::Serializer>(level: &Level, serializer: S) -> Result<S::O
 ///
 /// # Accuracy
 /// Levels are proved (see [`Added::level`]). Control points are within a few ulp of the largest coordinate difference; a given end
-/// point is met exactly, end directions of [`Added::local_control_points`] to 1e-14, and curvatures times r to 1e-12 or, where the
-/// end leg is short, some 2^-50 over the square of its length in r.
+/// point is met exactly, and end directions and curvatures of [`Added::legs`] are met to 1e-14 (curvatures times r); those of control
+/// points to some 2^-50 over the square of the end leg's length in r.
 ///
 /// # Errors
 /// [`Error::Domain`] naming a value that is not finite, not positive where it must be, or outside the family's range.
@@ -129,12 +131,14 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
             (xi, eta, s.m, s.q, s.level)
         }
     };
+    let sides = legs(kind, case, theta, m, q);
     let mut at = [0.0, 0.0];
     let mut local_control_points = vec![at];
-    for leg in legs(kind, case, theta, m, q) {
-        at = add(at, leg);
+    for leg in &sides {
+        at = add(at, *leg);
         local_control_points.push(frame.step(at));
     }
+    let legs = sides.into_iter().map(|leg| frame.step(leg)).collect();
     let mut control_points: Vec<Vector> = local_control_points.iter().map(|p| add(start, *p)).collect();
     if let (Target::Point(point), Some(end)) = (target, control_points.last_mut()) {
         *end = point;
@@ -143,7 +147,7 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
         return Err(Error::Domain(format!("a control point is ({x:?}, {y:?}), outside the range of doubles")));
     }
     let end_direction = direction + if frame.right { -theta } else { theta };
-    Ok(Outcome::Segment(Added { case, xi, eta, m, q, level, control_points, local_control_points, end_direction }))
+    Ok(Outcome::Segment(Added { case, xi, eta, m, q, level, control_points, local_control_points, legs, end_direction }))
 }
 
 fn positive(name: &str, value: f64) -> Result<()> {

@@ -50,8 +50,11 @@ pub struct Solution {
     pub margin: f64,
     /// The curve in the user's units, axes and direction of travel; it starts and ends exactly where asked.
     pub control_points: CubicBezier,
-    /// The same relative to the start point: what to differentiate when the coordinates are far from the origin.
+    /// The same relative to the start point, for coordinates far from the origin.
     pub local_control_points: CubicBezier,
+    /// The sides of the control polygon, each to a few ulp of itself: a third of the derivative's control points, and what to
+    /// differentiate where an end's tangent is short. See [`CubicBezier::legs`].
+    pub legs: [[f64; 2]; 3],
     /// Parameters of its curvature extrema; empty on a spiral.
     pub extrema: Vec<f64>,
 }
@@ -61,7 +64,8 @@ pub struct Solution {
 /// # Accuracy
 /// Existence is proved for the normalised doubles in [`Answer::datum`], which differ from the exact normal form of the user's
 /// data by rounding; see [`Placement::normalise`]. The curve's end points are the user's, exactly; end directions and curvatures of
-/// [`Solution::local_control_points`] are the user's to about 1e-14 over the length of the end's tangent in half chords.
+/// [`Solution::legs`] are the user's to 1e-14 over `sin(phi0 + phi1)` and `1 - f/3` of the other end; those of control points to that
+/// over the length of the end's tangent in half chords (curvatures: its square).
 ///
 /// # Errors
 /// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control point leaves the range of doubles. That
@@ -114,7 +118,8 @@ impl Solution {
         let Root { f0, f1, theorem31, spiral, margin } = *root;
         let control_points = placement.place(datum, f0, f1);
         let local_control_points = placement.place_local(datum, f0, f1);
-        let mut all = control_points.p.iter().chain(&local_control_points.p);
+        let legs = placement.to_user_legs(&CubicBezier::legs(datum, f0, f1));
+        let mut all = control_points.p.iter().chain(&local_control_points.p).chain(&legs);
         if let Some([x, y]) = all.find(|p| !(p[0].is_finite() && p[1].is_finite())) {
             return Err(Error::Domain(format!(
                 "a control point of the root ({f0:?}, {f1:?}) is ({x:?}, {y:?}), outside the range of doubles (change the unit of length)"
@@ -122,7 +127,7 @@ impl Solution {
         }
         // A proved spiral has none; rounding must not say otherwise.
         let extrema = if spiral { Vec::new() } else { local_control_points.curvature_extrema() };
-        Ok(Solution { f0, f1, theorem31, spiral, margin, control_points, local_control_points, extrema })
+        Ok(Solution { f0, f1, theorem31, spiral, margin, control_points, local_control_points, legs, extrema })
     }
 }
 

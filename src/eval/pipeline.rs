@@ -285,7 +285,7 @@ fn retry(codes: &mut [Code], mut again: impl FnMut(usize, &mut [Code])) -> u64 {
 pub(super) fn name_node(error: Error, node: u64, grid: &Grid) -> Error {
     match error {
         Error::Undecided { what, bits, .. } => {
-            Error::Undecided { node: node.to_string(), coordinates: grid.describe(node), what, bits }
+            Error::Undecided { node: Some(node), coordinates: grid.describe(node), what, bits }
         }
         other => other,
     }

@@ -5,11 +5,18 @@ use crate::grid::Grid;
 use crate::num::trig::sum_below_pi;
 use std::f64::consts::PI;
 
+/// An angle for an error message, which may have been given in degrees.
+pub(super) fn told(angle: f64) -> String {
+    let degrees = (angle.to_degrees() * 1e6).round() / 1e6;
+    if degrees.is_finite() { format!("{angle} ({degrees} degrees)") } else { angle.to_string() }
+}
+
 /// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by [`check_angles`].
 fn check_angle(name: &str, angle: f64) -> Result<()> {
     if angle > 0.0 && angle <= PI {
         return Ok(());
     }
+    let angle = told(angle);
     Err(Error::Domain(format!("{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)")))
 }
 

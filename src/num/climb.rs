@@ -20,5 +20,8 @@ pub fn climb<T>(datum: &impl Debug, what: &str, attempt: impl Fn(usize) -> Optio
         }
         bits *= 2;
     }
-    Err(Error::Undecided { node: "-".into(), coordinates: format!("{datum:?}"), what: what.into(), bits: MOST_BITS })
+    let told = format!("{datum:?}");
+    // Fields without the type's name.
+    let coordinates = told.split_once(" { ").map_or(told.as_str(), |(_, fields)| fields.trim_end_matches(" }")).to_owned();
+    Err(Error::Undecided { node: None, coordinates, what: what.into(), bits: MOST_BITS })
 }

@@ -7,7 +7,7 @@ use super::scale::Scale;
 use super::slice::check_room;
 use crate::error::{Error, Result};
 
-const CIRCLES: [Color; 2] = [[0, 114, 178], [213, 94, 0]];
+const CIRCLES: [Color; 3] = [[0, 114, 178], [213, 94, 0], [0, 158, 115]];
 const WRONG: Color = [200, 30, 30];
 const PALE: Color = [190, 190, 190];
 
@@ -55,6 +55,8 @@ pub struct CurveFigure {
     pub curvature: Graph,
     /// Derivative of the curvature, drawn red where it goes against the change from one end to the other.
     pub derivative: Graph,
+    /// Parameters, increasing, that part it into curves with a change of their own; usually none.
+    pub joints: Vec<f64>,
 }
 
 /// Draws a curve figure of `size` (width, height) pixels: the curve on the left, to one scale in both directions, its
@@ -127,18 +129,24 @@ fn entries(figure: &CurveFigure) -> Vec<Entry> {
         entries.push(Entry { key: Key::Line(color, 0.1), text: circle.label.clone() });
     }
     let wrong = turns_back(figure);
-    if figure.derivative.points.iter().any(|p| wrong(p[1])) {
+    if figure.derivative.points.iter().any(|p| wrong(*p)) {
         entries.push(Entry { key: Key::Line(WRONG, 0.16), text: "curvature turns back".into() });
     }
     entries
 }
 
-/// Which derivatives go against the change of curvature from the first point to the last; rounding noise does not.
-fn turns_back(figure: &CurveFigure) -> impl Fn(f64) -> bool {
-    let ends = figure.curvature.points.first().zip(figure.curvature.points.last());
-    let sign = ends.map_or(1.0, |(first, last)| (last[1] - first[1]).signum());
+/// Which points of the derivative go against the change of curvature from the first point of their curve to its last; rounding noise
+/// does not.
+fn turns_back(figure: &CurveFigure) -> impl Fn(Point) -> bool {
     let noise = figure.derivative.points.iter().fold(0.0, |most: f64, p| most.max(p[1].abs())) * 1e-9;
-    move |derivative| derivative * sign < -noise
+    let limits: Vec<f64> = [f64::NEG_INFINITY].into_iter().chain(figure.joints.iter().copied()).chain([f64::INFINITY]).collect();
+    let change = |limits: &[f64]| {
+        let mut inside = figure.curvature.points.iter().filter(|p| (limits[0]..=limits[1]).contains(&p[0]));
+        let first = inside.next();
+        first.zip(inside.next_back()).map_or(0.0, |(first, last)| (last[1] - first[1]).signum())
+    };
+    let curves: Vec<(f64, f64)> = limits.windows(2).map(|limits| (limits[1], change(limits))).collect();
+    move |[at, derivative]| curves.iter().find(|(to, _)| at <= *to).is_some_and(|(_, sign)| derivative * sign < -noise)
 }
 
 /// Least and greatest of some numbers.
@@ -245,14 +253,14 @@ fn draw_graphs(canvas: &mut Canvas, figure: &CurveFigure, style: Style, areas: [
     for (i, rect) in rects.iter_mut().enumerate() {
         rect.left += left + style.px(1.6);
         check_room(canvas, *rect)?;
-        draw_graph(canvas, graphs[i], [x, scales[i]], style, *rect, &|value| i == 1 && turns_back(value));
+        draw_graph(canvas, graphs[i], [x, scales[i]], style, *rect, &|p| i == 1 && turns_back(p));
         label_below(canvas, style, *rect, style.below(), &figure.parameter);
         label_left(canvas, style, *rect, left, &graphs[i].label);
     }
     Ok(())
 }
 
-fn draw_graph(canvas: &mut Canvas, graph: &Graph, [x, y]: [Scale; 2], style: Style, rect: Rect, wrong: &dyn Fn(f64) -> bool) {
+fn draw_graph(canvas: &mut Canvas, graph: &Graph, [x, y]: [Scale; 2], style: Style, rect: Rect, wrong: &dyn Fn(Point) -> bool) {
     let zero = y.fraction(0.0);
     if (0.0..1.0).contains(&zero) {
         canvas.line(&[rect.at(0.0, zero), rect.at(1.0, zero)], 1.0, PALE, rect);
@@ -261,7 +269,7 @@ fn draw_graph(canvas: &mut Canvas, graph: &Graph, [x, y]: [Scale; 2], style: Sty
     let places: Vec<Point> = graph.points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect();
     canvas.line(&places, style.em * 0.16, INK, rect);
     // Points that are not finite interrupt a line.
-    let only_wrong = |(p, place): (&Point, &Point)| if wrong(p[1]) { *place } else { [f64::NAN; 2] };
+    let only_wrong = |(p, place): (&Point, &Point)| if wrong(*p) { *place } else { [f64::NAN; 2] };
     let wrong: Vec<Point> = graph.points.iter().zip(&places).map(only_wrong).collect();
     canvas.line(&wrong, style.em * 0.24, WRONG, rect);
     draw_below(canvas, &x, style, rect, true);

@@ -240,6 +240,10 @@ pub(super) fn entries(slices: &[&Slice], stars: bool) -> Vec<Entry> {
         entries.push(Entry { key: Key::Fill(color), text });
     }
     for (i, (region, color)) in first.outlines.iter().zip(OUTLINES.into_iter().cycle()).enumerate() {
+        // What covers everything has no rim to draw.
+        if slices.iter().all(|s| s.outlines.get(i).is_some_and(|region| region.mask.iter().all(|inside| *inside))) {
+            continue;
+        }
         let text = text(&region.label, &|s| s.outlines.get(i).map_or(0, count));
         entries.push(Entry { key: Key::Hatched(color), text });
     }

@@ -153,6 +153,16 @@ fn reference_points() {
         let found = involute(&chord, turns.map(|n| n.abs() as u32)).unwrap();
         let curve = found.curve().expect("a curve");
         assert!(near(c * curve.length(), samples.length), "{}", samples.id);
+        // Neighbours found one from the other are those found one by one, however far apart.
+        for count in [2, 3, 10, 1000] {
+            for (i, (s, at)) in curve.samples(count).unwrap().into_iter().enumerate() {
+                let alone = curve.at_length(i as f64 / (count - 1) as f64);
+                assert!((curve.length_to(at.f) - s).abs() < 2e-13 * curve.length(), "{}: {at:?}", samples.id);
+                let apart = (at.point[0] - alone.point[0]).hypot(at.point[1] - alone.point[1]);
+                assert!(apart < 4e-13 * curve.length(), "{}: {at:?}, not {alone:?}", samples.id);
+            }
+        }
+        assert!(curve.samples(1).unwrap_err().to_string().contains("at least 2"));
         let by_parameter = samples.by_parameter.iter().map(|row| (row, curve.at(row[0])));
         let by_length = samples.by_arclength.iter().map(|row| (row, curve.at_length(row[0])));
         for ([_, x, y, direction, k], at) in by_parameter.chain(by_length) {

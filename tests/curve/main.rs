@@ -4,6 +4,7 @@ mod answers;
 mod ph;
 mod pieces;
 mod placement;
+mod sides;
 
 use spiral_atlas::curve::{Answer, CubicBezier, Ends, Placement};
 use spiral_atlas::family::cubic::{Datum, Root};

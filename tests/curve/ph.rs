@@ -1,57 +1,9 @@
 //! PH quintic spirals between ends anywhere: end data, monotone curvature, the hodograph, length and energy, reasons.
 
 use super::EPS;
+use super::sides::{check, ends};
 use proptest::prelude::*;
-use spiral_atlas::curve::{Ends, Jet, PhOutcome, PhSolution, arc_length, ph_spiral};
-use std::f64::consts::PI;
-
-/// A spiral's ends in some position: turned, scaled and moved, mirrored and travelled backwards or not.
-fn ends([phi0, phi1, kappa0, kappa1]: [f64; 4], turned: f64, half: f64, mirrored: bool, reversed: bool) -> Ends {
-    let at = |x: f64| [3.0 + x * half * turned.cos(), -2.0 + x * half * turned.sin()];
-    let side = if mirrored { -1.0 } else { 1.0 };
-    let (first, last) = ((-side * phi0, side * kappa0 / half), (side * phi1, side * kappa1 / half));
-    if reversed {
-        return Ends {
-            start: at(1.0),
-            end: at(-1.0),
-            start_direction: turned + last.0 + PI,
-            end_direction: turned + first.0 + PI,
-            start_curvature: -last.1,
-            end_curvature: -first.1,
-        };
-    }
-    Ends {
-        start: at(-1.0),
-        end: at(1.0),
-        start_direction: turned + first.0,
-        end_direction: turned + last.0,
-        start_curvature: first.1,
-        end_curvature: last.1,
-    }
-}
-
-/// How far, relative to the curvature's own size, the curve is from its ends, and whether its curvature is monotone at 400 points.
-fn check(ends: &Ends, found: &PhSolution) -> (f64, bool) {
-    // A fifth of the derivative, and of the second.
-    let curvature = |t: f64| {
-        let Jet { point: a, first: b, .. } = Jet::of_bezier(&found.legs, t);
-        0.2 * (a[0] * b[1] - a[1] * b[0]) / a[0].hypot(a[1]).powi(3)
-    };
-    let leg = |i: usize| found.legs[i];
-    let turn = |leg: [f64; 2], direction: f64| (leg[1].atan2(leg[0]) - direction).sin().abs();
-    // (n - 1)/n of the cross product of the first two sides over the cube of the first, for degree n = 5.
-    let bend = |own: [f64; 2], a: [f64; 2], b: [f64; 2]| 0.8 * (a[0] * b[1] - a[1] * b[0]) / own[0].hypot(own[1]).powi(3);
-    let sharp = ends.start_curvature.abs().max(ends.end_curvature.abs());
-    let off = [
-        turn(leg(0), ends.start_direction),
-        turn(leg(4), ends.end_direction),
-        (bend(leg(0), leg(0), leg(1)) - ends.start_curvature).abs() / sharp,
-        (bend(leg(4), leg(3), leg(4)) - ends.end_curvature).abs() / sharp,
-    ];
-    let growth = (ends.end_curvature - ends.start_curvature).signum();
-    let curvatures: Vec<f64> = (0..=400).map(|i| growth * curvature(f64::from(i) / 400.0)).collect();
-    (off.into_iter().fold(0.0, f64::max), curvatures.windows(2).all(|w| w[0] <= w[1] + 1e-12 * sharp))
-}
+use spiral_atlas::curve::{Ends, Jet, PhOutcome, arc_length, ph_spiral};
 
 #[test]
 fn meets_its_ends_in_every_orientation() {
@@ -64,12 +16,12 @@ fn meets_its_ends_in_every_orientation() {
             let answer = ph_spiral(&ends).unwrap();
             let found = answer.chosen().unwrap_or_else(|| panic!("{datum:?}: {answer}"));
             assert_eq!((found.control_points[0], found.control_points[5]), (ends.start, ends.end));
-            let (off, monotone) = check(&ends, found);
+            let (off, monotone) = check(&ends, &found.legs);
             assert!(off < 1e-12 && monotone, "{datum:?}, {off}");
             // The end curvature asked for is missed by another: the check can fail.
             let sharper = 1.000_001;
             let [start_curvature, end_curvature] = [ends.start_curvature, ends.end_curvature].map(|k| k * sharper);
-            assert!(check(&Ends { start_curvature, end_curvature, ..ends }, found).0 > 1e-8);
+            assert!(check(&Ends { start_curvature, end_curvature, ..ends }, &found.legs).0 > 1e-8);
             let jet = |t: f64| Jet::of_bezier(&found.local_control_points, t);
             let length = arc_length(|t| jet(t).speed(), 0.0, 1.0);
             let energy = arc_length(|t| jet(t).curvature().powi(2) * jet(t).speed(), 0.0, 1.0);
@@ -110,7 +62,7 @@ proptest! {
         let ends = ends([phi0, phi1, kappa0, kappa1], turned, half, mirrored, reversed);
         let answer = ph_spiral(&ends).unwrap();
         for solution in &answer.solutions {
-            let (off, monotone) = check(&ends, solution);
+            let (off, monotone) = check(&ends, &solution.legs);
             // Where B is so short beside A that no spiral is, w1 lies nearly along w2 and their product cancels.
             prop_assert!(off < if solution.spiral { 1e-12 } else { 1e-10 }, "{off}: {answer:?}");
             // The sides and the control points are of one curve.

@@ -120,6 +120,7 @@ pub fn curve_figure(p0: f64, p1: f64, k: (f64, f64), f: (f64, f64)) -> CurveFigu
         ],
         parameter: "parameter t".into(),
         curvature: Graph { label: "curvature κ".into(), points: t.iter().map(|t| [*t, at(*t).1]).collect() },
+        joints: Vec::new(),
         derivative: Graph { label: "dκ/dt".into(), points: t.iter().map(|t| derivative(*t)).collect() },
         control,
     }

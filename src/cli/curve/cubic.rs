@@ -26,6 +26,7 @@ impl Found for Answer {
             parameter: "t".into(),
             curvature: Graph { label: "κ".into(), points: figure.samples.iter().map(|s| [s.t, s.curvature]).collect() },
             derivative: Graph { label: "dκ/dt".into(), points: figure.samples.iter().map(|s| [s.t, s.curvature_dt]).collect() },
+            joints: Vec::new(),
         })
     }
 }

@@ -5,6 +5,7 @@ use serde::Serialize;
 use spiral_atlas::curve::{Ends, Frame, Involute, InvoluteOutcome, InvolutePoint, Spiral, Split, involute_between};
 use spiral_atlas::plot::{CurveFigure, Graph};
 use spiral_atlas::{Error, Result};
+use std::f64::consts::TAU;
 
 /// What is known of two ends, and the curve in the user's units.
 #[derive(Debug, Serialize)]
@@ -20,25 +21,27 @@ pub struct Told {
     samples: Vec<Sample>,
     #[serde(skip)]
     frame: Frame,
+    /// The library's directions count the turns about the start.
+    #[serde(skip)]
+    turned: f64,
 }
 
 #[derive(Debug, Serialize)]
 struct Sample {
     s: f64,
     point: [f64; 2],
-    /// Followed along the curve, so that full turns show.
+    /// Followed along the curve from the direction at the start, so that full turns show.
     direction: f64,
     curvature: f64,
 }
 
 pub fn find(ends: &Ends, turns: [u32; 2], samples: u32) -> Result<Told> {
     let (spiral, frame) = involute_between(ends, turns)?;
-    let mut told = Told { ends: *ends, spiral, length: None, samples: Vec::new(), frame };
+    let mut told = Told { ends: *ends, spiral, length: None, samples: Vec::new(), frame, turned: 0.0 };
     if let Some(curve) = told.spiral.curve().copied() {
         told.length = Some(curve.length() * told.unit());
-        let last = f64::from(samples - 1);
-        told.samples =
-            (0..samples).map(|i| f64::from(i) / last).map(|x| told.sample(x * curve.length(), curve.at_length(x))).collect();
+        told.turned = TAU * ((curve.at(0.0).direction - told.spiral.chord.alpha) / TAU).round();
+        told.samples = curve.samples(samples as usize)?.into_iter().map(|(s, at)| told.sample(s, at)).collect();
     }
     Ok(told)
 }
@@ -56,7 +59,7 @@ impl Told {
         Sample {
             s: s * unit,
             point: self.frame.point(at.point),
-            direction: at.direction + y.atan2(x),
+            direction: at.direction - self.turned + y.atan2(x),
             curvature: at.curvature / unit,
         }
     }
@@ -122,6 +125,7 @@ impl Found for Told {
             parameter: "s".into(),
             curvature: Graph { label: "κ".into(), points: samples.iter().map(|s| [s.s, s.curvature]).collect() },
             derivative: Graph { label: "Δκ/Δs".into(), points: samples.windows(2).map(slope).collect() },
+            joints: Vec::new(),
         })
     }
 }

@@ -21,14 +21,14 @@ const SAMPLES: usize = 801;
 /// Find a transition curve of monotone curvature, anywhere in the plane, in any unit of length.
 ///
 /// Between two ends (`cubic`, `ph-quintic`, `involute`): two points, two directions of travel, two signed curvatures, positive to the
-/// left. `cubic`: of several spirals the one with the largest margin. `ph-quintic`: that of least bending energy. `involute`: the image of an involute of a circle, which exists whenever any
-/// spiral does; with --turns it goes round its ends.
+/// left. `cubic`: of several spirals the one with the largest margin. `ph-quintic`: that of least bending energy. `involute`: the image
+/// of an involute of a circle, which exists whenever any spiral does; with --turns it goes round its ends.
 ///
 /// Added to the end of a line or of an arc (`reach-cubic`, `reach-ph`): a segment between curvature 0 and 1/radius that turns by an
 /// angle, given by its shape numbers m and q or by its end point.
 ///
-/// From a line or a circle to a line or a circle (`trig-quintic`): quintic trigonometric spirals in one of five templates, each given by the angle that
-/// it turns, its radius and its shape numbers.
+/// From a line or a circle to a line or a circle (`trig-quintic`): quintic trigonometric spirals in one of five templates, each given by
+/// the angle that it turns, its radius and its shape numbers.
 ///
 /// When there is none, says which condition fails, with numbers; that is an answer too, and exits with 0.
 #[derive(clap::Args)]
@@ -199,17 +199,21 @@ impl Args {
 
     /// Ends the program unless all of `needed` are given and nothing but them and `allowed`.
     fn check(&self, needed: &[&str], allowed: &[&str]) {
-        let name = clap::ValueEnum::to_possible_value(&self.family).map(|v| v.get_name().to_owned()).unwrap_or_default();
+        let family = || clap::ValueEnum::to_possible_value(&self.family).map(|v| v.get_name().to_owned()).unwrap_or_default();
+        let who = match &self.template {
+            Some(name) if needed.contains(&"--template") => format!("--template {name}"),
+            _ => format!("--family {}", family()),
+        };
         let list = |names: Vec<&str>| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
         let missing: Vec<&str> =
             self.given().into_iter().filter(|(n, given)| !given && needed.contains(n)).map(|(n, _)| n).collect();
         if !missing.is_empty() {
-            super::refuse(&format!("`--family {name}` needs {} too", list(missing)));
+            super::refuse(&format!("`{who}` needs {} too", list(missing)));
         }
         let known = |n: &str| needed.contains(&n) || allowed.contains(&n);
         let surplus: Vec<&str> = self.given().into_iter().filter(|(n, given)| *given && !known(n)).map(|(n, _)| n).collect();
         if !surplus.is_empty() {
-            super::refuse(&format!("{} means nothing to `--family {name}`", list(surplus)));
+            super::refuse(&format!("{} means nothing to `{who}`", list(surplus)));
         }
     }
 

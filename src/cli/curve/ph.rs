@@ -26,6 +26,7 @@ impl Found for PhAnswer {
             parameter: "t".into(),
             curvature,
             derivative,
+            joints: Vec::new(),
         })
     }
 }

@@ -64,6 +64,7 @@ impl Found for Told {
             parameter: "t".into(),
             curvature,
             derivative,
+            joints: Vec::new(),
         })
     }
 }

@@ -56,11 +56,13 @@ impl Found for Told {
 
     fn figure(&self) -> Result<CurveFigure> {
         let path = self.outcome.path();
-        let samples: Vec<Sample> = path.samples(SAMPLES)?.into_iter().flatten().collect();
+        let parts = path.samples(SAMPLES)?;
+        let joints = parts[1..].iter().map(|part| part[0].s).collect();
+        let samples: Vec<Sample> = parts.into_iter().flatten().collect();
         let control = path.parts.iter().flat_map(|part| part.curve.points()).collect();
         let note = match &self.outcome {
             Outcome::Spirals(_) => String::new(),
-            Outcome::NoSpirals { why, .. } => why.clone(),
+            Outcome::NoSpirals { why, .. } => why.trim_start_matches("as printed: ").trim_start_matches("not a spiral: ").into(),
         };
         Ok(CurveFigure {
             title: self.title(),
@@ -71,6 +73,7 @@ impl Found for Told {
             parameter: "s".into(),
             curvature: Graph { label: "κ".into(), points: samples.iter().map(|s| [s.s, s.curvature]).collect() },
             derivative: Graph { label: "dκ/ds".into(), points: samples.iter().map(|s| [s.s, s.curvature_ds]).collect() },
+            joints,
         })
     }
 }

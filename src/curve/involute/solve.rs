@@ -4,7 +4,7 @@ use super::half::Half;
 use super::turns::{Split, range};
 use super::{Chord, Outcome, Spiral, WhyNone};
 use crate::curve::arc_length;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::family::any_spiral::{Arc, Datum, Equation};
 use crate::num::root::find;
 use crate::num::{Interval, climb};
@@ -228,12 +228,63 @@ impl Involute {
     /// # Accuracy
     /// 1e-14 relative.
     pub fn length_to(&self, f: f64) -> f64 {
-        let part = |half: &Half, v: f64| arc_length(|v| half.at(v).speed, 0.0, v);
-        let (half, v) = self.half(f);
-        if half.side > 0.0 {
-            return part(half, v);
+        self.length_between(0.0, f)
+    }
+
+    /// Points at equal lengths, both ends included, and the length at each, in half chords.
+    ///
+    /// # Accuracy
+    /// 1e-13 of the length, and as [`Involute::at`].
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for fewer than 2 points.
+    pub fn samples(&self, count: usize) -> Result<Vec<(f64, InvolutePoint)>> {
+        if count < 2 {
+            return Err(Error::Domain(format!("{count} samples of a curve; it needs at least 2, the ends")));
         }
-        part(&self.halves[0], self.theta) + part(half, self.theta) - part(half, v)
+        let share = |i: usize| i as f64 / (count - 1) as f64;
+        // Each from the one before: the length between neighbours is soon had.
+        let (mut f, mut s) = (0.0, 0.0);
+        let mut next = |i: usize| {
+            let wanted = share(i) * self.length;
+            (f, s) = self.step(f, s, wanted);
+            (wanted, self.at(f))
+        };
+        let inside: Vec<_> = (1..count - 1).map(&mut next).collect();
+        let ends = [(0.0, self.at(0.0)), (self.length, self.at(1.0))];
+        Ok(ends[..1].iter().copied().chain(inside).chain(ends[1..].iter().copied()).collect())
+    }
+
+    /// The parameter where the length is `wanted`, and the length there, from a parameter whose length is known and less: Newton's method, or
+    /// a bracket where that leaves the curve or does not settle.
+    fn step(&self, from: f64, known: f64, wanted: f64) -> (f64, f64) {
+        let (mut f, mut s) = (from, known);
+        for _ in 0..8 {
+            let (half, v) = self.half(f);
+            let next = f + (wanted - s) / (2.0 * self.theta * half.at(v).speed);
+            if !(next > from && next < 1.0) {
+                break;
+            }
+            s = known + self.length_between(from, next);
+            let settled = (next - f).abs() <= 1e-15 || (s - wanted).abs() <= 1e-15 * self.length;
+            f = next;
+            if settled {
+                return (f, s);
+            }
+        }
+        f = find(|f| known + self.length_between(from, f) - wanted, from, 1.0, 1e-16);
+        (f, known + self.length_between(from, f))
+    }
+
+    /// Length from one parameter to a later one.
+    fn length_between(&self, from: f64, to: f64) -> f64 {
+        let part = |from: f64, to: f64| {
+            let (half, v) = self.half(to);
+            let other = 2.0 * self.theta * if half.side > 0.0 { from } else { 1.0 - from };
+            arc_length(|v| half.at(v).speed, v.min(other), v.max(other))
+        };
+        let middle = 0.5;
+        if from < middle && to > middle { part(from, middle) + part(middle, to) } else { part(from, to) }
     }
 
     /// The half that a parameter lies in, and its distance from that half's end.

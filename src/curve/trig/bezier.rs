@@ -20,7 +20,7 @@ pub struct TrigBezier {
     pub q: f64,
 }
 
-/// As its control points, p and q.
+/// As p, q, its control points and, as `legs`, the sides of their polygon.
 impl Serialize for TrigBezier {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         #[derive(Serialize)]
@@ -28,8 +28,9 @@ impl Serialize for TrigBezier {
             p: f64,
             q: f64,
             control_points: [[f64; 2]; 6],
+            legs: [[f64; 2]; 5],
         }
-        Told { p: self.p, q: self.q, control_points: self.points() }.serialize(serializer)
+        Told { p: self.p, q: self.q, control_points: self.points(), legs: self.sides }.serialize(serializer)
     }
 }
 

@@ -143,9 +143,11 @@ pub fn path(request: &Request) -> Result<Outcome> {
     let map = |z: [f64; 2]| turn(along, if side == Turn::Right { [z[0], -z[1]] } else { z });
     let place = |part: &Part| Part { curve: part.curve.mapped(add(at, map(part.curve.start)), map), ..*part };
     let parts: Vec<Part> = local.iter().map(place).collect();
-    let finite = |part: &Part| part.curve.points().iter().flatten().all(|x| x.is_finite());
-    if !parts.iter().all(finite) {
-        return Err(Error::Domain("a control point leaves the range of doubles; change the unit of length".into()));
+    let points = parts.iter().flat_map(|part| part.curve.points());
+    if let Some([x, y]) = points.into_iter().find(|p| !(p[0].is_finite() && p[1].is_finite())) {
+        return Err(Error::Domain(format!(
+            "a control point is ({x:?}, {y:?}), outside the range of doubles (change the unit of length)"
+        )));
     }
     let hand = if side == Turn::Right { -1.0 } else { 1.0 };
     let circles = circles(&parts, &round.map(|k| hand * k));
@@ -249,7 +251,7 @@ fn why_not(template: &Template, scaling: Scaling) -> Result<Option<String>> {
                 None => "and neither does 64".into(),
             };
             return Ok(Some(format!(
-                "{printed}not a spiral: the ratio {ratio} gives none at theta = {theta}, m = {m}, p = {p}, q = {q}; {hint}"
+                "{printed}not a spiral: the ratio {ratio} gives none at theta = {theta} rad, m = {m}, p = {p}, q = {q}; {hint}"
             )));
         }
         if scaling == Scaling::AsPrinted {

@@ -158,6 +158,10 @@ impl Range {
         0.5 * (self.low + self.high)
     }
 
+    fn holds(self, value: f64) -> bool {
+        (self.low..=self.high).contains(&value)
+    }
+
     /// The nearest f32, when all numbers of the range have the same.
     fn to_f32(self) -> Option<f32> {
         let (low, high) = (self.low as f32, self.high as f32);
@@ -177,6 +181,8 @@ struct SolvedRoot {
 
 /// All roots of a datum as doubles can prove them.
 struct Solved {
+    /// a and k.
+    ratios: [f64; 2],
     code: Code,
     roots: [SolvedRoot; 3],
     len: usize,
@@ -200,7 +206,7 @@ impl Solved {
     fn lane<S: Simd>(simd: S, prepared: &Prepared, [a, k, kappa0, kappa1]: [f64; 4]) -> Option<Solved> {
         let splat = |value| S::f64s::splat(simd, value);
         let data = Data { a: splat(a), k: splat(k), kappa0: splat(kappa0), kappa1: splat(kappa1), precision: prepared.precision };
-        let mut solved = Solved { code: Code::UNDECIDED, roots: Default::default(), len: 0, chosen: None };
+        let mut solved = Solved { ratios: [a, k], code: Code::UNDECIDED, roots: Default::default(), len: 0, chosen: None };
         let planes = visit::<S, true>(simd, prepared, &data, |found| {
             if found.wanted & 1 == 1 {
                 solved.roots[solved.len] = SolvedRoot::new(&found);
@@ -239,14 +245,26 @@ impl Solved {
         self.roots[..self.len].iter().all(root)
     }
 
+    /// (f0, f1) with the digits that a small one lacks when it comes from `3 - a f0²`: a step of Newton's method for the smaller of the
+    /// two, on whose square the other depends.
+    fn polished(&self, root: &SolvedRoot) -> [f64; 2] {
+        let ([a, k], found) = (self.ratios, [root.x.middle(), root.y.middle()]);
+        let step = |small: f64, near: f64, far: f64| {
+            let large = 3.0 - far * small * small;
+            let better = small - (3.0 - small - near * large * large) / (4.0 * near * far * large * small - 1.0);
+            [better, 3.0 - far * better * better]
+        };
+        let [small, large] = if found[1] <= found[0] { step(found[1], a, k) } else { step(found[0], k, a) };
+        let better = if found[1] <= found[0] { [large, small] } else { [small, large] };
+        if root.x.holds(better[0]) && root.y.holds(better[1]) { better } else { found }
+    }
+
     fn solutions(&self) -> Solutions {
-        let roots = self.roots.map(|r| Root {
-            f0: r.x.middle(),
-            f1: r.y.middle(),
-            theorem31: r.theorem,
-            spiral: r.spiral,
-            margin: r.margin.middle(),
-        });
+        let root = |r: SolvedRoot| {
+            let [f0, f1] = self.polished(&r);
+            Root { f0, f1, theorem31: r.theorem, spiral: r.spiral, margin: r.margin.middle() }
+        };
+        let roots = self.roots.map(root);
         Solutions { flags: self.code.flags(), roots, len: self.len, chosen: self.chosen }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Kind;
 use crate::error::{Error, Result};
+use crate::family::hermite::told;
 use crate::num::Interval;
 use crate::num::trig::{cos, sin};
 use std::cell::RefCell;
@@ -105,7 +106,8 @@ pub(super) fn check(kind: Kind, theta: f64) -> Result<()> {
         return Ok(());
     }
     Err(Error::Domain(format!(
-        "theta is {theta}; for `{}` it must be above 0 and below {name} (radians; write `40deg` for degrees)",
+        "theta is {}; for `{}` it must be above 0 and below {name} (radians; write `40deg` for degrees)",
+        told(theta),
         kind.name()
     )))
 }

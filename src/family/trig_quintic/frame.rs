@@ -2,6 +2,7 @@
 
 use super::poly::Frame;
 use crate::error::{Error, Result};
+use crate::family::hermite::told;
 use crate::num::Interval;
 use crate::num::trig::{cos, sin};
 use std::f64::consts::FRAC_PI_2;
@@ -28,7 +29,8 @@ pub(super) fn check(which: usize, value: f64) -> Result<()> {
     if fine {
         return Ok(());
     }
-    Err(Error::Domain(format!("{} is {value:?}; it must be {domain}", NAMES[which])))
+    let value = if which == 1 { told(value) } else { format!("{value:?}") };
+    Err(Error::Domain(format!("{} is {value}; it must be {domain}", NAMES[which])))
 }
 
 impl Frame<f64> {
