@@ -28,9 +28,13 @@ fn curvature(legs: &[Point], t: f64) -> f64 {
     (a[0] * b[1] - a[1] * b[0]) / a[0].hypot(a[1]).powi(3)
 }
 
-/// All end data that are off by more than 1e-12, in units of r.
+/// All end data that are off by more than 1e-12, in units of r, and curvatures by more than directions rounded to doubles allow: 4 ulp of the
+/// neighbour's length over the square of the end leg's.
 fn faults(request: &Request, added: &Added) -> Vec<String> {
     let legs = &added.legs;
+    let length = |i: usize| legs[i][0].hypot(legs[i][1]) / request.radius;
+    let last = legs.len() - 1;
+    let bent = |own: usize, next: usize| 1e-13 + 4.0 * f64::EPSILON * length(next) / length(own).powi(2);
     let sign = if request.turn == Turn::Left { 1.0 } else { -1.0 };
     let heading = |t: f64| {
         let [d, _] = jet(legs, t);
@@ -44,8 +48,8 @@ fn faults(request: &Request, added: &Added) -> Vec<String> {
         ("start direction", turned(heading(0.0) - request.direction), 0.0, 1e-12),
         ("end direction", turned(heading(1.0) - request.direction), turned(sign * request.theta), 1e-12),
         ("end direction as told", turned(heading(1.0) - added.end_direction), 0.0, 1e-12),
-        ("start curvature", curvature(legs, 0.0) * request.radius, bends[0], 1e-12),
-        ("end curvature", curvature(legs, 1.0) * request.radius, bends[1], 1e-12),
+        ("start curvature", curvature(legs, 0.0) * request.radius, bends[0], bent(0, 1)),
+        ("end curvature", curvature(legs, 1.0) * request.radius, bends[1], bent(last, last - 1)),
     ];
     let mut faults: Vec<String> = checks
         .iter()
@@ -63,7 +67,7 @@ fn faults(request: &Request, added: &Added) -> Vec<String> {
     let samples: Vec<f64> = (0..=2000).map(|i| sign * curvature(legs, f64::from(i) / 2000.0)).collect();
     let rising = if request.base == Base::Line { 1.0 } else { -1.0 };
     let largest = samples.iter().fold(0.0f64, |most, k| most.max(k.abs()));
-    let monotone = samples.windows(2).all(|w| rising * (w[1] - w[0]) >= -1e-12 * largest);
+    let monotone = samples.windows(2).all(|w| rising * (w[1] - w[0]) >= -(bent(0, 1) + bent(last, last - 1)) * largest);
     if monotone != (added.level >= Level::Exact) {
         faults.push(format!("level {:?}, but monotone is {monotone}", added.level));
     }

@@ -98,8 +98,8 @@ fn level_name<S: serde::Serializer>(level: &Level, serializer: S) -> Result<S::O
 ///
 /// # Accuracy
 /// Levels are proved (see [`Added::level`]). Control points are within a few ulp of the largest coordinate difference; a given end
-/// point is met exactly, and end directions and curvatures of [`Added::legs`] are met to 1e-14 (curvatures times r); those of control
-/// points to some 2^-50 over the square of the end leg's length in r.
+/// point is met exactly, end directions of [`Added::legs`] to 1e-14, and curvatures times r to 1e-13 or, at a short flat end, 4 ulp of
+/// the next leg over the square of its own; those of control points to some 2^-50 over that square.
 ///
 /// # Errors
 /// [`Error::Domain`] naming a value that is not finite, not positive where it must be, or outside the family's range.

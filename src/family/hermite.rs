@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 /// An angle for an error message, which may have been given in degrees.
 pub(super) fn told(angle: f64) -> String {
     let degrees = (angle.to_degrees() * 1e6).round() / 1e6;
-    if degrees.is_finite() { format!("{angle} ({degrees} degrees)") } else { angle.to_string() }
+    if degrees.is_finite() { format!("{angle:?} ({degrees} degrees)") } else { angle.to_string() }
 }
 
 /// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by [`check_angles`].
