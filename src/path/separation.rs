@@ -5,7 +5,7 @@
 //! the one with the least bound first, until the least separation is enclosed and the verdict certain. Where both move in step the
 //! second bound needs far fewer stretches than the first.
 
-use super::finite;
+use super::{ROUNDINGS, finite, mismatch};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use std::cmp::Ordering;
@@ -17,8 +17,6 @@ const STRETCHES: usize = 400_000;
 const FIRST: usize = 64;
 /// The least separation is enclosed to this share of the size of the scene, or as rounding allows.
 const TOLERANCE: f64 = 1e-10;
-/// Covers the roundings of a point, of a length or of a tangent: none is the end of a chain of more than 60.
-const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
 /// A vehicle on its way.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,7 +80,6 @@ impl Motion {
         // Coefficients of lengths are at most the sum of |w|², and so are legs.
         let sizes = |s: &PhQuintic| s.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
         let size = far + length + spans.iter().map(sizes).fold(0.0, f64::max);
-        let mismatch = |s: &PhQuintic| distance(PhQuintic::new(s.start, s.preimage).end, s.end);
         let mismatch = spans.iter().map(mismatch).fold(0.0, f64::max);
         Ok(Motion { spans, lengths, speed, start_time, acceleration, size, mismatch })
     }

@@ -1,0 +1,91 @@
+//! Where a path may have its corners: beside the convex vertices of obstacles.
+
+use super::obstacles::{Obstacles, turn};
+use crate::path::Turn;
+
+type Point = [f64; 2];
+
+/// Turns sharper than this need more room than anyone has: cosine of half the angle.
+const SHARPEST: f64 = 0.1;
+/// The turn at a vertex is also cut into this many, each above 20 degrees.
+const PARTS: i32 = 3;
+const LEAST_PART: f64 = 0.35;
+
+/// A vertex of an obstacle and its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vertex {
+    pub at: Point,
+    pub obstacle: usize,
+    before: Point,
+    after: Point,
+}
+
+/// A point where a path may turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    pub at: Point,
+    /// The vertex that it turns around; none at start and goal.
+    pub vertex: Option<Vertex>,
+}
+
+impl Place {
+    /// On which side of a line through the place its vertex is, when the obstacle's boundary stays there for a while: 1 is left; 0 for
+    /// start and goal. `None` when it does not: shortest paths do not turn there.
+    pub fn side(&self, along: Point) -> Option<i8> {
+        let Some(Vertex { at, before, after, .. }) = self.vertex else { return Some(0) };
+        let from = |p: Point| [p[0] - self.at[0], p[1] - self.at[1]];
+        let across = |v: Point| along[0] * v[1] - along[1] * v[0];
+        let vertex = from(at);
+        // Places are not equally far off, so lines that come near a wall slowly must do.
+        let awhile = 4.0 * vertex[0].hypot(vertex[1]);
+        let wall = |p: Point| {
+            let leg = [p[0] - at[0], p[1] - at[1]];
+            let share = (awhile / leg[0].hypot(leg[1])).min(1.0);
+            across([vertex[0] + share * leg[0], vertex[1] + share * leg[1]])
+        };
+        let (here, walls) = (across(vertex), [wall(before), wall(after)]);
+        match here {
+            _ if here > 0.0 && walls.iter().all(|w| *w >= 0.0) => Some(1),
+            _ if here < 0.0 && walls.iter().all(|w| *w <= 0.0) => Some(-1),
+            _ => None,
+        }
+    }
+}
+
+/// Places beside every convex vertex.
+///
+/// # Arguments
+/// - `keep`: distance to keep.
+/// - `most`: greatest curvature.
+/// - `wide`: how much further off, in least radii.
+pub fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Place> {
+    let rings = obstacles.rings.iter().enumerate();
+    let vertices = rings.flat_map(|(obstacle, ring)| {
+        let n = ring.len();
+        (0..n).map(move |i| Vertex { at: ring[i], obstacle, before: ring[(i + n - 1) % n], after: ring[(i + 1) % n] })
+    });
+    vertices.filter(|v| turn([v.before, v.at], v.after) > 0.0).flat_map(|v| beside(v, keep, most, wide)).collect()
+}
+
+/// The corners of the offset polygon: one, and those that cut it off in two and three.
+fn beside(vertex: Vertex, keep: f64, most: f64, wide: f64) -> Vec<Place> {
+    let Vertex { at, before, after, .. } = vertex;
+    let (incoming, outgoing) = ([at[0] - before[0], at[1] - before[1]], [after[0] - at[0], after[1] - at[1]]);
+    let Some(whole) = Turn::new(incoming, outgoing) else { return vec![] };
+    let (angle, first) = (whole.angle(), incoming[1].atan2(incoming[0]) - std::f64::consts::FRAC_PI_2);
+    let parts = (1..=PARTS).map(|parts| (f64::from(parts), angle / f64::from(parts)));
+    let offset = |(parts, part): (f64, f64)| {
+        let turn = Turn::new([1.0, 0.0], [part.cos(), part.sin()])?;
+        let fair = (0.5 * part).cos() > SHARPEST && (parts == 1.0 || part > LEAST_PART);
+        // A little more than the curve needs, which is known to 1e-3.
+        let offset = 1.001 * turn.least_offset(keep, most).max(keep) + wide / most;
+        fair.then_some((parts, part, offset / (0.5 * part).cos()))
+    };
+    let points = |(parts, part, far): (f64, f64, f64)| {
+        (0..parts as i32).map(move |i| {
+            let direction = first + part * (f64::from(i) + 0.5);
+            Place { at: [at[0] + far * direction.cos(), at[1] + far * direction.sin()], vertex: Some(vertex) }
+        })
+    };
+    parts.filter_map(offset).flat_map(points).collect()
+}

@@ -1,0 +1,255 @@
+//! The shortest polyline among places that can be rounded: a search over legs, since whether a path can turn depends on two of them.
+
+use super::obstacles::{Obstacles, between};
+use super::places::Place;
+use super::proof::{Clearance, clearance};
+use crate::path::Turn;
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
+use std::rc::Rc;
+
+/// Legs looked at, at most.
+const LEGS: usize = 2_000_000;
+/// Corner curves take no more of a leg than this; between them remains a straight piece.
+pub const ROOM: f64 = 0.999;
+const START: usize = 0;
+const GOAL: usize = 1;
+
+/// What paths must keep.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// Clearance.
+    pub clearance: f64,
+    /// A little more, so that rounding does not matter.
+    pub keep: f64,
+    /// Greatest curvature.
+    pub most: f64,
+    /// Corner curves are no smaller than this, for doubles to tell their shape.
+    pub least_reach: f64,
+}
+
+impl Limits {
+    /// The least reach of a corner curve, a little more than doubles need to prove its curvature.
+    pub fn reach(&self, turn: &Turn) -> f64 {
+        (turn.reach_for_curvature(self.most) * (1.0 + 1e-9) + 1e-14 / self.most).max(self.least_reach)
+    }
+
+    /// What comes too near to a corner curve.
+    pub fn breach(&self, turn: &Turn, at: [f64; 2], reach: f64, obstacles: &Obstacles) -> Option<Why> {
+        let Ok(curve) = turn.corner(at, reach) else { return Some(Why::Range) };
+        let clearance = clearance(&[curve], obstacles, self.clearance, f64::INFINITY)?;
+        (clearance.at_least < self.clearance || clearance.at_least <= 0.0).then_some(Why::Near(clearance))
+    }
+}
+
+/// Why a corner cannot be rounded.
+#[derive(Debug, Clone, Copy)]
+pub enum Why {
+    /// The curve needs more of a leg than there is.
+    Short { needed: f64, there: f64 },
+    /// The curve comes too near.
+    Near(Clearance),
+    /// The curve leaves the range of doubles.
+    Range,
+}
+
+/// A corner that could not be rounded.
+#[derive(Debug, Clone, Copy)]
+pub struct Refusal {
+    pub place: Place,
+    pub angle: f64,
+    pub why: Why,
+    /// Length of the shortest path that might have been.
+    bound: f64,
+}
+
+/// How the search ended.
+#[derive(Debug)]
+pub enum Found {
+    /// Places from start to goal.
+    Path(Vec<Place>),
+    /// None: with the corner that was refused on the shortest way, if any was.
+    None(Option<Refusal>),
+    /// Not to the end.
+    GaveUp,
+}
+
+/// A place that another one sees, with the sides on which their vertices are.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    place: usize,
+    length: f64,
+    here: i8,
+    there: i8,
+}
+
+/// A leg reached by some path.
+struct Leg {
+    places: [usize; 2],
+    length: f64,
+    /// On which side of the leg the vertex at its end is.
+    side: i8,
+    /// The turn at its start, and how much of the leg it takes.
+    turn: Option<(Turn, f64)>,
+    /// Length of the path up to its end.
+    path: f64,
+    /// The leg before.
+    before: Option<usize>,
+}
+
+/// A leg by the least length of a path through it.
+struct Waiting {
+    bound: f64,
+    leg: usize,
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Waiting) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Waiting {}
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Waiting) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Waiting {
+    /// The shortest comes first, of equals the one found first.
+    fn cmp(&self, other: &Waiting) -> Ordering {
+        other.bound.total_cmp(&self.bound).then(other.leg.cmp(&self.leg))
+    }
+}
+
+pub struct Search<'o> {
+    obstacles: &'o Obstacles,
+    limits: Limits,
+    /// Start, goal, and places beside obstacles.
+    places: Vec<Place>,
+    seen: Vec<Option<Rc<[Seen]>>>,
+    legs: Vec<Leg>,
+    heap: BinaryHeap<Waiting>,
+    refusal: Option<Refusal>,
+}
+
+impl<'o> Search<'o> {
+    pub fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
+        let free = |place: &Place| is_clear(obstacles, [place.at; 2], limits.keep);
+        let ends = ends.map(|at| Place { at, vertex: None }).into_iter();
+        let places: Vec<Place> = ends.chain(beside.into_iter().filter(free)).collect();
+        let seen = vec![None; places.len()];
+        Search { obstacles, limits, places, seen, legs: vec![], heap: BinaryHeap::new(), refusal: None }
+    }
+
+    /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than before.
+    pub fn run(mut self) -> Found {
+        let mut taken: HashMap<[usize; 2], f64> = HashMap::new();
+        self.extend(None);
+        while let Some(Waiting { leg, bound }) = self.heap.pop() {
+            if self.legs.len() > LEGS {
+                return Found::GaveUp;
+            }
+            let Leg { places, turn, .. } = self.legs[leg];
+            let takes = turn.map_or(0.0, |(_, reach)| reach);
+            if taken.get(&places).is_some_and(|least| *least <= takes) || self.refuse(places[0], turn, bound) {
+                continue;
+            }
+            taken.insert(places, takes);
+            if places[1] == GOAL {
+                return Found::Path(self.path(leg));
+            }
+            self.extend(Some(leg));
+        }
+        Found::None(self.refusal)
+    }
+
+    /// Whether the turn at the start of a leg comes too near to something.
+    fn refuse(&mut self, place: usize, turn: Option<(Turn, f64)>, bound: f64) -> bool {
+        let Some((turn, reach)) = turn else { return false };
+        let breach = self.limits.breach(&turn, self.places[place].at, reach, self.obstacles);
+        breach.is_some_and(|why| {
+            self.note(place, &turn, why, bound);
+            true
+        })
+    }
+
+    fn note(&mut self, place: usize, turn: &Turn, why: Why, bound: f64) {
+        if self.refusal.is_none_or(|refusal| bound < refusal.bound) {
+            self.refusal = Some(Refusal { place: self.places[place], angle: turn.angle(), why, bound });
+        }
+    }
+
+    /// All legs that go on from a leg, or from the start.
+    fn extend(&mut self, before: Option<usize>) {
+        let from = before.map_or(START, |leg| self.legs[leg].places[1]);
+        for seen in self.seen_from(from).iter() {
+            let turn = match before {
+                None => None,
+                Some(leg) => match self.turn(leg, seen) {
+                    Some(turn) => Some(turn),
+                    None => continue,
+                },
+            };
+            let path = before.map_or(0.0, |leg| self.legs[leg].path) + seen.length;
+            let leg = Leg { places: [from, seen.place], length: seen.length, side: seen.there, turn, path, before };
+            self.heap.push(Waiting { bound: path + self.to_goal(seen.place), leg: self.legs.len() });
+            self.legs.push(leg);
+        }
+    }
+
+    fn to_goal(&self, place: usize) -> f64 {
+        distance(self.places[place].at, self.places[GOAL].at)
+    }
+
+    /// The turn from a leg to the next one, around the vertex between them, if both have room for it.
+    fn turn(&mut self, leg: usize, next: &Seen) -> Option<(Turn, f64)> {
+        let Leg { places: [from, at], length, side, turn: before, path, .. } = self.legs[leg];
+        let [a, b, c] = [from, at, next.place].map(|i| self.places[i].at);
+        let turn = Turn::new([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]])?;
+        if next.here != side || turn.angle() * f64::from(side) <= 0.0 {
+            return None;
+        }
+        let reach = self.limits.reach(&turn);
+        let there = (ROOM * length - before.map_or(0.0, |(_, reach)| reach)).min(ROOM * next.length);
+        if reach <= there {
+            return Some((turn, reach));
+        }
+        let bound = path + next.length + self.to_goal(next.place);
+        self.note(at, &turn, Why::Short { needed: reach, there }, bound);
+        None
+    }
+
+    /// What a place sees, found once.
+    fn seen_from(&mut self, from: usize) -> Rc<[Seen]> {
+        if let Some(seen) = &self.seen[from] {
+            return seen.clone();
+        }
+        let here = &self.places[from];
+        let look = |(i, there): (usize, &Place)| {
+            let along = [there.at[0] - here.at[0], there.at[1] - here.at[1]];
+            let seen = Seen { place: i, length: along[0].hypot(along[1]), here: here.side(along)?, there: there.side(along)? };
+            let clear = seen.length > 0.0 && is_clear(self.obstacles, [here.at, there.at], self.limits.keep);
+            clear.then_some(seen)
+        };
+        let seen: Rc<[Seen]> = self.places.iter().enumerate().skip(GOAL).filter_map(look).collect();
+        self.seen[from] = Some(seen.clone());
+        seen
+    }
+
+    fn path(&self, last: usize) -> Vec<Place> {
+        let legs = std::iter::successors(Some(&self.legs[last]), |leg| leg.before.map(|i| &self.legs[i]));
+        let mut places: Vec<Place> = legs.map(|leg| self.places[leg.places[1]]).collect();
+        places.push(self.places[START]);
+        places.reverse();
+        places
+    }
+}
+
+/// Whether a segment keeps a distance from all sides, about.
+pub fn is_clear(obstacles: &Obstacles, segment: [[f64; 2]; 2], keep: f64) -> bool {
+    obstacles.near(segment, keep).all(|side| between(segment, side.ends) >= keep)
+}
+
+pub fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
+    (p[0] - q[0]).hypot(p[1] - q[1])
+}
