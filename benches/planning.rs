@@ -11,15 +11,23 @@ fn main() -> Result<(), spiral_atlas::Error> {
     for vertices in [100, 200, 500, 1000, 2000] {
         let mut seconds = vec![];
         let mut corners = 0;
+        let mut total = 0.0;
         for seed in 0..5 {
             let scene = scene(vertices, seed);
             let start = Instant::now();
-            corners += plan(&scene)?.corners.len();
+            let p = plan(&scene)?;
+            corners += p.corners.len();
+            total += p.spans.iter().map(|s| s.length()).sum::<f64>();
             seconds.push(start.elapsed().as_secs_f64());
         }
         seconds.sort_by(f64::total_cmp);
         let growth = last.map_or("-".into(), |last| format!("{:.1}", seconds[2] / last));
-        println!("{vertices:>9} {:>10.1} {:>9.3} {growth:>9}   worst {:.3}", corners as f64 / 5.0, seconds[2], seconds[4]);
+        println!(
+            "{vertices:>9} {:>10.1} {:>9.3} {growth:>9}   worst {:.3} {total}",
+            corners as f64 / 5.0,
+            seconds[2],
+            seconds[4]
+        );
         last = Some(seconds[2]);
     }
     Ok(())

@@ -16,7 +16,7 @@ use places::{Place, places};
 pub use proof::Clearance;
 use proof::{bends_less, clearance};
 use round::Polyline;
-use search::{Found, Limits, Refusal, Search, Why};
+use search::{Found, Limits, Search, Why};
 
 /// The clearance is enclosed to this share of the size of the scene.
 const TOLERANCE: f64 = 1e-9;
@@ -24,8 +24,8 @@ const TOLERANCE: f64 = 1e-9;
 const LEAST_REACH: f64 = 1e-9;
 /// Scenes within which no square leaves the range of doubles.
 const SIZES: [f64; 2] = [1e-100, 1e100];
-/// How much further off places are tried where none of the others give a path, in least radii.
-const WIDE: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
+/// How much further off places are, in least radii; all but the first where those give no path.
+const WIDE: [f64; 5] = [0.0, 0.5, 1.0, 2.0, 4.0];
 
 /// Where to go, and what is in the way.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -252,41 +252,50 @@ fn bounded(i: usize, span: &PhQuintic, most: f64) -> Result<f64> {
     }
 }
 
-/// The places of the path, the closest ones first.
+/// The places of the path: beside obstacles as far as turns need, else also further off.
 fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Place>> {
-    let mut refused = None;
-    let mut beside = vec![];
-    for wide in [&[0.0][..], &WIDE] {
-        for wide in wide {
-            beside.extend(places(obstacles, limits.keep, limits.most, *wide));
-        }
-        match Search::new(obstacles, limits, [scene.start, scene.goal], beside.clone()).run() {
+    let search = |limits: Limits, wide: &[f64]| {
+        let beside = wide.iter().flat_map(|wide| places(obstacles, limits.keep, limits.most, *wide)).collect();
+        Search::new(obstacles, limits, [scene.start, scene.goal], beside).run()
+    };
+    for wide in [&WIDE[..1], &WIDE] {
+        match search(limits, wide) {
             Found::Path(path) => return Ok(path),
-            Found::None(refusal) => refused = refused.or(refusal),
-            Found::GaveUp => return fail("there are too many ways to try; take obstacles apart that are out of the way".into()),
+            Found::None => {}
+            Found::GaveUp => return fail("there are too many ways to try; leave out obstacles that are out of the way".into()),
         }
     }
-    match refused {
-        None => fail(format!("every way is blocked: no polyline keeps {:?} away from all obstacles", scene.clearance)),
-        Some(refusal) => fail(explain(&refusal, scene)),
+    // Could it turn on the spot?
+    match search(limits.sharp(), &WIDE[..1]) {
+        Found::Path(path) => fail(explain(&path, scene, obstacles, limits)),
+        _ => {
+            fail(format!("every way is blocked: no polyline was found that keeps {:?} away from all obstacles", scene.clearance))
+        }
     }
 }
 
-/// Why there is no path: the corner on the shortest way that cannot be rounded.
-fn explain(refusal: &Refusal, scene: &Scene) -> String {
-    let Refusal { place, angle, why, .. } = refusal;
-    let vertex = place.vertex.map_or(String::new(), |v| format!(" around the vertex {:?} of obstacles[{}]", v.at, v.obstacle));
-    let why = match why {
-        Why::Short { needed, there } => format!("its curve needs {needed:?} of both legs, and one has {there:?} left"),
-        Why::Near(c) => format!("its curve comes to {:?} of obstacles[{}], near {:?}", c.at_most, c.obstacle, c.point),
-        Why::Range => "its curve leaves the range of doubles".into(),
+/// Why the corners of a path cannot be rounded: the one that lacks most.
+fn explain(path: &[Place], scene: &Scene, obstacles: &Obstacles, limits: Limits) -> String {
+    let corner = |w: &[Place]| {
+        let (before, after) = (minus(w[1].at, w[0].at), minus(w[2].at, w[1].at));
+        let (turn, leg) = (Turn::new(before, after)?, before[0].hypot(before[1]).min(after[0].hypot(after[1])));
+        Some((w[1], turn, limits.reach(&turn), leg))
     };
+    let corners = path.windows(3).filter_map(corner);
+    let lacks = |(_, _, needed, leg): &(Place, Turn, f64, f64)| needed / leg;
+    let Some((place, turn, needed, leg)) = corners.max_by(|a, b| lacks(a).total_cmp(&lacks(b))) else {
+        return "no path was found".into();
+    };
+    let why = match limits.breach(&turn, place.at, needed, obstacles) {
+        _ if needed > leg => format!("its curve needs {needed:?} of both legs, and one is {leg:?} long"),
+        Some(Why::Near(c)) => format!("its curve comes to {:?} of obstacles[{}], near {:?}", c.at_most, c.obstacle, c.point),
+        _ => format!("its curve takes {needed:?} of both legs, and no corners were found that leave room for that"),
+    };
+    let vertex = place.vertex.map_or(String::new(), |v| format!(" around the vertex {:?} of obstacles[{}]", v.at, v.obstacle));
+    let (at, angle, most) = (place.at, turn.angle().to_degrees(), scene.greatest_curvature);
     format!(
-        "no path was found: on the shortest way the corner at {:?}{vertex} turns by {:.1} degrees, and with curvature {:?} {why}; \
-         allow more curvature or less clearance",
-        place.at,
-        angle.to_degrees(),
-        scene.greatest_curvature
+        "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature {most:?} {why}; \
+         allow more curvature or less clearance"
     )
 }
 

@@ -8,7 +8,7 @@ type Point = [f64; 2];
 /// Turns sharper than this need more room than anyone has: cosine of half the angle.
 const SHARPEST: f64 = 0.1;
 /// The turn at a vertex is also cut into this many, each above 20 degrees.
-const PARTS: i32 = 3;
+const PARTS: i32 = 2;
 const LEAST_PART: f64 = 0.35;
 
 /// A vertex of an obstacle and its neighbours.
@@ -73,7 +73,8 @@ fn beside(vertex: Vertex, keep: f64, most: f64, wide: f64) -> Vec<Place> {
     let (incoming, outgoing) = ([at[0] - before[0], at[1] - before[1]], [after[0] - at[0], after[1] - at[1]]);
     let Some(whole) = Turn::new(incoming, outgoing) else { return vec![] };
     let (angle, first) = (whole.angle(), incoming[1].atan2(incoming[0]) - std::f64::consts::FRAC_PI_2);
-    let parts = (1..=PARTS).map(|parts| (f64::from(parts), angle / f64::from(parts)));
+
+    let parts = (1..=if wide > 0.0 { 1 } else { PARTS }).map(|parts| (f64::from(parts), angle / f64::from(parts)));
     let offset = |(parts, part): (f64, f64)| {
         let turn = Turn::new([1.0, 0.0], [part.cos(), part.sin()])?;
         let fair = (0.5 * part).cos() > SHARPEST && (parts == 1.0 || part > LEAST_PART);

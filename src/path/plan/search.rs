@@ -9,7 +9,7 @@ use std::collections::{BinaryHeap, HashMap};
 use std::rc::Rc;
 
 /// Legs looked at, at most.
-const LEGS: usize = 2_000_000;
+const LEGS: usize = 1_000_000;
 /// Corner curves take no more of a leg than this; between them remains a straight piece.
 pub const ROOM: f64 = 0.999;
 const START: usize = 0;
@@ -34,6 +34,11 @@ impl Limits {
         (turn.reach_for_curvature(self.most) * (1.0 + 1e-9) + 1e-14 / self.most).max(self.least_reach)
     }
 
+    /// The same with turns as sharp as doubles can tell.
+    pub fn sharp(&self) -> Limits {
+        Limits { most: 1.0 / self.least_reach, ..*self }
+    }
+
     /// What comes too near to a corner curve.
     pub fn breach(&self, turn: &Turn, at: [f64; 2], reach: f64, obstacles: &Obstacles) -> Option<Why> {
         let Ok(curve) = turn.corner(at, reach) else { return Some(Why::Range) };
@@ -42,25 +47,13 @@ impl Limits {
     }
 }
 
-/// Why a corner cannot be rounded.
+/// Why a corner curve will not do.
 #[derive(Debug, Clone, Copy)]
 pub enum Why {
-    /// The curve needs more of a leg than there is.
-    Short { needed: f64, there: f64 },
-    /// The curve comes too near.
+    /// It comes too near.
     Near(Clearance),
-    /// The curve leaves the range of doubles.
+    /// It leaves the range of doubles.
     Range,
-}
-
-/// A corner that could not be rounded.
-#[derive(Debug, Clone, Copy)]
-pub struct Refusal {
-    pub place: Place,
-    pub angle: f64,
-    pub why: Why,
-    /// Length of the shortest path that might have been.
-    bound: f64,
 }
 
 /// How the search ended.
@@ -68,8 +61,8 @@ pub struct Refusal {
 pub enum Found {
     /// Places from start to goal.
     Path(Vec<Place>),
-    /// None: with the corner that was refused on the shortest way, if any was.
-    None(Option<Refusal>),
+    /// There is none.
+    None,
     /// Not to the end.
     GaveUp,
 }
@@ -128,8 +121,9 @@ pub struct Search<'o> {
     places: Vec<Place>,
     seen: Vec<Option<Rc<[Seen]>>>,
     legs: Vec<Leg>,
+    /// How much of a leg the turn at its start took, for legs looked at.
+    taken: HashMap<[usize; 2], f64>,
     heap: BinaryHeap<Waiting>,
-    refusal: Option<Refusal>,
 }
 
 impl<'o> Search<'o> {
@@ -138,45 +132,33 @@ impl<'o> Search<'o> {
         let ends = ends.map(|at| Place { at, vertex: None }).into_iter();
         let places: Vec<Place> = ends.chain(beside.into_iter().filter(free)).collect();
         let seen = vec![None; places.len()];
-        Search { obstacles, limits, places, seen, legs: vec![], heap: BinaryHeap::new(), refusal: None }
+        Search { obstacles, limits, places, seen, legs: vec![], taken: HashMap::new(), heap: BinaryHeap::new() }
     }
 
     /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than before.
     pub fn run(mut self) -> Found {
-        let mut taken: HashMap<[usize; 2], f64> = HashMap::new();
         self.extend(None);
-        while let Some(Waiting { leg, bound }) = self.heap.pop() {
+        while let Some(Waiting { leg, .. }) = self.heap.pop() {
             if self.legs.len() > LEGS {
                 return Found::GaveUp;
             }
             let Leg { places, turn, .. } = self.legs[leg];
             let takes = turn.map_or(0.0, |(_, reach)| reach);
-            if taken.get(&places).is_some_and(|least| *least <= takes) || self.refuse(places[0], turn, bound) {
+            if self.taken.get(&places).is_some_and(|least| *least <= takes) || self.breaches(places[0], turn) {
                 continue;
             }
-            taken.insert(places, takes);
+            self.taken.insert(places, takes);
             if places[1] == GOAL {
                 return Found::Path(self.path(leg));
             }
             self.extend(Some(leg));
         }
-        Found::None(self.refusal)
+        Found::None
     }
 
-    /// Whether the turn at the start of a leg comes too near to something.
-    fn refuse(&mut self, place: usize, turn: Option<(Turn, f64)>, bound: f64) -> bool {
-        let Some((turn, reach)) = turn else { return false };
-        let breach = self.limits.breach(&turn, self.places[place].at, reach, self.obstacles);
-        breach.is_some_and(|why| {
-            self.note(place, &turn, why, bound);
-            true
-        })
-    }
-
-    fn note(&mut self, place: usize, turn: &Turn, why: Why, bound: f64) {
-        if self.refusal.is_none_or(|refusal| bound < refusal.bound) {
-            self.refusal = Some(Refusal { place: self.places[place], angle: turn.angle(), why, bound });
-        }
+    /// Whether the curve at the start of a leg comes too near to something.
+    fn breaches(&self, place: usize, turn: Option<(Turn, f64)>) -> bool {
+        turn.is_some_and(|(turn, reach)| self.limits.breach(&turn, self.places[place].at, reach, self.obstacles).is_some())
     }
 
     /// All legs that go on from a leg, or from the start.
@@ -190,6 +172,10 @@ impl<'o> Search<'o> {
                     None => continue,
                 },
             };
+            let takes = turn.map_or(0.0, |(_, reach)| reach);
+            if self.taken.get(&[from, seen.place]).is_some_and(|least| *least <= takes) {
+                continue;
+            }
             let path = before.map_or(0.0, |leg| self.legs[leg].path) + seen.length;
             let leg = Leg { places: [from, seen.place], length: seen.length, side: seen.there, turn, path, before };
             self.heap.push(Waiting { bound: path + self.to_goal(seen.place), leg: self.legs.len() });
@@ -202,8 +188,8 @@ impl<'o> Search<'o> {
     }
 
     /// The turn from a leg to the next one, around the vertex between them, if both have room for it.
-    fn turn(&mut self, leg: usize, next: &Seen) -> Option<(Turn, f64)> {
-        let Leg { places: [from, at], length, side, turn: before, path, .. } = self.legs[leg];
+    fn turn(&self, leg: usize, next: &Seen) -> Option<(Turn, f64)> {
+        let Leg { places: [from, at], length, side, turn: before, .. } = self.legs[leg];
         let [a, b, c] = [from, at, next.place].map(|i| self.places[i].at);
         let turn = Turn::new([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]])?;
         if next.here != side || turn.angle() * f64::from(side) <= 0.0 {
@@ -211,12 +197,7 @@ impl<'o> Search<'o> {
         }
         let reach = self.limits.reach(&turn);
         let there = (ROOM * length - before.map_or(0.0, |(_, reach)| reach)).min(ROOM * next.length);
-        if reach <= there {
-            return Some((turn, reach));
-        }
-        let bound = path + next.length + self.to_goal(next.place);
-        self.note(at, &turn, Why::Short { needed: reach, there }, bound);
-        None
+        (reach <= there).then_some((turn, reach))
     }
 
     /// What a place sees, found once.
