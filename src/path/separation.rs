@@ -5,7 +5,7 @@
 //! the one with the least bound first, until the least separation is enclosed and the verdict certain. Where both move in step the
 //! second bound needs far fewer stretches than the first.
 
-use super::{ROUNDINGS, finite, mismatch};
+use super::{ROUNDINGS, complex, finite, mismatch};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use std::cmp::Ordering;
@@ -15,6 +15,8 @@ use std::collections::BinaryHeap;
 const STRETCHES: usize = 400_000;
 /// Stretches at first.
 const FIRST: usize = 64;
+/// Directions that differ by no more where spans join are a matter of rounding.
+const SMOOTH: f64 = 1e-6;
 /// The least separation is enclosed to this share of the size of the scene, or as rounding allows.
 const TOLERANCE: f64 = 1e-10;
 
@@ -28,10 +30,18 @@ pub struct Motion {
     start_time: f64,
     /// Bound of its acceleration.
     acceleration: f64,
+    /// Bound of what its direction changes by where spans join, all together.
+    kinks: f64,
     /// Bound of its coordinates, lengths and legs.
     size: f64,
     /// How far the end of a span is from where its pre-image leads.
     mismatch: f64,
+}
+
+/// The difference of the directions that two values of w give, the squares of their unit vectors.
+fn kink(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (a, b) = (complex(a), complex(b));
+    2.0 * ((a.conj() * b).im / a.norm() / b.norm()).abs() + ROUNDINGS
 }
 
 /// Where a vehicle is: point, velocity, and bounds of their errors.
@@ -68,12 +78,9 @@ impl Motion {
         if !(length > 0.0 && length.is_finite()) {
             return fail(format!("its path is {length:?} long; it must have a length"));
         }
-        let smooth = |w: &[PhQuintic]| {
-            let (last, first) = (w[0].preimage[2], w[1].preimage[0]);
-            last == first || last == first.map(|x| -x)
-        };
+        let kinks: f64 = spans.windows(2).map(|w| kink(w[0].preimage[2], w[1].preimage[0])).sum();
         // A corner has no curvature; the bound by speeds alone still holds there.
-        let smooth = spans.windows(2).all(smooth);
+        let smooth = kinks <= SMOOTH;
         let curvature = spans.iter().map(|s| s.curvature_bound(5)).fold(0.0, f64::max);
         let acceleration = if smooth { speed * speed * curvature } else { f64::INFINITY };
         let far = spans.iter().flat_map(|s| s.control_points()).flatten().fold(0.0f64, |far, x| far.max(x.abs()));
@@ -81,7 +88,7 @@ impl Motion {
         let sizes = |s: &PhQuintic| s.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
         let size = far + length + spans.iter().map(sizes).fold(0.0, f64::max);
         let mismatch = spans.iter().map(mismatch).fold(0.0, f64::max);
-        Ok(Motion { spans, lengths, speed, start_time, acceleration, size, mismatch })
+        Ok(Motion { spans, lengths, speed, start_time, acceleration, kinks, size, mismatch })
     }
 
     /// Length of the path.
@@ -121,7 +128,7 @@ impl Motion {
             point: span.point(t),
             velocity: tangent.map(|x| x * self.speed),
             off,
-            velocity_off: self.acceleration / self.speed * off + ROUNDINGS * self.speed,
+            velocity_off: self.acceleration / self.speed * off + (self.kinks + ROUNDINGS) * self.speed,
         }
     }
 }

@@ -148,7 +148,7 @@ pub fn audit(scene: &Scene, spans: &[PhQuintic]) -> Result<(), String> {
         let off = [off[0].0 - span.end[0], off[1].0 - span.end[1]];
         let size = scene.obstacles.iter().flatten().chain([&scene.goal]).flatten().fold(1e-300f64, |m, x| m.max(x.abs()));
         check(off[0].hypot(off[1]) < 1e-13 * size, format!("span {i} ends elsewhere: {off:?}"))?;
-        check(kept(&powers, 0.0, 1.0, 24, scene), format!("span {i} is not proved by intervals"))?;
+        check(kept(&powers, 0.0, 1.0, 36, scene), format!("span {i} is not proved by intervals"))?;
         let hit = scene.obstacles.iter().position(|ring| inside(bezier(span, 0.37).point, ring));
         check(hit.is_none(), format!("span {i} is inside {hit:?}"))?;
     }

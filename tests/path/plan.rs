@@ -2,7 +2,7 @@
 
 use super::audit::{self, apart_from_all, audit, audit_plan};
 use super::*;
-use spiral_atlas::path::{Plan, Scene, Turn, plan, prove};
+use spiral_atlas::path::{Motion, Plan, Scene, Turn, Verdict, plan, prove, separation};
 
 type Ring = Vec<[f64; 2]>;
 
@@ -46,25 +46,33 @@ fn field(noise: &mut Noise, side: i32) -> Vec<Ring> {
 #[test]
 fn random_scenes_pass_the_audit() {
     let mut noise = Noise(5);
-    let (mut planned, mut corners, mut refused) = (0, 0, 0);
+    let mut corners = 0;
     for i in 0..60 {
         let obstacles = field(&mut noise, 4);
         let clearance = [0.0, 0.02, 0.05, 0.1][i % 4];
-        let scene = scene([-1.0, -0.8], [4.0, 3.7], obstacles, clearance, [3.0, 8.0, 30.0][i % 3]);
-        match plan(&scene) {
-            Ok(plan) => {
-                audit_plan(&scene, &plan).unwrap();
-                assert_eq!(prove(&scene, &plan.spans).unwrap(), plan.proof);
-                planned += 1;
-                corners += plan.corners.len();
-            }
-            Err(error) => {
-                assert!(error.to_string().contains("blocked") || error.to_string().contains("the shortest way turns"), "{error}");
-                refused += 1;
-            }
-        }
+        // From outside, or from somewhere in the middle.
+        let free = |p: &[f64; 2]| apart_from_all(*p, &obstacles) > 0.11 && !obstacles.iter().any(|ring| audit::inside(*p, ring));
+        let middle = (0..1000).map(|_| noise.point().map(|x| 1.5 + x)).find(free).unwrap();
+        let start = if i < 30 { [-1.0, -0.8] } else { middle };
+        let scene = scene(start, [4.0, 3.7], obstacles, clearance, [1.0, 8.0, 30.0][i % 3]);
+        let plan = plan(&scene).unwrap();
+        audit_plan(&scene, &plan).unwrap();
+        assert_eq!(prove(&scene, &plan.spans).unwrap(), plan.proof);
+        corners += plan.corners.len();
     }
-    assert!(planned > 40 && corners > 100 && refused > 0, "{planned} {corners} {refused}");
+    assert!(corners > 100, "{corners}");
+}
+
+#[test]
+fn a_thousand_vertices_take_seconds() {
+    let obstacles = field(&mut Noise(9), 14);
+    let vertices: usize = obstacles.iter().map(Vec::len).sum();
+    let scene = scene([-1.0, -0.8], [14.0, 13.7], obstacles, 0.03, 9.0);
+    let start = std::time::Instant::now();
+    let plan = plan(&scene).unwrap();
+    let seconds = start.elapsed().as_secs_f64();
+    audit(&scene, &plan.spans).unwrap();
+    assert!(vertices > 900 && plan.corners.len() > 10 && seconds < 20.0, "{vertices} {} {seconds}", plan.corners.len());
 }
 
 #[test]
@@ -356,4 +364,17 @@ fn small_round_things_are_gone_around_in_wide_turns() {
     let found = plan(&given).unwrap();
     audit_plan(&given, &found).unwrap();
     assert!(length(&found) < 8.0, "{}", length(&found));
+}
+
+#[test]
+fn vehicles_in_step_on_planned_paths_are_told_apart_exactly() {
+    // Lines and corners join with directions that differ by rounding; taken for corners, 400,000 stretches would not do.
+    let given = scene([-1.0, -0.8], [4.0, 3.7], field(&mut Noise(8), 4), 0.03, 9.0);
+    let spans = plan(&given).unwrap().spans;
+    let moved = |p: [f64; 2]| [p[0] + 0.3, p[1] + 0.4];
+    let beside = spans.iter().map(|s| PhQuintic::between(moved(s.start), moved(s.end), s.preimage)).collect();
+    let pair = [spans, beside].map(|spans| Motion::new(spans, 1.0, 0.0).unwrap());
+    let found = separation(&pair[0], &pair[1], 0.5 - 1e-7).unwrap();
+    let closest = found.closest.unwrap();
+    assert!(found.verdict == Verdict::Kept && (closest.at_most - 0.5).abs() < 1e-12, "{found:?}");
 }

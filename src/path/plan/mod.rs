@@ -173,7 +173,9 @@ pub fn plan(scene: &Scene) -> Result<Plan> {
     let limits = scene.limits();
     let path = route(scene, &obstacles, limits)?;
     let points: Vec<[f64; 2]> = path.iter().map(|place| place.at).collect();
-    let turns = points.windows(3).filter_map(|w| Turn::new(minus(w[1], w[0]), minus(w[2], w[1]))).collect::<Vec<_>>();
+    let turns = points.windows(3).map(|w| Turn::new(minus(w[1], w[0]), minus(w[2], w[1])));
+    // The search took the same turns.
+    let turns = turns.collect::<Option<Vec<Turn>>>().ok_or_else(|| Error::Domain("plan: the path turns back".into()))?;
     let polyline = Polyline { points: &points, turns: &turns };
     let reaches = polyline.reaches(&limits, &obstacles);
     let spans = polyline.spans(&reaches)?;

@@ -215,3 +215,55 @@ impl SelectionFunction<Side> for Near {
         self.should_unpack_parent(&leaf.envelope())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers without a pattern, in [0, 1].
+    fn noise(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (*state >> 11) as f64 / 2f64.powi(53)
+    }
+
+    #[test]
+    fn no_side_is_overlooked() {
+        let mut state = 1;
+        let mut triangle = || {
+            let [x, y] = [0, 1].map(|_| 9.0 * noise(&mut state));
+            [0, 1, 2].map(|_| [x + noise(&mut state), y + noise(&mut state)]).to_vec()
+        };
+        let polygons: Vec<_> = (0..200).map(|_| triangle()).collect();
+        let obstacles = Obstacles::new(&polygons).unwrap();
+        let all: Vec<Side> = obstacles.tree.iter().copied().collect();
+        let (mut found, mut left_out) = (0, 0);
+        for i in 0..500 {
+            let mut point = || [0, 1].map(|_| 10.0 * noise(&mut state));
+            let from = point();
+            let segment = [from, if i % 5 == 0 { from } else { point() }];
+            let within = noise(&mut state).powi(3);
+            let near: Vec<&Side> = obstacles.near(segment, within).collect();
+            let close = all.iter().filter(|side| between(segment, side.ends) <= within).collect::<Vec<_>>();
+            assert!(close.iter().all(|side| near.contains(side)));
+            found += close.len();
+            left_out += all.len() - near.len();
+            let nearest = obstacles.nearest(from).unwrap();
+            assert!(all.iter().all(|side| to_segment(from, side.ends) >= to_segment(from, nearest.ends) * (1.0 - 1e-12)));
+        }
+        assert!(found > 1000 && left_out > 100_000, "{found} {left_out}");
+    }
+
+    #[test]
+    fn crossings_are_exact() {
+        let (a, b) = ([0.1, 0.1], [0.7, 0.7]);
+        // On the line to the last bit, and one bit beside it.
+        let on = [0.3, 0.3];
+        let beside = [0.3, 0.3f64.next_up()];
+        assert!(cross([a, b], [on, [0.3, 5.0]]) && !cross([a, b], [beside, [0.3, 5.0]]));
+        assert!(cross([a, b], [on, on]) && !cross([a, b], [beside, beside]));
+        assert!(cross([a, b], [b, [0.9, 0.9]]) && !cross([a, b], [[0.8, 0.8], [0.9, 0.9]]));
+        let ring = [a, [0.9, 0.1], b];
+        assert!(holds(&ring, on) && !holds(&ring, beside) && holds(&ring, [0.3f64.next_up(), 0.3]));
+        assert_eq!((between([a, b], [on, [0.3, 5.0]]), between([a, a], [[0.1, 0.4], [0.1, 0.3]])), (0.0, 0.3 - 0.1));
+    }
+}

@@ -128,7 +128,7 @@ pub struct Search<'o> {
 
 impl<'o> Search<'o> {
     pub fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
-        let free = |place: &Place| is_clear(obstacles, [place.at; 2], limits.keep);
+        let free = |place: &Place| place.at.iter().all(|x| x.is_finite()) && is_clear(obstacles, [place.at; 2], limits.keep);
         let ends = ends.map(|at| Place { at, vertex: None }).into_iter();
         let places: Vec<Place> = ends.chain(beside.into_iter().filter(free)).collect();
         let seen = vec![None; places.len()];
