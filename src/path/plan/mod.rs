@@ -50,7 +50,7 @@ pub struct Corner {
     pub at: [f64; 2],
     /// The obstacle that it leads around, and a vertex of it.
     pub obstacle: usize,
-    /// That vertex.
+    /// That vertex; for a gentle bend of several, where the sides around it would meet.
     pub vertex: [f64; 2],
     /// Turning angle, radians, positive to the left.
     pub turning_angle: f64,

@@ -1,6 +1,7 @@
 //! Where a path may have its corners: beside the convex vertices of obstacles.
 
-use super::obstacles::{Obstacles, turn};
+use super::minus;
+use super::obstacles::Obstacles;
 use crate::path::Turn;
 
 type Point = [f64; 2];
@@ -10,6 +11,9 @@ const SHARPEST: f64 = 0.1;
 /// The turn at a vertex is also cut into this many, each above 20 degrees.
 const PARTS: i32 = 2;
 const LEAST_PART: f64 = 0.35;
+
+/// Bends below this are gentle.
+const GENTLE: f64 = 0.26;
 
 /// A vertex of an obstacle and its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,13 +37,13 @@ impl Place {
     /// start and goal. `None` when it does not: shortest paths do not turn there.
     pub fn side(&self, along: Point) -> Option<i8> {
         let Some(Vertex { at, before, after, .. }) = self.vertex else { return Some(0) };
-        let from = |p: Point| [p[0] - self.at[0], p[1] - self.at[1]];
+        let from = |p: Point| minus(p, self.at);
         let across = |v: Point| along[0] * v[1] - along[1] * v[0];
         let vertex = from(at);
         // Places are not equally far off, so lines that come near a wall slowly must do.
         let awhile = 4.0 * vertex[0].hypot(vertex[1]);
         let wall = |p: Point| {
-            let leg = [p[0] - at[0], p[1] - at[1]];
+            let leg = minus(p, at);
             let share = (awhile / leg[0].hypot(leg[1])).min(1.0);
             across([vertex[0] + share * leg[0], vertex[1] + share * leg[1]])
         };
@@ -52,25 +56,51 @@ impl Place {
     }
 }
 
-/// Places beside every convex vertex.
+/// Places beside convex vertices.
 ///
 /// # Arguments
 /// - `keep`: distance to keep.
 /// - `most`: greatest curvature.
 /// - `wide`: how much further off, in least radii.
 pub fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Place> {
-    let rings = obstacles.rings.iter().enumerate();
-    let vertices = rings.flat_map(|(obstacle, ring)| {
-        let n = ring.len();
-        (0..n).map(move |i| Vertex { at: ring[i], obstacle, before: ring[(i + n - 1) % n], after: ring[(i + 1) % n] })
-    });
-    vertices.filter(|v| turn([v.before, v.at], v.after) > 0.0).flat_map(|v| beside(v, keep, most, wide)).collect()
+    let vertices = obstacles.rings.iter().enumerate().flat_map(|(obstacle, ring)| convex(obstacle, ring));
+    vertices.flat_map(|v| beside(v, keep, most, wide)).collect()
+}
+
+/// The convex vertices of a polygon. Of gentle bends in a row there is one, where the sides around them would meet: so round things have few.
+fn convex(obstacle: usize, ring: &[Point]) -> Vec<Vertex> {
+    let n = ring.len();
+    let at = |i: usize| ring[i % n];
+    let bend = |i: usize| Turn::new(minus(at(i), at(i + n - 1)), minus(at(i + 1), at(i))).map_or(0.0, |turn| turn.angle());
+    let gentle = |bend: f64| bend > 0.0 && bend < GENTLE;
+    let (mut all, mut first) = (vec![], 0);
+    while first < n {
+        let (mut last, mut sum) = (first, bend(first));
+        while gentle(bend(first)) && last + 1 < n && gentle(bend(last + 1)) && sum + bend(last + 1) < 2.0 * GENTLE {
+            last += 1;
+            sum += bend(last);
+        }
+        let (before, after) = (at(first + n - 1), at(last + 1));
+        let corner = if first == last { at(first) } else { meet([before, at(first)], [after, at(last)]) };
+        if sum > 0.0 {
+            all.push(Vertex { at: corner, obstacle, before, after });
+        }
+        first = last + 1;
+    }
+    all
+}
+
+/// Where two lines meet.
+fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Point {
+    let ([p, q], r) = ([minus(b, a), minus(d, c)], minus(c, a));
+    let share = (r[0] * q[1] - r[1] * q[0]) / (p[0] * q[1] - p[1] * q[0]);
+    [a[0] + share * p[0], a[1] + share * p[1]]
 }
 
 /// The corners of the offset polygon: one, and those that cut it off in two and three.
 fn beside(vertex: Vertex, keep: f64, most: f64, wide: f64) -> Vec<Place> {
     let Vertex { at, before, after, .. } = vertex;
-    let (incoming, outgoing) = ([at[0] - before[0], at[1] - before[1]], [after[0] - at[0], after[1] - at[1]]);
+    let (incoming, outgoing) = (minus(at, before), minus(after, at));
     let Some(whole) = Turn::new(incoming, outgoing) else { return vec![] };
     let (angle, first) = (whole.angle(), incoming[1].atan2(incoming[0]) - std::f64::consts::FRAC_PI_2);
 

@@ -1,5 +1,6 @@
 //! The shortest polyline among places that can be rounded: a search over legs, since whether a path can turn depends on two of them.
 
+use super::minus;
 use super::obstacles::{Obstacles, between};
 use super::places::Place;
 use super::proof::{Clearance, clearance};
@@ -42,6 +43,12 @@ impl Limits {
     /// What comes too near to a corner curve.
     pub fn breach(&self, turn: &Turn, at: [f64; 2], reach: f64, obstacles: &Obstacles) -> Option<Why> {
         let Ok(curve) = turn.corner(at, reach) else { return Some(Why::Range) };
+        // A curve through a side would be halved down to rounding before that is seen.
+        let points: [_; 9] = std::array::from_fn(|i| curve.point(i as f64 * 0.125));
+        if let Some(w) = points.windows(2).find(|w| !is_clear(obstacles, [w[0], w[1]], f64::MIN_POSITIVE)) {
+            let obstacle = obstacles.nearest(w[0]).map_or(0, |side| side.obstacle);
+            return Some(Why::Near(Clearance { at_least: 0.0, at_most: 0.0, point: w[0], obstacle }));
+        }
         let clearance = clearance(&[curve], obstacles, self.clearance, f64::INFINITY)?;
         (clearance.at_least < self.clearance || clearance.at_least <= 0.0).then_some(Why::Near(clearance))
     }
@@ -191,10 +198,12 @@ impl<'o> Search<'o> {
     fn turn(&self, leg: usize, next: &Seen) -> Option<(Turn, f64)> {
         let Leg { places: [from, at], length, side, turn: before, .. } = self.legs[leg];
         let [a, b, c] = [from, at, next.place].map(|i| self.places[i].at);
-        let turn = Turn::new([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]])?;
-        if next.here != side || turn.angle() * f64::from(side) <= 0.0 {
+        let (incoming, outgoing) = (minus(b, a), minus(c, b));
+        let bend = incoming[0] * outgoing[1] - incoming[1] * outgoing[0];
+        if next.here != side || bend * f64::from(side) <= 0.0 {
             return None;
         }
+        let turn = Turn::new(incoming, outgoing)?;
         let reach = self.limits.reach(&turn);
         let there = (ROOM * length - before.map_or(0.0, |(_, reach)| reach)).min(ROOM * next.length);
         (reach <= there).then_some((turn, reach))
