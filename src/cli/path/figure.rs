@@ -71,16 +71,14 @@ pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<u8>> {
     let mut lines = Vec::new();
     for (i, a) in motions.iter().enumerate() {
         for b in &motions[i + 1..] {
-            let (from, to) = (a.times()[0].max(b.times()[0]), a.times()[1].min(b.times()[1]));
+            let (from, to) = (a.times()[0].min(b.times()[0]), a.times()[1].max(b.times()[1]));
             let n = SAMPLES / 4;
             let time = |k: usize| from + (to - from) * k as f64 / n as f64;
             let apart = |t: f64| {
                 let (p, q) = (a.at(t), b.at(t));
                 (p[0] - q[0]).hypot(p[1] - q[1])
             };
-            if from < to {
-                lines.push((0..=n).map(|k| [time(k), apart(time(k))]).collect());
-            }
+            lines.push((0..=n).map(|k| [time(k), apart(time(k))]).collect());
         }
     }
     let figure = PathsFigure {

@@ -221,7 +221,8 @@ fn proved(scene: &Scene, obstacles: &Obstacles, spans: &[PhQuintic]) -> Result<P
         Some(c) if c.at_least < wanted || c.at_least <= 0.0 => {
             let Clearance { at_least, at_most, point, obstacle } = c;
             fail(format!(
-                "the path near {point:?} is between {at_least:?} and {at_most:?} away from obstacles[{obstacle}]; the clearance {wanted:?} is not proved"
+                "the path near {point:?} is between {at_least:?} and {at_most:?} away from obstacles[{obstacle}]; \
+                 the clearance {wanted:?} is not proved"
             ))
         }
         clearance => Ok(Proof { curvature_at_most, clearance }),
