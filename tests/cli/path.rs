@@ -85,14 +85,20 @@ fn a_planned_path_is_input_of_separation() {
     assert!(corners.len() >= 4 && spans.len() == 2 * corners.len() + 1);
     assert_eq!(spans[number(&corners[1]["span"]) as usize]["preimage"][1], json!([0.0, 0.0]));
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
-    // A second vehicle on the same path, one unit of time later.
+    // A second vehicle in step with it, 0.5 beside; and one that starts later and so waits in its way.
+    let mut beside = path.clone();
+    for (span, end) in (0..spans.len()).flat_map(|i| [(i, "start"), (i, "end")]) {
+        let point = &mut beside["spans"][span][end];
+        *point = json!([number(&point[0]) + 0.3, number(&point[1]) + 0.4]);
+    }
     let mut later = path.clone();
     later["start_time"] = json!(1.0);
-    let verdict = |minimum: &str| {
-        let both = json!({"paths": [path, later]}).to_string();
+    let verdict = |other: &Value, minimum: &str| {
+        let both = json!({"paths": [path, other]}).to_string();
         piped(&["separation", "-", "--minimum", minimum], &both).json()["verdict"].clone()
     };
-    assert_eq!((verdict("0.5"), verdict("1.01")), (json!("kept"), json!("violated")));
+    assert_eq!((verdict(&beside, "0.499999"), verdict(&beside, "0.500001")), (json!("kept"), json!("violated")));
+    assert_eq!(verdict(&later, "0.000001"), json!("violated"));
     // TOML says the same.
     let scene = "start = [0, 0]\ngoal = [3, 0]\nclearance = 0.1\ngreatest_curvature = 5\nobstacles = [[[1, -1], [2, -1], [2, 1], [1, 1]]]";
     std::fs::write(folder.at("scene.toml"), scene).unwrap();
