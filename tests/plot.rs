@@ -391,7 +391,10 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         paths: vec![straight(1.0), straight(1.5)],
         graph: graph(0.0),
         level: None,
+        backdrop: None,
     };
+    let square = |far: f64| vec![vec![[0.2, 0.2], [far, 0.2], [far, 0.4]]];
+    let behind = |far: f64| Some(Backdrop { obstacles: square(far), grown: 0.1, polyline: vec![[0.0, 0.0], [1.0, 0.5]] });
     let picture = |figure: &PathsFigure| paths_png(figure, (700, 420));
     let first = picture(&figure).unwrap();
     assert!(first.starts_with(b"\x89PNG") && first == picture(&figure).unwrap());
@@ -400,15 +403,17 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         PathsFigure { level: Some(0.5), ..figure.clone() },
         PathsFigure { paths: vec![straight(1.0)], ..figure.clone() },
         PathsFigure { graph: graph(3.0), ..figure.clone() },
+        PathsFigure { backdrop: behind(0.5), ..figure.clone() },
     ];
     assert!(others.iter().all(|other| picture(other).unwrap() != first));
     let wrong = [
         PathsFigure { paths: vec![straight(f64::NAN)], ..figure.clone() },
         PathsFigure { paths: vec![], ..figure.clone() },
         PathsFigure { graph: graph(f64::INFINITY), ..figure.clone() },
+        PathsFigure { backdrop: behind(f64::NAN), ..figure.clone() },
     ];
     for figure in wrong {
-        assert!(picture(&figure).unwrap_err().to_string().contains("must have points, all finite"));
+        assert!(picture(&figure).unwrap_err().to_string().contains("must have points"));
     }
     assert!(paths_png(&figure, (40, 30)).is_err());
 }

@@ -1,17 +1,22 @@
-//! Path planning with Pythagorean-hodograph quintics: Hermite interpolation, paths of equal length, splines, separation.
+//! Path planning with Pythagorean-hodograph quintics: Hermite interpolation, paths of equal length, splines, separation,
+//! corner rounding among obstacles.
 //!
 //! Everything is one curve type, [`PhQuintic`], in the user's plane and unit of length; angles are radians.
 //!
 //! Source: Farouki et al., Pythagorean-hodograph curves for path planning of unmanned vehicles.
 
+mod corner;
 mod equal;
 mod hermite;
+mod plan;
 mod separation;
 mod spline;
 mod tridiagonal;
 
+pub use corner::Turn;
 pub use equal::{EqualLength, equal_length};
 pub use hermite::{Hermite, hermite};
+pub use plan::{Clearance, Corner, Plan, Proof, Scene, plan, prove};
 pub use separation::{Closest, Motion, Separation, Verdict, separation, separations};
 pub use spline::{Spline, spline};
 
@@ -66,6 +71,15 @@ fn best(candidates: &[Candidate], range: std::ops::Range<usize>) -> usize {
     let less = |a: (bool, f64), b: (bool, f64)| (a.0, a.1 * (1.0 + 1e-12)) < b;
     let first = range.start;
     range.fold(first, |best, i| if less(key(i), key(best)) { i } else { best })
+}
+
+/// Covers the roundings of a point, of a length, of a distance or of a tangent: none is the end of a chain of more than 60.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+
+/// How far the end of a span is from where its pre-image leads.
+fn mismatch(span: &PhQuintic) -> f64 {
+    let end = PhQuintic::new(span.start, span.preimage).end;
+    (end[0] - span.end[0]).hypot(end[1] - span.end[1])
 }
 
 fn complex([re, im]: [f64; 2]) -> Complex64 {

@@ -5,7 +5,7 @@
 //! the one with the least bound first, until the least separation is enclosed and the verdict certain. Where both move in step the
 //! second bound needs far fewer stretches than the first.
 
-use super::finite;
+use super::{ROUNDINGS, complex, finite, mismatch};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use std::cmp::Ordering;
@@ -15,10 +15,10 @@ use std::collections::BinaryHeap;
 const STRETCHES: usize = 400_000;
 /// Stretches at first.
 const FIRST: usize = 64;
+/// Directions that differ by no more where spans join are a matter of rounding.
+const SMOOTH: f64 = 1e-6;
 /// The least separation is enclosed to this share of the size of the scene, or as rounding allows.
 const TOLERANCE: f64 = 1e-10;
-/// Covers the roundings of a point, of a length or of a tangent: none is the end of a chain of more than 60.
-const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
 /// A vehicle on its way.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,18 +30,28 @@ pub struct Motion {
     start_time: f64,
     /// Bound of its acceleration.
     acceleration: f64,
+    /// Bound of what its direction changes by where spans join, all together.
+    kinks: f64,
     /// Bound of its coordinates, lengths and legs.
     size: f64,
     /// How far the end of a span is from where its pre-image leads.
     mismatch: f64,
 }
 
-/// Where a vehicle is: point, velocity, and bounds of their errors.
+/// The difference of the directions that two values of w give, the squares of their unit vectors.
+fn kink(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (a, b) = (complex(a), complex(b));
+    2.0 * ((a.conj() * b).im / a.norm() / b.norm()).abs() + ROUNDINGS
+}
+
+/// Where a vehicle is: point, velocity, bounds of their errors, and of speed and acceleration from standing or moving as then.
 struct State {
     point: [f64; 2],
     velocity: [f64; 2],
     off: f64,
     velocity_off: f64,
+    speed: f64,
+    acceleration: f64,
 }
 
 impl Motion {
@@ -70,21 +80,17 @@ impl Motion {
         if !(length > 0.0 && length.is_finite()) {
             return fail(format!("its path is {length:?} long; it must have a length"));
         }
-        let smooth = |w: &[PhQuintic]| {
-            let (last, first) = (w[0].preimage[2], w[1].preimage[0]);
-            last == first || last == first.map(|x| -x)
-        };
+        let kinks: f64 = spans.windows(2).map(|w| kink(w[0].preimage[2], w[1].preimage[0])).sum();
         // A corner has no curvature; the bound by speeds alone still holds there.
-        let smooth = spans.windows(2).all(smooth);
+        let smooth = kinks <= SMOOTH;
         let curvature = spans.iter().map(|s| s.curvature_bound(5)).fold(0.0, f64::max);
         let acceleration = if smooth { speed * speed * curvature } else { f64::INFINITY };
         let far = spans.iter().flat_map(|s| s.control_points()).flatten().fold(0.0f64, |far, x| far.max(x.abs()));
         // Coefficients of lengths are at most the sum of |w|², and so are legs.
         let sizes = |s: &PhQuintic| s.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
         let size = far + length + spans.iter().map(sizes).fold(0.0, f64::max);
-        let mismatch = |s: &PhQuintic| distance(PhQuintic::new(s.start, s.preimage).end, s.end);
         let mismatch = spans.iter().map(mismatch).fold(0.0, f64::max);
-        Ok(Motion { spans, lengths, speed, start_time, acceleration, size, mismatch })
+        Ok(Motion { spans, lengths, speed, start_time, acceleration, kinks, size, mismatch })
     }
 
     /// Length of the path.
@@ -108,6 +114,8 @@ impl Motion {
     }
 
     fn state(&self, time: f64) -> State {
+        let [start, end] = self.times();
+        let under_way = time.clamp(start, end);
         let travelled = (self.speed * (time - self.start_time)).clamp(0.0, self.length());
         let i = self.lengths.partition_point(|s| *s <= travelled).clamp(1, self.spans.len()) - 1;
         let (span, local) = (&self.spans[i], travelled - self.lengths[i]);
@@ -117,14 +125,20 @@ impl Motion {
         let off = missed
             + self.mismatch
             + ROUNDINGS * self.size
-            + f64::EPSILON * (self.spans.len() as f64 * self.length() + 4.0 * self.speed * (time.abs() + self.start_time.abs()));
+            + f64::EPSILON
+                * (self.spans.len() as f64 * self.length() + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
+        if time <= start || time >= end {
+            return State { point: span.point(t), velocity: [0.0; 2], off, velocity_off: 0.0, speed: 0.0, acceleration: 0.0 };
+        }
         let tangent = span.tangent(t);
         let tangent = if tangent[0].is_finite() && tangent[1].is_finite() { tangent } else { [1.0, 0.0] };
         State {
             point: span.point(t),
             velocity: tangent.map(|x| x * self.speed),
             off,
-            velocity_off: self.acceleration / self.speed * off + ROUNDINGS * self.speed,
+            velocity_off: self.acceleration / self.speed * off + (self.kinks + ROUNDINGS) * self.speed,
+            speed: self.speed,
+            acceleration: self.acceleration,
         }
     }
 }
@@ -159,8 +173,8 @@ pub struct Closest {
 pub struct Separation {
     /// Whether the minimum distance is kept.
     pub verdict: Verdict,
-    /// The closest approach; nothing when they are never under way at the same time.
-    pub closest: Option<Closest>,
+    /// The closest approach.
+    pub closest: Closest,
 }
 
 /// A stretch of time, by its lower bound.
@@ -188,7 +202,9 @@ impl Ord for Stretch {
     }
 }
 
-/// Whether two vehicles keep a minimum distance while both are under way, and how near they come.
+/// Whether two vehicles keep a minimum distance, and how near they come.
+///
+/// At all times: before its start time a vehicle stands at its start, and once it has arrived at its end.
 ///
 /// # Accuracy
 /// [`Verdict::Kept`] and [`Verdict::Violated`] are proved for the curves given, roundings included. The least separation is enclosed to 1e-10 of the
@@ -201,16 +217,17 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
     if minimum < 0.0 {
         return Err(Error::Domain(format!("separation: `minimum` is {minimum:?}; a distance is at least 0")));
     }
-    let (from, to) = (a.times()[0].max(b.times()[0]), a.times()[1].min(b.times()[1]));
-    if from > to {
-        return Ok(Separation { verdict: Verdict::Kept, closest: None });
+    let mut events = [a.times(), b.times()].concat();
+    events.sort_by(f64::total_cmp);
+    let mut search = Search { a, b, heap: BinaryHeap::new(), best: (f64::INFINITY, events[0], [[0.0; 2]; 2]) };
+    // Where one starts or arrives the least separation often is. In between both keep standing or moving.
+    for time in &events {
+        search.look(*time);
     }
-    let mut search = Search { a, b, heap: BinaryHeap::new(), best: (f64::INFINITY, from, [[0.0; 2]; 2]) };
-    // The ends, where the least separation often is.
-    search.look(from);
-    search.look(to);
-    let time = |i: usize| if i == FIRST { to } else { from + (to - from) * (i as f64 / FIRST as f64) };
-    (0..FIRST).for_each(|i| search.add(time(i), time(i + 1)));
+    for w in events.windows(2) {
+        let time = |i: usize| if i == FIRST { w[1] } else { w[0] + (w[1] - w[0]) * (i as f64 / FIRST as f64) };
+        (0..FIRST).for_each(|i| search.add(time(i), time(i + 1)));
+    }
     let tolerance = TOLERANCE * (a.size + b.size);
     let mut at_least = 0.0;
     for _ in 0..STRETCHES {
@@ -232,7 +249,7 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
         () if at_most < minimum => Verdict::Violated,
         () => Verdict::Undecided,
     };
-    Ok(Separation { verdict, closest: Some(Closest { time, points, at_least, at_most }) })
+    Ok(Separation { verdict, closest: Closest { time, points, at_least, at_most } })
 }
 
 /// [`separation`] of all pairs, as `(first, second, what is known)` with `first < second`.
@@ -270,8 +287,8 @@ impl Search<'_> {
         let off = a.off + b.off;
         let r = [a.point[0] - b.point[0], a.point[1] - b.point[1]];
         let v = [a.velocity[0] - b.velocity[0], a.velocity[1] - b.velocity[1]];
-        let by_speed = distance(a.point, b.point) - (self.a.speed + self.b.speed) * half;
-        let bend = 0.5 * (self.a.acceleration + self.b.acceleration) * half * half;
+        let by_speed = distance(a.point, b.point) - (a.speed + b.speed) * half;
+        let bend = 0.5 * (a.acceleration + b.acceleration) * half * half;
         let by_curvature = nearest(r, v, half) - bend - (a.velocity_off + b.velocity_off) * half;
         let bound = if by_curvature > by_speed { by_curvature } else { by_speed };
         // Distances and bounds themselves round, by less than the roundings in `off`.

@@ -14,7 +14,7 @@ mod slice;
 
 pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
 pub use multiples::{Multiples, multiples_png};
-pub use paths::{Lines, PathsFigure, paths_png};
+pub use paths::{Backdrop, Lines, PathsFigure, paths_png};
 pub use slice::{montage_png, slice_png};
 
 /// One axis of a slice.

@@ -12,6 +12,8 @@ use crate::error::{Error, Result};
 const COLORS: [Color; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [86, 180, 233], [230, 159, 0], [60, 60, 60]];
 const LEVEL: Color = [200, 30, 30];
+const OBSTACLE: Color = [168, 168, 168];
+const GROWN: Color = [238, 228, 208];
 
 /// Graphs over a common axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +24,17 @@ pub struct Lines {
     pub up: String,
     /// The graphs.
     pub lines: Vec<Vec<[f64; 2]>>,
+}
+
+/// What paths lead among.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Backdrop {
+    /// Polygons, filled.
+    pub obstacles: Vec<Vec<[f64; 2]>>,
+    /// The part within this distance of them is marked.
+    pub grown: f64,
+    /// A thin line.
+    pub polyline: Vec<[f64; 2]>,
 }
 
 /// What [`paths_png`] draws.
@@ -37,15 +50,21 @@ pub struct PathsFigure {
     pub graph: Lines,
     /// A value of the graphs to mark with a line.
     pub level: Option<f64>,
+    /// What the paths lead among; with it the graphs stand below, not on the right.
+    pub backdrop: Option<Backdrop>,
 }
 
-/// Draws a figure of `size` (width, height) pixels: the paths on the left, to one scale in both directions, the graphs on the right.
+/// Draws a figure of `size` (width, height) pixels: the paths, to one scale in both directions, and on the right of them or below the graphs.
 ///
 /// # Errors
 /// [`Error::Domain`] when a number is not finite, there is nothing to draw or it has no extent, or the size is 0, too large, or too small.
 pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     let mut canvas = Canvas::new(size)?;
     let finite = |lines: &[Vec<Point>]| lines.iter().flatten().flatten().all(|v| v.is_finite());
+    let behind = figure.backdrop.iter().flat_map(|b| b.obstacles.iter().chain([&b.polyline]));
+    if !behind.flatten().flatten().all(|v| v.is_finite()) {
+        return Err(Error::Domain("paths figure: the backdrop must have points that are finite".into()));
+    }
     for (name, lines) in [("paths", &figure.paths), ("graphs", &figure.graph.lines)] {
         if lines.iter().all(Vec::is_empty) || !finite(lines) {
             return Err(Error::Domain(format!("paths figure: the {name} must have points, all finite")));
@@ -57,11 +76,22 @@ pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     let heading = Heading::new(&canvas, &figure.title, &figure.note, style, sheet.width());
     let bottom = sheet.bottom - style.below() - style.px(1.6);
     let body = Rect { top: sheet.top + heading.height(style) + style.px(0.3), bottom, ..sheet };
-    let middle = body.left + body.width() * 54 / 100;
     heading.draw(&mut canvas, style, sheet);
-    draw_paths(&mut canvas, figure, style, Rect { right: middle, ..body })?;
-    draw_lines(&mut canvas, figure, style, Rect { left: middle + style.px(1.2), ..body })?;
+    let [paths, lines] = parts(body, style, figure.backdrop.is_some());
+    draw_paths(&mut canvas, figure, style, paths)?;
+    draw_lines(&mut canvas, figure, style, lines)?;
     canvas.into_png()
+}
+
+/// Where the paths and the graphs go.
+fn parts(body: Rect, style: Style, below: bool) -> [Rect; 2] {
+    if below {
+        let middle = body.top + body.height() * 70 / 100;
+        let axis = style.below() + style.px(1.6);
+        return [Rect { bottom: middle - axis, ..body }, Rect { top: middle + style.px(0.8), ..body }];
+    }
+    let middle = body.left + body.width() * 54 / 100;
+    [Rect { right: middle, ..body }, Rect { left: middle + style.px(1.2), ..body }]
 }
 
 /// Room for the numbers and the name on the left.
@@ -83,13 +113,23 @@ fn finish(canvas: &mut Canvas, [x, y]: [&Scale; 2], names: [&str; 2], style: Sty
 
 fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
     check_room(canvas, area)?;
-    let values = |i: usize| bounds(figure.paths.iter().flatten().map(|p| p[i]));
+    let grown = figure.backdrop.iter().flat_map(|b| {
+        let sides = [-b.grown, b.grown];
+        b.obstacles.iter().flatten().flat_map(move |p| sides.map(|by| [p[0] + by, p[1] + by]))
+    });
+    let all: Vec<Point> = figure.paths.iter().flatten().copied().chain(grown).collect();
+    let values = |i: usize| bounds(all.iter().map(|p| p[i]));
     let [_, y] = same_scales(values(0), values(1), area)?;
     let rect = narrowed(canvas, &y, style, area)?;
     let [x, y] = same_scales(values(0), values(1), rect)?;
     canvas.frame(rect, GREY);
+    let place = |p: &Point| rect.at(x.fraction(p[0]), y.fraction(p[1]));
+    if let Some(backdrop) = &figure.backdrop {
+        let pixels = (place(&[backdrop.grown, 0.0])[0] - place(&[0.0, 0.0])[0]).abs();
+        draw_backdrop(canvas, backdrop, style, rect, (pixels, &place));
+    }
     for (path, color) in figure.paths.iter().zip(COLORS.into_iter().cycle()) {
-        let places: Vec<Point> = path.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect();
+        let places: Vec<Point> = path.iter().map(place).collect();
         canvas.line(&places, style.em * 0.18, color, rect);
         if let Some(first) = places.first() {
             canvas.line(&[*first, *first], style.em * 0.6, color, rect);
@@ -97,6 +137,24 @@ fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
     }
     finish(canvas, [&x, &y], ["x", "y"], style, rect);
     Ok(())
+}
+
+/// Everything within a distance of a polygon is the polygon and a broad line around it.
+fn draw_backdrop(
+    canvas: &mut Canvas,
+    backdrop: &Backdrop,
+    style: Style,
+    clip: Rect,
+    (grown, place): (f64, &impl Fn(&Point) -> Point),
+) {
+    let places = |points: &[Point]| points.iter().map(place).collect::<Vec<_>>();
+    let obstacles: Vec<Vec<Point>> = backdrop.obstacles.iter().map(|ring| places(ring)).collect();
+    for ring in &obstacles {
+        let around: Vec<Point> = ring.iter().chain(ring.first()).copied().collect();
+        canvas.line(&around, 2.0 * grown, GROWN, clip);
+    }
+    obstacles.iter().for_each(|ring| canvas.polygon(ring, OBSTACLE));
+    canvas.line(&places(&backdrop.polyline), style.em * 0.06, GREY, clip);
 }
 
 fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {

@@ -7,6 +7,8 @@ use std::process::Stdio;
 
 const SWARM: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/swarm.json");
 
+const OBSTACLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/obstacles.json");
+
 /// Runs a tool on standard input.
 fn piped(args: &[&str], input: &str) -> Said {
     let mut child =
@@ -72,6 +74,43 @@ fn interpolants_and_splines() {
 }
 
 #[test]
+fn a_planned_path_is_input_of_separation() {
+    let folder = Folder::new("");
+    let figure = folder.text("plan.png");
+    let said = fine(["path", "plan", OBSTACLES, "--figure", &figure]);
+    let found = said.json();
+    let path = &found["paths"][0];
+    assert!(number(&path["clearance"]["at_least"]) >= 0.2 && number(&path["curvature_at_most"]) <= 5.0);
+    let (corners, spans) = (path["corners"].as_array().unwrap(), path["spans"].as_array().unwrap());
+    assert!(corners.len() >= 4 && spans.len() == 2 * corners.len() + 1);
+    assert_eq!(spans[number(&corners[1]["span"]) as usize]["preimage"][1], json!([0.0, 0.0]));
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    // A second vehicle in step with it, 0.5 beside; and one that starts later and so waits in its way.
+    let mut beside = path.clone();
+    for (span, end) in (0..spans.len()).flat_map(|i| [(i, "start"), (i, "end")]) {
+        let point = &mut beside["spans"][span][end];
+        *point = json!([number(&point[0]) + 0.3, number(&point[1]) + 0.4]);
+    }
+    let mut later = path.clone();
+    later["start_time"] = json!(1.0);
+    let verdict = |other: &Value, minimum: &str| {
+        let both = json!({"paths": [path, other]}).to_string();
+        piped(&["separation", "-", "--minimum", minimum], &both).json()["verdict"].clone()
+    };
+    assert_eq!((verdict(&beside, "0.499999"), verdict(&beside, "0.500001")), (json!("kept"), json!("violated")));
+    assert_eq!(verdict(&later, "0.000001"), json!("violated"));
+    // TOML says the same.
+    let scene = "start = [0, 0]\ngoal = [3, 0]\nclearance = 0.1\ngreatest_curvature = 5\nobstacles = [[[1, -1], [2, -1], [2, 1], [1, 1]]]";
+    std::fs::write(folder.at("scene.toml"), scene).unwrap();
+    let json = r#"{"start": [0, 0], "goal": [3, 0], "clearance": 0.1, "greatest_curvature": 5, "obstacles": [[[1, -1], [2, -1], [2, 1], [1, 1]]]}"#;
+    let toml = fine(["path", "plan", &folder.text("scene.toml")]).out;
+    assert!(!toml.is_empty() && toml == piped(&["plan", "-"], json).out);
+    std::fs::write(folder.at("scene.toml"), "start = [0, 0").unwrap();
+    let said = run(["path", "plan", &folder.text("scene.toml")]);
+    assert!(said.code == Some(1) && said.err.contains("scene.toml") && said.err.contains("line 1"), "{}", said.err);
+}
+
+#[test]
 fn mistakes_are_named() {
     let cases: &[(&[&str], &str, &[&str])] = &[
         (&["hermite", "-"], "{", &["standard input", "EOF", "line 1"]),
@@ -106,6 +145,12 @@ fn mistakes_are_named() {
             r#"{"paths": [{"speed": 0, "spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
             &["paths[0]", "`speed` is 0.0"],
         ),
+        (
+            &["plan", "-"],
+            r#"{"start": [0, 0], "goal": [3, 0], "obstacles": [[[1, 1], [2, 2]]], "clearance": 0, "greatest_curvature": 1}"#,
+            &["standard input", "obstacles[0] has 2 different vertices"],
+        ),
+        (&["plan", "-"], r#"{"start": [0, 0], "heading": 1}"#, &["unknown field `heading`"]),
         (&["separation", "missing.json"], "", &["missing.json", "No such file"]),
         (&["spline", "-", "--figure", "x.jpg"], "{}", &["x.jpg", ".png"]),
     ];

@@ -1,8 +1,11 @@
 //! Path planning against published numbers, and against what the Bézier form alone says.
 
+mod audit;
+mod corner;
 mod curve;
 mod equal;
 mod hermite;
+mod plan;
 mod separation;
 mod spline;
 

@@ -20,7 +20,7 @@ fn path(row: &Value, length: f64) -> PhQuintic {
 }
 
 fn enclosed(found: &Separation, least: f64, tolerance: f64) -> bool {
-    let closest = found.closest.unwrap();
+    let closest = found.closest;
     closest.at_least <= least + tolerance
         && least - tolerance <= closest.at_most
         && closest.at_most - closest.at_least < tolerance
@@ -40,7 +40,7 @@ fn published_closest_approaches() {
         let least = number(&case["min"]);
         let found = separation(&a, &b, least).unwrap();
         assert!(enclosed(&found, least, 1e-8), "{found:?} {least}");
-        assert!((found.closest.unwrap().time - number(&case["s_at_min"])).abs() < 1e-4, "{found:?} {case}");
+        assert!((found.closest.time - number(&case["s_at_min"])).abs() < 1e-4, "{found:?} {case}");
         // A hair to either side is decided.
         let verdict = |minimum: f64| separation(&a, &b, minimum).unwrap().verdict;
         assert_eq!((verdict(least * (1.0 - 1e-9)), verdict(least * (1.0 + 1e-9))), (Verdict::Kept, Verdict::Violated), "{case}");
@@ -86,10 +86,9 @@ fn random_motions_agree_with_dense_sampling() {
         let (v1, v2, t2) = (1.0 + 0.5 * noise.next(), 1.0 + 0.5 * noise.next(), 0.1 * noise.next());
         let (a, b) = (Motion::new(one.clone(), v1, 0.0).unwrap(), Motion::new(two.clone(), v2, t2).unwrap());
         let (p, q) = (Polygon::new(&one), Polygon::new(&two));
-        let (from, to) = (t2.max(0.0), a.times()[1].min(b.times()[1]));
-        if from >= to {
-            continue;
-        }
+        // Before its start and after its arrival a polygon stays at its ends.
+        let events = [a.times(), b.times()].concat();
+        let (from, to) = (events[0].min(events[2]), events[1].max(events[3]));
         let gap = |t: f64| {
             let (p, q) = (p.at(v1 * t), q.at(v2 * (t - t2)));
             (p[0] - q[0]).hypot(p[1] - q[1])
@@ -97,11 +96,11 @@ fn random_motions_agree_with_dense_sampling() {
         let n = 20_000;
         let least = (0..=n).map(|k| gap(from + (to - from) * f64::from(k) / f64::from(n))).fold(f64::INFINITY, f64::min);
         let found = separation(&a, &b, 0.0).unwrap();
-        let closest = found.closest.unwrap();
+        let closest = found.closest;
         // Samples lie `2 (to - from) / n` apart at worst; the polygon is short by 1e-6 or so.
         assert!(closest.at_least <= least + 2e-5 && least <= closest.at_most + 1e-3, "{least} {closest:?}");
         assert!(closest.at_most - closest.at_least <= 1e-8 && (gap(closest.time) - closest.at_most).abs() < 2e-5, "{closest:?}");
-        ends += usize::from(closest.time == from || closest.time == to);
+        ends += usize::from(events.contains(&closest.time));
     }
     assert!(ends > 2 && ends < 35);
 }
@@ -120,7 +119,7 @@ fn samples_that_miss_the_meeting_fool_nobody() {
     // Dead on time: they meet, which keeps no distance at all.
     let b = Motion::new(line([0.0, -777.0], [0.0, 1111.0]), 1.0, 223.0).unwrap();
     let met = separation(&a, &b, 1e-9).unwrap();
-    assert!(met.verdict == Verdict::Violated && met.closest.unwrap().at_least == 0.0);
+    assert!(met.verdict == Verdict::Violated && met.closest.at_least == 0.0);
 }
 
 #[test]
@@ -131,13 +130,13 @@ fn moving_in_step_and_behind_each_other() {
     assert_eq!((verdict(&beside, 1.0 - 1e-9), verdict(&beside, 1.0 + 1e-9)), (Verdict::Kept, Verdict::Violated));
     // Exactly the minimum: doubles cannot tell, and it says so.
     assert_eq!(verdict(&beside, 1.0), Verdict::Undecided);
-    // The same path half a unit of time later: always 1 behind.
+    // The same path half a unit of time later: it waits where the other one starts.
     let behind = Motion::new(line([0.0, 0.0], [10.0, 0.0]), 2.0, 0.5).unwrap();
+    assert_eq!((verdict(&behind, 1e-9), verdict(&behind, 0.0)), (Verdict::Violated, Verdict::Kept));
+    let behind = Motion::new(line([-1.0, 0.0], [9.0, 0.0]), 2.0, 0.0).unwrap();
     assert_eq!((verdict(&behind, 0.999_999), verdict(&behind, 1.000_001)), (Verdict::Kept, Verdict::Violated));
-    // The same motion, and those that are never under way together.
+    // The same motion.
     assert_eq!((verdict(&a.clone(), 1e-6), verdict(&a.clone(), 0.0)), (Verdict::Violated, Verdict::Kept));
-    let later = Motion::new(line([0.0, 0.0], [10.0, 0.0]), 2.0, 5.1).unwrap();
-    assert_eq!(separation(&a, &later, 3.0).unwrap(), Separation { verdict: Verdict::Kept, closest: None });
     // One moment in common.
     let relay = Motion::new(line([13.0, 4.0], [20.0, 0.0]), 2.0, 5.0).unwrap();
     let found = separation(&a, &relay, 4.9).unwrap();
@@ -151,6 +150,39 @@ fn moving_in_step_and_behind_each_other() {
 }
 
 #[test]
+fn vehicles_that_wait_or_have_arrived_are_in_the_way() {
+    let a = Motion::new(line([0.0, 0.0], [10.0, 0.0]), 2.0, 0.0).unwrap();
+    let found = |from: [f64; 2], to: [f64; 2], start: f64| {
+        let b = Motion::new(line(from, to), 1.0, start).unwrap();
+        let found = [separation(&a, &b, 0.3).unwrap(), separation(&b, &a, 0.3).unwrap()];
+        assert!((found[0].closest.at_most - found[1].closest.at_most).abs() < 1e-9 && found[0].verdict == found[1].verdict);
+        found[0]
+    };
+    // It waits 0.1 beside the way, 7 from its start; it leaves before the other comes; it has arrived there; it is not there yet.
+    let waits = found([7.0, 0.1], [7.0, 5.0], 100.0);
+    assert!(
+        waits.verdict == Verdict::Violated && enclosed(&waits, 0.1, 1e-8) && (waits.closest.time - 3.5).abs() < 1e-3,
+        "{waits:?}"
+    );
+    let leaves = found([7.0, 0.1], [7.0, 5.0], -10.0);
+    assert!(leaves.verdict == Verdict::Kept && enclosed(&leaves, 5.0, 1e-7), "{leaves:?}");
+    let arrived = found([7.0, 5.0], [7.0, 0.1], -100.0);
+    assert!(arrived.verdict == Verdict::Violated && enclosed(&arrived, 0.1, 1e-8), "{arrived:?}");
+    let late = found([7.0, 5.0], [7.0, 0.1], 100.0);
+    assert!(late.verdict == Verdict::Kept && enclosed(&late, (3f64 * 3.0 + 0.1 * 0.1).sqrt(), 1e-8), "{late:?}");
+    // Neither moves while the other does: the nearest is where one stood and the other one stands.
+    let relay = found([10.0, 0.25], [20.0, 0.25], 5.1);
+    assert!(relay.verdict == Verdict::Violated && enclosed(&relay, 0.25, 1e-8), "{relay:?}");
+    let apart = found([10.0, 4.0], [20.0, 4.0], 5.1);
+    assert!(apart.verdict == Verdict::Kept && enclosed(&apart, 4.0, 1e-8) && !enclosed(&apart, 4.001, 1e-8), "{apart:?}");
+    // A corner on its way does not matter to one that stands.
+    let corner = [line([7.0, 1.0], [7.0, 2.0]), line([7.0, 2.0], [9.0, 2.0])].concat();
+    let b = Motion::new(corner, 1.0, 50.0).unwrap();
+    let found = separation(&a, &b, 0.9999).unwrap();
+    assert!(found.verdict == Verdict::Kept && enclosed(&found, 1.0, 1e-8), "{found:?}");
+}
+
+#[test]
 fn curves_that_stand_still_and_corners_are_bounded_by_speed() {
     let cusp = PhQuintic::new([0.0, 0.0], [[-0.5, 0.0], [0.0, -0.25], [0.5, 0.5]]);
     let a = Motion::new(vec![cusp], 1.0, 0.0).unwrap();
@@ -160,7 +192,7 @@ fn curves_that_stand_still_and_corners_are_bounded_by_speed() {
     let a = Motion::new(corner, 1.0, 0.0).unwrap();
     let b = Motion::new(line([2.0, 0.0], [0.0, 0.0]), 1.0, 0.0).unwrap();
     let found = separation(&a, &b, 1e-3).unwrap();
-    assert!(found.verdict == Verdict::Violated && found.closest.unwrap().at_most < 1e-7, "{found:?}");
+    assert!(found.verdict == Verdict::Violated && found.closest.at_most < 1e-7, "{found:?}");
 }
 
 #[test]

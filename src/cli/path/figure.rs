@@ -1,11 +1,12 @@
 //! What the path tools draw.
 
 use spiral_atlas::curve::PhQuintic;
-use spiral_atlas::path::Motion;
-use spiral_atlas::plot::{self, Lines, PathsFigure};
+use spiral_atlas::path::{Motion, Plan, Scene};
+use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
 use spiral_atlas::{Error, Result};
 
 const SIZE: (u32, u32) = (1500, 900);
+const TALL: (u32, u32) = (1300, 1300);
 /// Samples of a path, about.
 const SAMPLES: usize = 2000;
 
@@ -42,8 +43,27 @@ pub fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
         paths: paths.iter().map(|spans| points(spans)).collect(),
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
         level: None,
+        backdrop: None,
     };
     plot::paths_png(&figure, SIZE)
+}
+
+/// A planned path among its obstacles, above its curvature.
+pub fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
+    let (most, spans) = (scene.greatest_curvature, &plan.spans);
+    let figure = PathsFigure {
+        title: format!("{} corners, length {:.4}, saved {:.4}", plan.corners.len(), length(spans), plan.length_saved),
+        note: format!("dot: start; bright: within the clearance {}; red: the greatest curvature {most}", scene.clearance),
+        paths: vec![points(spans)],
+        graph: Lines { across: "s".into(), up: "|κ|".into(), lines: vec![along(spans, |c, t| c.curvature(t).abs())] },
+        level: Some(most),
+        backdrop: Some(Backdrop { obstacles: scene.obstacles.clone(), grown: scene.clearance, polyline: plan.polyline.clone() }),
+    };
+    plot::paths_png(&figure, TALL)
+}
+
+fn length(spans: &[PhQuintic]) -> f64 {
+    spans.iter().map(PhQuintic::length).sum()
 }
 
 /// The paths of several motions and the separation of each pair over time.
@@ -51,16 +71,14 @@ pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<u8>> {
     let mut lines = Vec::new();
     for (i, a) in motions.iter().enumerate() {
         for b in &motions[i + 1..] {
-            let (from, to) = (a.times()[0].max(b.times()[0]), a.times()[1].min(b.times()[1]));
+            let (from, to) = (a.times()[0].min(b.times()[0]), a.times()[1].max(b.times()[1]));
             let n = SAMPLES / 4;
             let time = |k: usize| from + (to - from) * k as f64 / n as f64;
             let apart = |t: f64| {
                 let (p, q) = (a.at(t), b.at(t));
                 (p[0] - q[0]).hypot(p[1] - q[1])
             };
-            if from < to {
-                lines.push((0..=n).map(|k| [time(k), apart(time(k))]).collect());
-            }
+            lines.push((0..=n).map(|k| [time(k), apart(time(k))]).collect());
         }
     }
     let figure = PathsFigure {
@@ -69,6 +87,7 @@ pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<u8>> {
         paths: motions.iter().map(|m| points(m.spans())).collect(),
         graph: Lines { across: "time".into(), up: "separation".into(), lines },
         level: Some(minimum),
+        backdrop: None,
     };
     plot::paths_png(&figure, SIZE)
 }

@@ -3,6 +3,7 @@
 mod equal_length;
 mod figure;
 mod hermite;
+mod plan;
 mod separation;
 mod spline;
 
@@ -16,10 +17,11 @@ use spiral_atlas::{Error, Result};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Plan paths of Pythagorean-hodograph quintics: through ends, through points, of equal length, and apart from each other.
+/// Plan paths of Pythagorean-hodograph quintics: through ends, through points, of equal length,
+/// among obstacles, and apart from each other.
 ///
-/// Each tool reads JSON from a file, or from standard input for `-`, and prints JSON. What the first three print has `paths`, which
-/// `separation` reads. Any unit of length; angles are radians, or degrees when written like "40deg".
+/// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others print has `paths`,
+/// which `separation` reads. Any unit of length; angles are radians, or degrees when written like "40deg".
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
@@ -34,6 +36,7 @@ enum Tool {
     Hermite(hermite::Args),
     EqualLength(equal_length::Args),
     Spline(spline::Args),
+    Plan(plan::Args),
     Separation(separation::Args),
 }
 
@@ -43,6 +46,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         Tool::Hermite(args) => hermite::run(args),
         Tool::EqualLength(args) => equal_length::run(args),
         Tool::Spline(args) => spline::run(args),
+        Tool::Plan(args) => plan::run(args),
         Tool::Separation(args) => separation::run(args),
     }
 }
@@ -50,7 +54,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 /// What a tool works on and where it draws.
 #[derive(clap::Args)]
 struct Files {
-    /// JSON file, or `-` for standard input.
+    /// JSON file, TOML file named .toml, or `-` for JSON from standard input.
     input: PathBuf,
     /// Draw the paths with their curvature, or their separation over time.
     #[arg(long, value_name = "FILE.png")]
@@ -60,7 +64,7 @@ struct Files {
 impl Files {
     /// What stands in the input.
     fn read<T: DeserializeOwned>(&self) -> Result<T> {
-        if let Some(path) = self.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
+        if let Some(path) = self.figure.as_ref().filter(|p| !has_extension(p, "png")) {
             return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
         }
         let io = |source| Error::Io { path: self.input.clone(), source };
@@ -70,7 +74,11 @@ impl Files {
         } else {
             text = std::fs::read_to_string(&self.input).map_err(io)?;
         }
-        serde_json::from_str(&text).map_err(|e| self.blame(Error::Domain(e.to_string())))
+        let read = match has_extension(&self.input, "toml") {
+            true => toml::from_str(&text).map_err(|e| e.to_string()),
+            false => serde_json::from_str(&text).map_err(|e| e.to_string()),
+        };
+        read.map_err(|e| self.blame(Error::Domain(e)))
     }
 
     /// An error of what was read here.
@@ -88,6 +96,10 @@ impl Files {
         }
         Ok(Outcome::Fine)
     }
+}
+
+fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }
 
 /// A span as it is printed.

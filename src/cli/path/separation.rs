@@ -6,10 +6,12 @@ use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::{Motion, Separation, Verdict, separations};
 use spiral_atlas::{Error, Result};
 
-/// Prove whether vehicles keep a minimum distance while under way, and tell how near they come.
+/// Prove whether vehicles keep a minimum distance at all times, and tell how near they come.
 ///
 /// Input: {"paths": [{"spans": [{"start": [x, y], "preimage": [[u, v], ..]}, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools print it;
 /// other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of the minimum.
+///
+/// Before its start time a vehicle stands at its start, and once it has arrived at its end.
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03"

@@ -1,0 +1,49 @@
+//! `path plan`.
+
+use super::{Files, Found, Outcome, figure};
+use serde::Serialize;
+use spiral_atlas::Result;
+use spiral_atlas::path::{Clearance, Corner, Scene, plan};
+
+/// Plan a path of bounded curvature among polygons: the shortest polyline around them whose corners can be rounded, rounded.
+///
+/// Input: {"start": [x, y], "goal": [x, y], "obstacles": [[[x, y], ..], ..], "clearance": d, "greatest_curvature": k}.
+///
+/// `clearance` and `curvature_at_most` are proved for the path printed; without a path that keeps them there is an error that tells why.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  spiral-atlas path plan examples/obstacles.json --figure plan.png")]
+pub struct Args {
+    #[command(flatten)]
+    files: Files,
+}
+
+#[derive(Serialize)]
+struct Planned<'p> {
+    #[serde(flatten)]
+    found: Found,
+    length_saved: f64,
+    curvature_at_most: f64,
+    /// Null without obstacles.
+    clearance: Option<Clearance>,
+    polyline: &'p [[f64; 2]],
+    corners: &'p [Corner],
+}
+
+#[derive(Serialize)]
+struct Output<'p> {
+    paths: [Planned<'p>; 1],
+}
+
+pub fn run(args: &Args) -> Result<Outcome> {
+    let scene: Scene = args.files.read()?;
+    let plan = plan(&scene).map_err(|e| args.files.blame(e))?;
+    let planned = Planned {
+        found: Found::new(&plan.spans),
+        length_saved: plan.length_saved,
+        curvature_at_most: plan.proof.curvature_at_most,
+        clearance: plan.proof.clearance,
+        polyline: &plan.polyline,
+        corners: &plan.corners,
+    };
+    args.files.finish(&Output { paths: [planned] }, || figure::planned(&scene, &plan))
+}

@@ -1,0 +1,122 @@
+//! Where a path may have its corners: beside the convex vertices of obstacles.
+
+use super::minus;
+use super::obstacles::Obstacles;
+use crate::path::Turn;
+
+type Point = [f64; 2];
+
+/// Turns sharper than this need more room than anyone has: cosine of half the angle.
+const SHARPEST: f64 = 0.1;
+/// The turn at a vertex is also cut into this many, each above 20 degrees.
+const PARTS: i32 = 2;
+const LEAST_PART: f64 = 0.35;
+
+/// Bends below this are gentle.
+const GENTLE: f64 = 0.26;
+
+/// A vertex of an obstacle and its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vertex {
+    pub at: Point,
+    pub obstacle: usize,
+    before: Point,
+    after: Point,
+}
+
+/// A point where a path may turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    pub at: Point,
+    /// The vertex that it turns around; none at start and goal.
+    pub vertex: Option<Vertex>,
+}
+
+impl Place {
+    /// On which side of a line through the place its vertex is, when the obstacle's boundary stays there for a while: 1 is left; 0 for
+    /// start and goal. `None` when it does not: shortest paths do not turn there.
+    pub fn side(&self, along: Point) -> Option<i8> {
+        let Some(Vertex { at, before, after, .. }) = self.vertex else { return Some(0) };
+        let from = |p: Point| minus(p, self.at);
+        let across = |v: Point| along[0] * v[1] - along[1] * v[0];
+        let vertex = from(at);
+        // Places are not equally far off, so lines that come near a wall slowly must do.
+        let awhile = 4.0 * vertex[0].hypot(vertex[1]);
+        let wall = |p: Point| {
+            let leg = minus(p, at);
+            let share = (awhile / leg[0].hypot(leg[1])).min(1.0);
+            across([vertex[0] + share * leg[0], vertex[1] + share * leg[1]])
+        };
+        let (here, walls) = (across(vertex), [wall(before), wall(after)]);
+        match here {
+            _ if here > 0.0 && walls.iter().all(|w| *w >= 0.0) => Some(1),
+            _ if here < 0.0 && walls.iter().all(|w| *w <= 0.0) => Some(-1),
+            _ => None,
+        }
+    }
+}
+
+/// Places beside convex vertices.
+///
+/// # Arguments
+/// - `keep`: distance to keep.
+/// - `most`: greatest curvature.
+/// - `wide`: how much further off, in least radii.
+pub fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Place> {
+    let vertices = obstacles.rings.iter().enumerate().flat_map(|(obstacle, ring)| convex(obstacle, ring));
+    vertices.flat_map(|v| beside(v, keep, most, wide)).collect()
+}
+
+/// The convex vertices of a polygon. Of gentle bends in a row there is one, where the sides around them would meet: so round things have few.
+fn convex(obstacle: usize, ring: &[Point]) -> Vec<Vertex> {
+    let n = ring.len();
+    let at = |i: usize| ring[i % n];
+    let bend = |i: usize| Turn::new(minus(at(i), at(i + n - 1)), minus(at(i + 1), at(i))).map_or(0.0, |turn| turn.angle());
+    let gentle = |bend: f64| bend > 0.0 && bend < GENTLE;
+    let (mut all, mut first) = (vec![], 0);
+    while first < n {
+        let (mut last, mut sum) = (first, bend(first));
+        while gentle(bend(first)) && last + 1 < n && gentle(bend(last + 1)) && sum + bend(last + 1) < 2.0 * GENTLE {
+            last += 1;
+            sum += bend(last);
+        }
+        let (before, after) = (at(first + n - 1), at(last + 1));
+        let corner = if first == last { at(first) } else { meet([before, at(first)], [after, at(last)]) };
+        if sum > 0.0 {
+            all.push(Vertex { at: corner, obstacle, before, after });
+        }
+        first = last + 1;
+    }
+    all
+}
+
+/// Where two lines meet.
+fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Point {
+    let ([p, q], r) = ([minus(b, a), minus(d, c)], minus(c, a));
+    let share = (r[0] * q[1] - r[1] * q[0]) / (p[0] * q[1] - p[1] * q[0]);
+    [a[0] + share * p[0], a[1] + share * p[1]]
+}
+
+/// The corners of the offset polygon: one, and those that cut it off in two and three.
+fn beside(vertex: Vertex, keep: f64, most: f64, wide: f64) -> Vec<Place> {
+    let Vertex { at, before, after, .. } = vertex;
+    let (incoming, outgoing) = (minus(at, before), minus(after, at));
+    let Some(whole) = Turn::new(incoming, outgoing) else { return vec![] };
+    let (angle, first) = (whole.angle(), incoming[1].atan2(incoming[0]) - std::f64::consts::FRAC_PI_2);
+
+    let parts = (1..=if wide > 0.0 { 1 } else { PARTS }).map(|parts| (f64::from(parts), angle / f64::from(parts)));
+    let offset = |(parts, part): (f64, f64)| {
+        let turn = Turn::new([1.0, 0.0], [part.cos(), part.sin()])?;
+        let fair = (0.5 * part).cos() > SHARPEST && (parts == 1.0 || part > LEAST_PART);
+        // A little more than the curve needs, which is known to 1e-3.
+        let offset = 1.001 * turn.least_offset(keep, most).max(keep) + wide / most;
+        fair.then_some((parts, part, offset / (0.5 * part).cos()))
+    };
+    let points = |(parts, part, far): (f64, f64, f64)| {
+        (0..parts as i32).map(move |i| {
+            let direction = first + part * (f64::from(i) + 0.5);
+            Place { at: [at[0] + far * direction.cos(), at[1] + far * direction.sin()], vertex: Some(vertex) }
+        })
+    };
+    parts.filter_map(offset).flat_map(points).collect()
+}

@@ -1,0 +1,245 @@
+//! The shortest polyline among places that can be rounded: a search over legs, since whether a path can turn depends on two of them.
+
+use super::minus;
+use super::obstacles::{Obstacles, between};
+use super::places::Place;
+use super::proof::{Clearance, clearance};
+use crate::path::Turn;
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
+use std::rc::Rc;
+
+/// Legs looked at, at most.
+const LEGS: usize = 1_000_000;
+/// Corner curves take no more of a leg than this; between them remains a straight piece.
+pub const ROOM: f64 = 0.999;
+const START: usize = 0;
+const GOAL: usize = 1;
+
+/// What paths must keep.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// Clearance.
+    pub clearance: f64,
+    /// A little more, so that rounding does not matter.
+    pub keep: f64,
+    /// Greatest curvature.
+    pub most: f64,
+    /// Corner curves are no smaller than this, for doubles to tell their shape.
+    pub least_reach: f64,
+}
+
+impl Limits {
+    /// The least reach of a corner curve, a little more than doubles need to prove its curvature.
+    pub fn reach(&self, turn: &Turn) -> f64 {
+        (turn.reach_for_curvature(self.most) * (1.0 + 1e-9) + 1e-14 / self.most).max(self.least_reach)
+    }
+
+    /// The same with turns as sharp as doubles can tell.
+    pub fn sharp(&self) -> Limits {
+        Limits { most: 1.0 / self.least_reach, ..*self }
+    }
+
+    /// What comes too near to a corner curve.
+    pub fn breach(&self, turn: &Turn, at: [f64; 2], reach: f64, obstacles: &Obstacles) -> Option<Why> {
+        let Ok(curve) = turn.corner(at, reach) else { return Some(Why::Range) };
+        // A curve through a side would be halved down to rounding before that is seen.
+        let points: [_; 9] = std::array::from_fn(|i| curve.point(i as f64 * 0.125));
+        if let Some(w) = points.windows(2).find(|w| !is_clear(obstacles, [w[0], w[1]], f64::MIN_POSITIVE)) {
+            let obstacle = obstacles.nearest(w[0]).map_or(0, |side| side.obstacle);
+            return Some(Why::Near(Clearance { at_least: 0.0, at_most: 0.0, point: w[0], obstacle }));
+        }
+        let clearance = clearance(&[curve], obstacles, self.clearance, f64::INFINITY)?;
+        (clearance.at_least < self.clearance || clearance.at_least <= 0.0).then_some(Why::Near(clearance))
+    }
+}
+
+/// Why a corner curve will not do.
+#[derive(Debug, Clone, Copy)]
+pub enum Why {
+    /// It comes too near.
+    Near(Clearance),
+    /// It leaves the range of doubles.
+    Range,
+}
+
+/// How the search ended.
+#[derive(Debug)]
+pub enum Found {
+    /// Places from start to goal.
+    Path(Vec<Place>),
+    /// There is none.
+    None,
+    /// Not to the end.
+    GaveUp,
+}
+
+/// A place that another one sees, with the sides on which their vertices are.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    place: usize,
+    length: f64,
+    here: i8,
+    there: i8,
+}
+
+/// A leg reached by some path.
+struct Leg {
+    places: [usize; 2],
+    length: f64,
+    /// On which side of the leg the vertex at its end is.
+    side: i8,
+    /// The turn at its start, and how much of the leg it takes.
+    turn: Option<(Turn, f64)>,
+    /// Length of the path up to its end.
+    path: f64,
+    /// The leg before.
+    before: Option<usize>,
+}
+
+/// A leg by the least length of a path through it.
+struct Waiting {
+    bound: f64,
+    leg: usize,
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Waiting) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Waiting {}
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Waiting) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Waiting {
+    /// The shortest comes first, of equals the one found first.
+    fn cmp(&self, other: &Waiting) -> Ordering {
+        other.bound.total_cmp(&self.bound).then(other.leg.cmp(&self.leg))
+    }
+}
+
+pub struct Search<'o> {
+    obstacles: &'o Obstacles,
+    limits: Limits,
+    /// Start, goal, and places beside obstacles.
+    places: Vec<Place>,
+    seen: Vec<Option<Rc<[Seen]>>>,
+    legs: Vec<Leg>,
+    /// How much of a leg the turn at its start took, for legs looked at.
+    taken: HashMap<[usize; 2], f64>,
+    heap: BinaryHeap<Waiting>,
+}
+
+impl<'o> Search<'o> {
+    pub fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
+        let free = |place: &Place| place.at.iter().all(|x| x.is_finite()) && is_clear(obstacles, [place.at; 2], limits.keep);
+        let ends = ends.map(|at| Place { at, vertex: None }).into_iter();
+        let places: Vec<Place> = ends.chain(beside.into_iter().filter(free)).collect();
+        let seen = vec![None; places.len()];
+        Search { obstacles, limits, places, seen, legs: vec![], taken: HashMap::new(), heap: BinaryHeap::new() }
+    }
+
+    /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than before.
+    pub fn run(mut self) -> Found {
+        self.extend(None);
+        while let Some(Waiting { leg, .. }) = self.heap.pop() {
+            if self.legs.len() > LEGS {
+                return Found::GaveUp;
+            }
+            let Leg { places, turn, .. } = self.legs[leg];
+            let takes = turn.map_or(0.0, |(_, reach)| reach);
+            if self.taken.get(&places).is_some_and(|least| *least <= takes) || self.breaches(places[0], turn) {
+                continue;
+            }
+            self.taken.insert(places, takes);
+            if places[1] == GOAL {
+                return Found::Path(self.path(leg));
+            }
+            self.extend(Some(leg));
+        }
+        Found::None
+    }
+
+    /// Whether the curve at the start of a leg comes too near to something.
+    fn breaches(&self, place: usize, turn: Option<(Turn, f64)>) -> bool {
+        turn.is_some_and(|(turn, reach)| self.limits.breach(&turn, self.places[place].at, reach, self.obstacles).is_some())
+    }
+
+    /// All legs that go on from a leg, or from the start.
+    fn extend(&mut self, before: Option<usize>) {
+        let from = before.map_or(START, |leg| self.legs[leg].places[1]);
+        for seen in self.seen_from(from).iter() {
+            let turn = match before {
+                None => None,
+                Some(leg) => match self.turn(leg, seen) {
+                    Some(turn) => Some(turn),
+                    None => continue,
+                },
+            };
+            let takes = turn.map_or(0.0, |(_, reach)| reach);
+            if self.taken.get(&[from, seen.place]).is_some_and(|least| *least <= takes) {
+                continue;
+            }
+            let path = before.map_or(0.0, |leg| self.legs[leg].path) + seen.length;
+            let leg = Leg { places: [from, seen.place], length: seen.length, side: seen.there, turn, path, before };
+            self.heap.push(Waiting { bound: path + self.to_goal(seen.place), leg: self.legs.len() });
+            self.legs.push(leg);
+        }
+    }
+
+    fn to_goal(&self, place: usize) -> f64 {
+        distance(self.places[place].at, self.places[GOAL].at)
+    }
+
+    /// The turn from a leg to the next one, around the vertex between them, if both have room for it.
+    fn turn(&self, leg: usize, next: &Seen) -> Option<(Turn, f64)> {
+        let Leg { places: [from, at], length, side, turn: before, .. } = self.legs[leg];
+        let [a, b, c] = [from, at, next.place].map(|i| self.places[i].at);
+        let (incoming, outgoing) = (minus(b, a), minus(c, b));
+        let bend = incoming[0] * outgoing[1] - incoming[1] * outgoing[0];
+        if next.here != side || bend * f64::from(side) <= 0.0 {
+            return None;
+        }
+        let turn = Turn::new(incoming, outgoing)?;
+        let reach = self.limits.reach(&turn);
+        let there = (ROOM * length - before.map_or(0.0, |(_, reach)| reach)).min(ROOM * next.length);
+        (reach <= there).then_some((turn, reach))
+    }
+
+    /// What a place sees, found once.
+    fn seen_from(&mut self, from: usize) -> Rc<[Seen]> {
+        if let Some(seen) = &self.seen[from] {
+            return seen.clone();
+        }
+        let here = &self.places[from];
+        let look = |(i, there): (usize, &Place)| {
+            let along = [there.at[0] - here.at[0], there.at[1] - here.at[1]];
+            let seen = Seen { place: i, length: along[0].hypot(along[1]), here: here.side(along)?, there: there.side(along)? };
+            let clear = seen.length > 0.0 && is_clear(self.obstacles, [here.at, there.at], self.limits.keep);
+            clear.then_some(seen)
+        };
+        let seen: Rc<[Seen]> = self.places.iter().enumerate().skip(GOAL).filter_map(look).collect();
+        self.seen[from] = Some(seen.clone());
+        seen
+    }
+
+    fn path(&self, last: usize) -> Vec<Place> {
+        let legs = std::iter::successors(Some(&self.legs[last]), |leg| leg.before.map(|i| &self.legs[i]));
+        let mut places: Vec<Place> = legs.map(|leg| self.places[leg.places[1]]).collect();
+        places.push(self.places[START]);
+        places.reverse();
+        places
+    }
+}
+
+/// Whether a segment keeps a distance from all sides, about.
+pub fn is_clear(obstacles: &Obstacles, segment: [[f64; 2]; 2], keep: f64) -> bool {
+    obstacles.near(segment, keep).all(|side| between(segment, side.ends) >= keep)
+}
+
+pub fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
+    (p[0] - q[0]).hypot(p[1] - q[1])
+}
