@@ -318,7 +318,11 @@ impl PhQuintic {
     fn energy<N: Real>(&self, bits: usize) -> Option<f64> {
         let w = self.preimage.map(|z| z.map(|x| N::of(x, bits)));
         let re = |i: usize, j: usize| w[i][0].mul(&w[j][0]).add(&w[i][1].mul(&w[j][1]));
-        let im = |i: usize, j: usize| w[i][0].mul(&w[j][1]).sub(&w[i][1].mul(&w[j][0]));
+        // By the difference, which for nearly straight curves is small and exact.
+        let im = |i: usize, j: usize| {
+            let step = [0, 1].map(|k| w[j][k].sub(&w[i][k]));
+            w[i][0].mul(&step[1]).sub(&w[i][1].mul(&step[0]))
+        };
         let middle = re(1, 1).times(2.0).add(&re(0, 2)).over(&N::of(3.0, bits))?;
         let speed = [re(0, 0), re(0, 1), middle, re(1, 2), re(2, 2)];
         let turn = [im(0, 1).times(4.0), im(0, 2).times(2.0), im(1, 2).times(4.0)];
