@@ -14,7 +14,9 @@ use num_complex::Complex64;
 /// c and s are known to a few units of 2^-53, absolute.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
-    /// Unit vectors with half the angles of the legs, so that their squares are the legs' directions.
+    /// Directions of the legs.
+    legs: [Complex64; 2],
+    /// Unit vectors with half their angles, the roots of them.
     roots: [Complex64; 2],
     cosine: f64,
     sine: f64,
@@ -24,11 +26,12 @@ impl Turn {
     /// From one direction to another; `None` for vectors of no length, and for turning back.
     pub fn new(incoming: [f64; 2], outgoing: [f64; 2]) -> Option<Turn> {
         let unit = |v: [f64; 2]| complex(v) / v[0].hypot(v[1]);
-        let (first, last) = (unit(incoming).sqrt(), unit(outgoing).sqrt());
+        let legs = [unit(incoming), unit(outgoing)];
+        let [first, last] = legs.map(|leg| leg.sqrt());
         let half = first.conj() * last;
         // Either root will do; the one within a right angle of the first makes the shorter turn.
         let sign = 1f64.copysign(half.re);
-        let turn = Turn { roots: [first, last * sign], cosine: half.re * sign, sine: half.im * sign };
+        let turn = Turn { legs, roots: [first, last * sign], cosine: half.re * sign, sine: half.im * sign };
         (turn.cosine > 0.0).then_some(turn)
     }
 
@@ -95,7 +98,7 @@ impl Turn {
 
     /// The corner curve for a corner at the origin, and the direction to its inside.
     fn standard(&self, reach: f64) -> (Complex64, PhQuintic) {
-        let [first, last] = self.roots.map(|root| root * root);
+        let [first, last] = self.legs;
         // Across the mean direction, which is the product of the roots.
         let inward = self.roots[0] * self.roots[1] * Complex64::new(0.0, 1f64.copysign(self.sine));
         (inward, PhQuintic::between(pair(-first * reach), pair(last * reach), self.preimage(reach)))
@@ -127,7 +130,7 @@ impl Turn {
         if reach.is_nan() || reach <= 0.0 {
             return Err(Error::Domain(format!("corner: the reach is {reach:?}; it must be above 0")));
         }
-        let [first, last] = self.roots.map(|root| root * root * reach);
+        let [first, last] = self.legs.map(|leg| leg * reach);
         let curve = PhQuintic::between(pair(complex(at) - first), pair(complex(at) + last), self.preimage(reach));
         match curve.is_finite() {
             true => Ok(curve),
