@@ -36,8 +36,11 @@ fn a_swarm_arrives_together_and_keeps_its_distance() {
     let pairs = separation["pairs"].as_array().unwrap();
     assert_eq!((pairs.len(), &separation["verdict"]), (15, &json!("kept")));
     let least = pairs.iter().map(|p| number(&p["closest"]["at_least"])).fold(f64::INFINITY, f64::min);
-    let verdict = |minimum: f64| piped(&["separation", "-", "--minimum", &minimum.to_string()], &paths.out).json();
-    assert_eq!((&verdict(least - 1e-8)["verdict"], &verdict(least + 1e-8)["verdict"]), (&json!("kept"), &json!("violated")));
+    let verdict = |minimum: f64| {
+        let said = piped(&["separation", "-", "--minimum", &minimum.to_string()], &paths.out);
+        (said.code, said.json()["verdict"].clone())
+    };
+    assert_eq!((verdict(least - 1e-8), verdict(least + 1e-8)), ((Some(0), json!("kept")), (Some(1), json!("violated"))));
     for figure in [swarm, apart] {
         assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"), "{figure}");
     }
@@ -45,7 +48,7 @@ fn a_swarm_arrives_together_and_keeps_its_distance() {
     let mut late = found.clone();
     late["paths"][0]["start_time"] = json!(0.4);
     late["paths"][0]["speed"] = json!(2.0);
-    let late = piped(&["separation", "-"], &late.to_string()).json();
+    let late = piped(&["separation", "-", "--minimum", "0"], &late.to_string()).json();
     assert_ne!(late["pairs"][0]["closest"], pairs[0]["closest"]);
     assert_eq!(late["pairs"][14]["closest"]["at_most"], pairs[14]["closest"]["at_most"]);
 }
@@ -134,14 +137,14 @@ fn mistakes_are_named() {
             &["4dg"],
         ),
         (&["equal-length", "-"], r#"{"length": 2, "paths": []}"#, &["`paths` is empty"]),
-        (&["separation", "-"], r#"{"paths": []}"#, &["0 paths"]),
+        (&["separation", "-", "--minimum", "0"], r#"{"paths": []}"#, &["0 paths"]),
         (
-            &["separation", "-"],
+            &["separation", "-", "--minimum", "0"],
             r#"{"paths": [{"spans": [{"start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
             &["paths[0]", "spans[0]", "`end` is [7.0, 0.0]", "[1.0, 0.0]"],
         ),
         (
-            &["separation", "-"],
+            &["separation", "-", "--minimum", "0"],
             r#"{"paths": [{"speed": 0, "spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
             &["paths[0]", "`speed` is 0.0"],
         ),
@@ -151,7 +154,7 @@ fn mistakes_are_named() {
             &["standard input", "obstacles[0] has 2 different vertices"],
         ),
         (&["plan", "-"], r#"{"start": [0, 0], "heading": 1}"#, &["unknown field `heading`"]),
-        (&["separation", "missing.json"], "", &["missing.json", "No such file"]),
+        (&["separation", "missing.json", "--minimum", "1"], "", &["missing.json", "No such file"]),
         (&["spline", "-", "--figure", "x.jpg"], "{}", &["x.jpg", ".png"]),
     ];
     for (args, input, parts) in cases {

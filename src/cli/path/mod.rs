@@ -182,7 +182,7 @@ struct Paths {
 /// An angle: a number, or text like `40deg`.
 fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
     #[derive(Deserialize)]
-    #[serde(untagged, expecting = "an angle: a number of radians, or text like \"40deg\"")]
+    #[serde(untagged, expecting = "expected an angle: a number of radians, or text like \"40deg\"")]
     enum Angle {
         Number(f64),
         Text(String),

@@ -11,7 +11,7 @@ use spiral_atlas::{Error, Result};
 /// Input: {"paths": [{"spans": [{"start": [x, y], "preimage": [[u, v], ..]}, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools print it;
 /// other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of the minimum.
 ///
-/// Before its start time a vehicle stands at its start, and once it has arrived at its end.
+/// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit status is 0 for `kept` alone, 1 else.
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03"
@@ -20,7 +20,7 @@ pub struct Args {
     #[command(flatten)]
     files: Files,
     /// The distance to keep.
-    #[arg(long, value_name = "NUMBER", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     minimum: f64,
 }
 
@@ -96,5 +96,6 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);
     let pairs = found.iter().map(|(first, second, found)| Pair { first: *first, second: *second, found: *found }).collect();
     let output = Output { minimum: args.minimum, verdict, pairs };
-    args.files.finish(&output, || figure::separations(&motions, args.minimum))
+    let done = args.files.finish(&output, || figure::separations(&motions, args.minimum))?;
+    Ok(if verdict == Verdict::Kept { done } else { Outcome::Bad })
 }
