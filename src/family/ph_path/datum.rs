@@ -1,0 +1,84 @@
+//! Data of both kinds, their domains and their symmetries.
+
+use super::Kind;
+use crate::error::{Error, Result};
+use crate::num::trig::{SIN_ERROR, cos, sin};
+use crate::num::{Ball, Interval, Real};
+use std::f64::consts::PI;
+
+/// Sizes beyond these, or lengths beyond the larger, are refused: every result then fits a single.
+const MOST: f64 = 1e9;
+const LEAST: f64 = 1e-9;
+
+/// A datum, taken as exact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Datum {
+    pub kind: Kind,
+    /// Angles of the end tangents to the chord.
+    pub theta: [f64; 2],
+    /// End speeds over the chord; of an arc length, both are that over the chord.
+    pub size: [f64; 2],
+}
+
+impl Datum {
+    pub fn new(kind: Kind, node: &[f64]) -> Datum {
+        let size = [node[2], node[kind.axes().len() - 1]];
+        Datum { kind, theta: [node[0], node[1]], size }
+    }
+
+    pub fn symmetry(&self) -> Symmetry {
+        let [first, last] = self.theta;
+        match (first, last) {
+            _ if first == 0.0 && last == 0.0 => Symmetry::Line,
+            _ if self.size[0] != self.size[1] => Symmetry::None,
+            _ if first == -last => Symmetry::Arch,
+            _ if first == last => Symmetry::Wave,
+            _ => Symmetry::None,
+        }
+    }
+}
+
+/// Which symmetries map the ends to themselves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Symmetry {
+    None,
+    /// `θ1 = -θ0`, equal speeds: reflection across the chord's bisector.
+    Arch,
+    /// `θ1 = θ0`, equal speeds: half a turn about the chord's middle.
+    Wave,
+    /// Both angles 0: reflection in the chord; with equal speeds both others too.
+    Line,
+}
+
+/// Refuses what lies outside the domain, by name.
+pub(super) fn check(kind: Kind, axis: usize, value: f64) -> Result<()> {
+    let name = kind.axes()[axis];
+    let (fits, range) = match (axis, kind) {
+        (0 | 1, _) => (value.abs() <= PI, "-pi to pi (radians; add or subtract a turn)"),
+        (_, Kind::EqualLength) => (value > 1.0 && value <= MOST, "above 1, the straight line's, and at most 1e9"),
+        (_, Kind::Hermite) => ((LEAST..=MOST).contains(&value), "1e-9 to 1e9, in chords"),
+    };
+    if fits { Ok(()) } else { Err(Error::Domain(format!("{name} is {value:?}; it must be {range}"))) }
+}
+
+/// Numbers that have sines.
+pub(super) trait Turned: Real {
+    /// `(cos θ/2, sin θ/2)` for |θ| <= π, the sine of 0 exactly.
+    fn half_turn(theta: f64, bits: usize) -> [Self; 2];
+}
+
+impl Turned for Ball {
+    fn half_turn(theta: f64, bits: usize) -> [Ball; 2] {
+        // Halving is exact but for subnormal numbers, which cost at most what `near` adds.
+        let half = 0.5 * theta.abs();
+        let sine = if theta == 0.0 { Ball::of(0.0, bits) } else { Ball::near(sin(half).copysign(theta), SIN_ERROR) };
+        [Ball::near(cos(half), SIN_ERROR), sine]
+    }
+}
+
+impl Turned for Interval {
+    fn half_turn(theta: f64, bits: usize) -> [Interval; 2] {
+        let (sin, cos) = Interval::new(theta, bits).scale(0.5).sine_cosine();
+        [cos, if theta == 0.0 { Interval::new(0.0, bits) } else { sin }]
+    }
+}
