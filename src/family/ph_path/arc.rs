@@ -29,6 +29,16 @@ pub(super) enum Bound {
     Open,
 }
 
+/// The same of a piece, from its coefficients alone.
+enum Compared {
+    Below,
+    /// At the start, 0, or at the end, 1.
+    Above(f64),
+    /// Halves may tell.
+    Open,
+    Hopeless,
+}
+
 /// `Re(conj(a) b)`.
 fn re<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
     a[0].mul(&b[0]).add(&a[1].mul(&b[1]))
@@ -136,14 +146,30 @@ impl<N: Real> Arc<N> {
 
     /// Whether |κ| stays below v. With `touching`, v is the curvature at the start, where it may be equal.
     pub fn below(&self, v: &N, touching: bool) -> Bound {
-        let most = if self.bits() <= 53 { 40 } else { self.bits() as u32 };
-        self.piece_below(&v.times(self.width), touching, 0.0, most)
+        // No margin needs more halvings.
+        let most = if self.bits() <= 53 { 40 } else { 640 };
+        let mut waiting = vec![(self.clone(), v.times(self.width), 0.0, 0)];
+        while let Some((piece, v, from, depth)) = waiting.pop() {
+            match piece.compared(&v, touching && from == 0.0) {
+                Compared::Below => {}
+                Compared::Open if depth < most => {
+                    let ([first, second], half) = (piece.halves(), v.times(0.5));
+                    let middle = from + second.width;
+                    waiting.push((second, half.clone(), middle, depth + 1));
+                    waiting.push((first, half, from, depth + 1));
+                }
+                Compared::Above(part) => return Bound::Above(from + part * piece.width),
+                _ => return Bound::Open,
+            }
+        }
+        Bound::Below
     }
 
-    fn piece_below(&self, v: &N, touching: bool, from: f64, depth: u32) -> Bound {
+    /// The same as far as the coefficients tell, for v times the width.
+    fn compared(&self, v: &N, touching: bool) -> Compared {
         let (square, turn) = self.sides();
-        let left = touching && turn[0].certain_sign(0.0) == Some(Greater);
-        let (mut all, mut none) = (true, true);
+        let left = turn[0].certain_sign(0.0) == Some(Greater);
+        let (mut all, mut some) = (true, false);
         for (k, (s, h)) in square.iter().zip(&turn).enumerate() {
             let most = v.mul(s);
             for (side, touches) in [(most.sub(h), left), (most.add(h), !left)] {
@@ -151,26 +177,18 @@ impl<N: Real> Arc<N> {
                 if k == 0 && touching && touches {
                     continue;
                 }
-                match side.certain_sign(0.0) {
-                    Some(Greater) => none = false,
-                    Some(Less) if k == 0 => return Bound::Above(from),
-                    Some(Less) if k == 8 => return Bound::Above(from + self.width),
-                    Some(Less) => (all, none) = (false, false),
-                    _ => all = false,
+                let sign = side.certain_sign(0.0);
+                if sign == Some(Less) && (k == 0 || k == 8) {
+                    return Compared::Above(if k == 0 { 0.0 } else { 1.0 });
                 }
+                all &= sign == Some(Greater);
+                some |= sign.is_some();
             }
         }
-        if all {
-            return Bound::Below;
-        }
-        if none || depth == 0 {
-            return Bound::Open;
-        }
-        let half = v.times(0.5);
-        let [first, second] = self.halves();
-        match first.piece_below(&half, touching, from, depth - 1) {
-            Bound::Below => second.piece_below(&half, false, from + second.width, depth - 1),
-            other => other,
+        match (all, some) {
+            (true, _) => Compared::Below,
+            (false, true) => Compared::Open,
+            (false, false) => Compared::Hopeless,
         }
     }
 
@@ -191,12 +209,12 @@ impl<N: Real> Arc<N> {
     /// The greatest |κ|; `None` where the precision does not suffice.
     ///
     /// `margin` is how much more than the value at the guess is proved, relative.
-    pub fn greatest(&self, guess: f64, margin: f64) -> Option<N> {
+    pub fn greatest(&self, guess: f64, margin: &N) -> Option<N> {
         let mut t = self.polished(guess);
         // Each round begins where the last was found too low.
         for _ in 0..8 {
             let value = self.curvature(&t)?;
-            let most = value.mul(&N::of(margin, self.bits()).plus(1.0));
+            let most = value.mul(&margin.plus(1.0));
             match self.below(&most, false) {
                 Bound::Below => return Some(value.union(&most)),
                 Bound::Above(at) => t = self.polished(climbed(&self.plain(), at / self.width).0),
@@ -208,8 +226,7 @@ impl<N: Real> Arc<N> {
 }
 
 fn better(best: (f64, f64), next: (f64, f64)) -> (f64, f64) {
-    // Also where the speed is 0.
-    if next.1 > best.1 || next.1.is_nan() { next } else { best }
+    if next.1 > best.1 { next } else { best }
 }
 
 /// The real parts of the roots of w: near them the curve is slow, and bends most.
@@ -226,10 +243,11 @@ fn jet([w0, w1, w2]: &[Complex64; 3], t: f64) -> [Complex64; 3] {
     [a * (1.0 - t) + b * t, first * (1.0 - t) + last * t, last - first]
 }
 
-/// |κ|.
+/// |κ|; infinite where the curve stands still.
 fn bend(w: &[Complex64; 3], t: f64) -> f64 {
     let [w, slope, _] = jet(w, t);
-    2.0 * (w.conj() * slope).im.abs() / w.norm_sqr().powi(2)
+    let size = 2.0 * (w.conj() * slope).im.abs() / w.norm_sqr().powi(2);
+    if size.is_nan() { f64::INFINITY } else { size }
 }
 
 /// From t up to a local maximum of |κ|: Newton's method, as long as it climbs.

@@ -51,7 +51,7 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
         let last = if paper { last } else { last.map(|x| x.times(-1.0)) };
         let ends = match datum.kind {
             Kind::EqualLength => of_length(datum, [first, last], symmetry, bits)?,
-            Kind::Hermite => of_speeds(datum, [first, last], symmetry, bits)?,
+            Kind::Hermite => of_speeds(datum, [first, last], symmetry, paper, bits)?,
         };
         // With both angles 0 a real w1 makes a line that runs along the chord.
         if let (Symmetry::Line, Root::Real(_)) = (symmetry, &ends.root) {
@@ -97,7 +97,7 @@ impl<N: Real> Curve<N> {
 }
 
 /// Given end speeds.
-fn of_speeds<N: Real>(datum: &Datum, half: [Complex<N>; 2], symmetry: Symmetry, bits: usize) -> Option<Ends<N>> {
+fn of_speeds<N: Real>(datum: &Datum, half: [Complex<N>; 2], symmetry: Symmetry, paper: bool, bits: usize) -> Option<Ends<N>> {
     let [a, b] = datum.size.map(|l| N::of(l, bits).sqrt());
     let (a, b) = (a?, b?);
     let [w0, w2] = [half[0].clone().map(|x| x.mul(&a)), half[1].clone().map(|x| x.mul(&b))];
@@ -105,7 +105,15 @@ fn of_speeds<N: Real>(datum: &Datum, half: [Complex<N>; 2], symmetry: Symmetry, 
     let across = [w0[0].mul(&w2[0]).sub(&w0[1].mul(&w2[1])), w0[0].mul(&w2[1]).add(&w0[1].mul(&w2[0]))];
     let (s0, s2) = (square(&w0), square(&w2));
     let [re, im] = [0, 1].map(|i| across[i].times(10.0).sub(&s0[i].add(&s2[i]).times(15.0)));
-    let re = re.plus(120.0);
+    let re = match symmetry {
+        // From the speeds, whose product may be a square: then 0 is known as 0.
+        Symmetry::Line => {
+            let [l0, l1] = datum.size.map(|l| N::of(l, bits));
+            let across = l0.mul(&l1).sqrt()?.times(if paper { 10.0 } else { -10.0 });
+            across.sub(&l0.add(&l1).times(15.0)).plus(120.0)
+        }
+        _ => re.plus(120.0),
+    };
     // Z is real in these cases, exactly.
     let root = match symmetry {
         Symmetry::Arch | Symmetry::Line => match re.certain_sign(0.0)? {

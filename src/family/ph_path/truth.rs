@@ -47,11 +47,10 @@ pub(super) fn least<N: Turned>(datum: &Datum, paper: bool, bits: usize) -> Optio
     if curves.straight {
         return Some(Greatest::Value(N::of(0.0, bits)));
     }
-    // Half the digits, since near the peak the curvature is level.
-    let margin = if bits <= 53 { 2f64.powi(-36) } else { 2f64.powi(-(bits.min(1800) as i32) / 2) };
+    let margin = margin(bits);
     let all = seen(&curves, paper);
     let Some(first) = all.first() else { return Some(Greatest::None) };
-    let mut best = first.part.greatest(first.at, margin)?;
+    let mut best = first.part.greatest(first.at, &margin)?;
     for other in &all[1..] {
         let at = N::of(other.at, bits);
         let apart = |value: &N, best: &N| value.sub(best).certain_sign(0.0);
@@ -59,7 +58,7 @@ pub(super) fn least<N: Turned>(datum: &Datum, paper: bool, bits: usize) -> Optio
         if other.part.curvature(&at).is_some_and(|k| apart(&k, &best) == Some(Greater)) {
             continue;
         }
-        let value = other.part.greatest(other.at, margin)?;
+        let value = other.part.greatest(other.at, &margin)?;
         best = match apart(&value, &best) {
             Some(Greater) => best,
             Some(Less) => value,
@@ -76,23 +75,43 @@ pub(super) fn verdict<N: Turned>(datum: &Datum, bits: usize) -> Option<Code> {
         return Some(Code::new(REGULAR | ONE_WAY | PAPER, 0));
     }
     let all = seen(&curves, false);
-    let Some(best) = all.first() else { return Some(Code::new(0, 0)) };
-    // It stays below a curvature that all others exceed.
-    let limit = match all.get(1) {
-        Some(second) if second.most < 4.0 * best.most => (best.most * second.most).sqrt(),
-        _ => 2.0 * best.most,
-    };
-    limit.is_finite().then_some(())?;
-    let limit = N::of(limit, bits);
-    let Bound::Below = best.part.below(&limit, false) else { return None };
-    for other in &all[1..] {
-        let value = other.part.curvature(&N::of(other.at, bits))?;
-        (value.sub(&limit).certain_sign(0.0) == Some(Greater)).then_some(())?;
+    if all.is_empty() {
+        return Some(Code::new(0, 0));
     }
+    // It stays below a curvature that all others exceed.
+    let best = winner(&all, bits)?;
     let flag = |holds: bool, bit: u8| if holds { bit } else { 0 };
     let one_way = flag(one_way(&best.curve.whole)?, ONE_WAY);
     let inside = flag(peak_inside(best)?, PEAK_INSIDE);
     Some(Code::new(REGULAR | one_way | inside | flag(best.curve.paper, PAPER), 0))
+}
+
+/// The solution whose greatest |κ| is least: it stays below a curvature that all others exceed.
+fn winner<'s, 'c, N: Turned>(all: &'s [Seen<'c, N>], bits: usize) -> Option<&'s Seen<'c, N>> {
+    let least = all.first()?.most;
+    // Guesses cannot tell these apart.
+    let (close, clear) = all.split_at(all.partition_point(|seen| seen.most <= least * (1.0 + 1e-9)));
+    let next = clear.first().map_or(f64::INFINITY, |seen| seen.most);
+    let limit = (least * next.min(4.0 * least)).sqrt();
+    limit.is_finite().then_some(())?;
+    let limit = N::of(limit, bits);
+    let exceeds = |value: &N, limit: &N| value.sub(limit).certain_sign(0.0) == Some(Greater);
+    for other in clear {
+        exceeds(&other.part.curvature(&N::of(other.at, bits))?, &limit).then_some(())?;
+    }
+    if let [only] = close {
+        return matches!(only.part.below(&limit, false), Bound::Below).then_some(only);
+    }
+    let value = |seen: &Seen<'c, N>| seen.part.greatest(seen.at, &margin(bits));
+    let values = close.iter().map(value).collect::<Option<Vec<_>>>()?;
+    let wins = |i: &usize| exceeds(&limit, &values[*i]) && (0..close.len()).all(|j| j == *i || exceeds(&values[j], &values[*i]));
+    (0..close.len()).find(wins).map(|i| &close[i])
+}
+
+/// How much above the value at a peak is tried, relative: half the digits, since the curvature is level there.
+fn margin<N: Real>(bits: usize) -> N {
+    let halvings = if bits <= 53 { 36 } else { (bits / 2).min(1200) as i32 };
+    N::of(2f64.powi(-halvings / 2), bits).times(2f64.powi(halvings / 2 - halvings))
 }
 
 /// Whether h keeps its sign.
