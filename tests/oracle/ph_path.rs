@@ -115,7 +115,11 @@ fn speed_of(first: &Complex, last: &Complex, wanted: f64) -> Option<Iv> {
     for i in 0..600 {
         // Orders of magnitude first.
         let between = if i < 20 { (&low * &high).sqrt().middle() } else { (&low + &high).middle().times(0.5) };
-        if off(&between).approx() > 0.0 { high = between } else { low = between }
+        if off(&between).approx() > 0.0 {
+            high = between
+        } else {
+            low = between
+        }
         if (&high - &low).approx() < 1e-45 * low.approx() {
             break;
         }
@@ -195,7 +199,10 @@ fn peak(w: &[Complex; 3], paper: bool) -> Peak {
     }
     let ends = [0.0, 1.0].map(|t| (size(&number(t)), t));
     let inside = (at_c, c.approx());
-    let most = ends.into_iter().chain([inside]).reduce(|best, next| if (&next.0 - &best.0).middle().approx() > 0.0 { next } else { best });
+    let most = ends
+        .into_iter()
+        .chain([inside])
+        .reduce(|best, next| if (&next.0 - &best.0).middle().approx() > 0.0 { next } else { best });
     let (most, at) = most.unwrap();
     Peak { most: most.approx(), at, one_way, paper }
 }

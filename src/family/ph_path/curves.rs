@@ -92,7 +92,11 @@ fn solutions<N: Real>(ends: &Ends<N>, symmetry: Symmetry, datum: &Datum, paper: 
 impl<N: Real> Curve<N> {
     /// What is looked at for |κ|: half of a symmetric curve.
     pub fn part(&self) -> Arc<N> {
-        if self.folded { self.whole.halves().into_iter().next().unwrap_or_else(|| self.whole.clone()) } else { self.whole.clone() }
+        if self.folded {
+            self.whole.halves().into_iter().next().unwrap_or_else(|| self.whole.clone())
+        } else {
+            self.whole.clone()
+        }
     }
 }
 

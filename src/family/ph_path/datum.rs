@@ -10,6 +10,9 @@ use std::f64::consts::PI;
 const MOST: f64 = 1e9;
 const LEAST: f64 = 1e-9;
 
+/// Angles below are refused but for 0: how two almost mirrored solutions differ would be lost.
+const LEAST_ANGLE: f64 = 1e-100;
+
 /// A datum, taken as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Datum {
@@ -54,7 +57,10 @@ pub(super) enum Symmetry {
 pub(super) fn check(kind: Kind, axis: usize, value: f64) -> Result<()> {
     let name = kind.axes()[axis];
     let (fits, range) = match (axis, kind) {
-        (0 | 1, _) => (value.abs() <= PI, "-pi to pi (radians; add or subtract a turn)"),
+        (0 | 1, _) => {
+            let fits = value == 0.0 || (LEAST_ANGLE..=PI).contains(&value.abs());
+            (fits, "0, or 1e-100 to pi in size (radians; beyond, add or subtract a turn)")
+        }
         (_, Kind::EqualLength) => (value > 1.0 && value <= MOST, "above 1, the straight line's, and at most 1e9"),
         (_, Kind::Hermite) => ((LEAST..=MOST).contains(&value), "1e-9 to 1e9, in chords"),
     };

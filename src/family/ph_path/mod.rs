@@ -37,14 +37,22 @@ pub const PEAK_INSIDE: u8 = 1 << 2;
 pub const PAPER: u8 = 1 << 3;
 
 const FLAGS: &[Flag] = &[
-    Flag { name: "REGULAR", label: "some path", doc: "some solution stands still nowhere; what follows is said of the one whose greatest |curvature| is least" },
+    Flag {
+        name: "REGULAR",
+        label: "some path",
+        doc: "some solution stands still nowhere; what follows is said of the one whose greatest |curvature| is least",
+    },
     Flag { name: "ONE_WAY", label: "turns one way", doc: "the curvature of that solution does not change its sign" },
     Flag {
         name: "PEAK_INSIDE",
         label: "bends most inside",
         doc: "its |curvature| is greatest strictly inside, greater than at both ends: end curvatures do not bound it",
     },
-    Flag { name: "PAPER", label: "one of the paper's", doc: "it is one of the paper's two: w2 with the positive sign, for half angles in [-pi/2, pi/2]" },
+    Flag {
+        name: "PAPER",
+        label: "one of the paper's",
+        doc: "it is one of the paper's two: w2 with the positive sign, for half angles in [-pi/2, pi/2]",
+    },
 ];
 
 const SCALARS: &[Scalar] = &[
@@ -62,12 +70,12 @@ const CHARTS: [&[Chart]; 2] = [
     &[Chart {
         name: "length",
         axes: &["theta0", "theta1", "S"],
-        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi; S: arc length over the chord, above 1, at most 1e9",
+        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-100 and more); S: arc length over the chord, above 1, at most 1e9",
     }],
     &[Chart {
         name: "speeds",
         axes: &["theta0", "theta1", "l0", "l1"],
-        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi; l0, l1: lengths of the end derivatives over the chord, 1e-9 to 1e9",
+        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-100 and more); l0, l1: lengths of the end derivatives over the chord, 1e-9 to 1e9",
     }],
 ];
 

@@ -139,14 +139,9 @@ fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
             return Some(true);
         }
     }
-    let turned = !seen.curve.folded && above(&at(1.0)?, 0.0)?;
-    if !(seen.curve.folded || turned || above(&at(0.0)?, 1.0)?) {
-        return None;
-    }
+    // The greater end; that it is the greater one is proved with the rest.
+    let turned = !seen.curve.folded && at(1.0)?.approx() > at(0.0)?.approx();
     let part = if turned { seen.part.clone().reversed() } else { seen.part.clone() };
-    match part.below(&part.curvature(&N::of(0.0, bits))?, true) {
-        Bound::Below => Some(false),
-        Bound::Above(_) => None,
-        Bound::Open => None,
-    }
+    let below = part.below(&part.curvature(&N::of(0.0, bits))?, true);
+    matches!(below, Bound::Below).then_some(false)
 }
