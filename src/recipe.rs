@@ -31,6 +31,14 @@
 //! kind = "union"                   # a slice that shows what is true for any of the other axes' nodes
 //! x = "kappa0"
 //! y = "kappa1"
+//!
+//! [[atlas.picture]]
+//! kind = "slice"                   # of a scalar, filled where it is at most each of these, here darkest where at most 0.1
+//! x = "kappa0"
+//! y = "kappa1"
+//! at = { phi0 = 0.7, phi1 = 1.4 }
+//! field = "margin"
+//! levels = [0.1, 0.3, 0.5]
 //! ```
 //!
 //! Angles may be written `"40deg"` on axes of angles.
@@ -92,8 +100,19 @@ pub struct PicturePlan {
     pub regions: Vec<usize>,
     /// Flags to draw as outlines, where `regions` are chosen.
     pub outlines: Vec<usize>,
+    /// Levels of a scalar to fill, in place of flags; on slices and multiples only.
+    pub levels: Option<Levels>,
     /// Points to mark; on slices and unions only.
     pub marks: Vec<Mark>,
+}
+
+/// Regions where a scalar is at most so much.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Levels {
+    /// The scalar, which the atlas stores.
+    pub field: &'static str,
+    /// The levels, increasing.
+    pub values: Vec<f64>,
 }
 
 /// How many slices a picture shows.
@@ -202,7 +221,7 @@ fn plan(raw: RawAtlas, family: &'static dyn Family, scalars: Vec<usize>) -> Resu
         axes.push(spacing(name, axis.get_ref()).and_then(|s| new_axis(name, s)).map_err(|e| Fault::new(axis.span(), e))?);
     }
     let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
-    let pictures = raw.picture.iter().map(|p| picture(p, &grid, family, chart)).collect::<Result<_, _>>()?;
+    let pictures = raw.picture.iter().map(|p| picture(p, &grid, family, chart, &scalars)).collect::<Result<_, _>>()?;
     Ok(AtlasPlan { name: name.clone(), family, scalars, chart, grid, pictures })
 }
 
@@ -242,7 +261,7 @@ fn new_axis(name: &str, spacing: Spacing) -> Result<Axis, String> {
     Axis::new(name, spacing).map_err(|e| e.to_string())
 }
 
-fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart) -> Result<PicturePlan, Fault> {
+fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, stored: &[usize]) -> Result<PicturePlan, Fault> {
     let kinds = ["slice", "union", "multiples", "compare"];
     let kind = match &raw.kind.get_ref()[..] {
         "slice" => PictureKind::Slice,
@@ -275,7 +294,29 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart) ->
     if let (true, Some(outline)) = (regions.is_empty(), raw.outlines.first()) {
         return Err(Fault::new(outline.span(), "`outlines` go with `regions`; say which flags to fill"));
     }
-    Ok(PicturePlan { kind, x, y, at, regions, outlines, marks })
+    let levels = levels(raw, kind, family, stored)?;
+    Ok(PicturePlan { kind, x, y, at, regions, outlines, levels, marks })
+}
+
+/// Levels of a stored scalar.
+fn levels(raw: &RawPicture, kind: PictureKind, family: &dyn Family, stored: &[usize]) -> Result<Option<Levels>, Fault> {
+    let (field, values) = match (&raw.field, &raw.levels) {
+        (None, None) => return Ok(None),
+        (Some(field), Some(values)) => (field, values),
+        (Some(field), None) => return Err(Fault::new(field.span(), "`field` goes with `levels`; say which to fill")),
+        (None, Some(values)) => return Err(Fault::new(values.span(), "`levels` go with `field`; say of which scalar")),
+    };
+    let known: Vec<&'static str> = stored.iter().map(|i| family.scalars()[*i].name).collect();
+    let name = known.iter().find(|name| *name == field.get_ref());
+    let name = name.ok_or_else(|| Fault::new(field.span(), unknown("field of this atlas", field.get_ref(), &known)))?;
+    let rising = values.get_ref().windows(2).all(|pair| pair[0] < pair[1]) && values.get_ref().iter().all(|x| x.is_finite());
+    if values.get_ref().is_empty() || !rising {
+        return Err(Fault::new(values.span(), "the levels must be finite and increase"));
+    }
+    if !matches!(kind, PictureKind::Slice | PictureKind::Multiples) || !raw.regions.is_empty() {
+        return Err(Fault::new(field.span(), "levels of a scalar fill a slice or multiples, without `regions`"));
+    }
+    Ok(Some(Levels { field: name, values: values.get_ref().clone() }))
 }
 
 /// The family that a picture compares with: both have a `SPIRAL`, and the other a chart of the same axes.

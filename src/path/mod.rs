@@ -6,12 +6,14 @@
 
 mod equal;
 mod hermite;
+mod least_curvature;
 mod separation;
 mod spline;
 mod tridiagonal;
 
 pub use equal::{EqualLength, equal_length};
 pub use hermite::{Hermite, hermite};
+pub use least_curvature::{Directions, Free, LeastCurvature, least_curvature};
 pub use separation::{Closest, Motion, Separation, Verdict, separation, separations};
 pub use spline::{Spline, spline};
 

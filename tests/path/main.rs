@@ -3,6 +3,7 @@
 mod curve;
 mod equal;
 mod hermite;
+mod least_curvature;
 mod separation;
 mod spline;
 

@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 const MOST: f64 = 1e9;
 const LEAST: f64 = 1e-9;
 
-/// Angles below are refused but for 0: how two almost mirrored solutions differ would be lost.
-const LEAST_ANGLE: f64 = 1e-100;
+/// Angles below are refused but for 0: a line that turns back would bend there beyond singles, and more narrowly than doubles show.
+const LEAST_ANGLE: f64 = 1e-9;
 
 /// A datum, taken as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +59,7 @@ pub(super) fn check(kind: Kind, axis: usize, value: f64) -> Result<()> {
     let (fits, range) = match (axis, kind) {
         (0 | 1, _) => {
             let fits = value == 0.0 || (LEAST_ANGLE..=PI).contains(&value.abs());
-            (fits, "0, or 1e-100 to pi in size (radians; beyond, add or subtract a turn)")
+            (fits, "0, or 1e-9 to pi in size (radians; beyond, add or subtract a turn)")
         }
         (_, Kind::EqualLength) => (value > 1.0 && value <= MOST, "above 1, the straight line's, and at most 1e9"),
         (_, Kind::Hermite) => ((LEAST..=MOST).contains(&value), "1e-9 to 1e9, in chords"),

@@ -4,11 +4,14 @@ mod answer;
 mod arc;
 mod curves;
 mod datum;
+mod range;
 #[cfg(feature = "gpu")]
 mod shader;
 mod straight;
 mod table;
 mod truth;
+
+pub(crate) use range::{Found, Search};
 
 use super::{Answer, Chart, Count, Family, Flag, Scalar, Table};
 use crate::error::Result;
@@ -42,7 +45,11 @@ const FLAGS: &[Flag] = &[
         label: "some path",
         doc: "some solution stands still nowhere; what follows is said of the one whose greatest |curvature| is least",
     },
-    Flag { name: "ONE_WAY", label: "turns one way", doc: "the curvature of that solution does not change its sign" },
+    Flag {
+        name: "ONE_WAY",
+        label: "turns one way",
+        doc: "the curvature of that solution does not change its sign; of two that tie, that of one",
+    },
     Flag {
         name: "PEAK_INSIDE",
         label: "bends most inside",
@@ -70,12 +77,12 @@ const CHARTS: [&[Chart]; 2] = [
     &[Chart {
         name: "length",
         axes: &["theta0", "theta1", "S"],
-        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-100 and more); S: arc length over the chord, above 1, at most 1e9",
+        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-9 and more); S: arc length over the chord, above 1, at most 1e9",
     }],
     &[Chart {
         name: "speeds",
         axes: &["theta0", "theta1", "l0", "l1"],
-        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-100 and more); l0, l1: lengths of the end derivatives over the chord, 1e-9 to 1e9",
+        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-9 and more); l0, l1: lengths of the end derivatives over the chord, 1e-9 to 1e9",
     }],
 ];
 

@@ -26,16 +26,50 @@ struct Seen<'c, N> {
     most: f64,
 }
 
-/// The solutions, the best first as far as guesses tell.
-fn seen<N: Real>(curves: &Curves<N>, paper: bool) -> Vec<Seen<'_, N>> {
+impl<N: Real> Seen<'_, N> {
+    /// Whether |κ| certainly exceeds v somewhere: at the guess, or where halving leads.
+    fn surpasses(&self, v: &N) -> bool {
+        let at = N::of(self.at, v.bits());
+        self.part.curvature(&at).is_some_and(|k| exceeds(&k, v)) || matches!(self.part.below(v, false), Bound::Above(_))
+    }
+}
+
+fn exceeds<N: Real>(value: &N, limit: &N) -> bool {
+    value.sub(limit).certain_sign(0.0) == Some(Greater)
+}
+
+/// The solutions among which the best is: all others are proved to bend more than the first. None where all stand still.
+fn contenders<N: Real>(curves: &Curves<N>, paper: bool, bits: usize) -> Option<Vec<Seen<'_, N>>> {
     let one = |curve| {
         let part = Curve::part(curve);
         let (at, most) = part.guess();
         Seen { curve, part, at, most }
     };
     let mut all: Vec<_> = curves.bent.iter().filter(|c| c.paper || !paper).map(one).collect();
-    all.sort_by(|a, b| a.most.total_cmp(&b.most));
-    all
+    // Each round begins with a peak that the last one found to have been missed.
+    for _ in 0..16 {
+        all.sort_by(|a, b| a.most.total_cmp(&b.most));
+        let Some(first) = all.first() else { return Some(all) };
+        // Guesses cannot tell these apart.
+        let close = all.partition_point(|seen| seen.most <= first.most * (1.0 + 1e-9));
+        let next = all.get(close).map_or(f64::INFINITY, |seen| seen.most);
+        let limit = (first.most * next.min(4.0 * first.most)).sqrt();
+        limit.is_finite().then_some(())?;
+        let bound = N::of(limit, bits);
+        match first.part.below(&bound, false) {
+            Bound::Below => {
+                let rest = all.split_off(close);
+                return rest.iter().all(|seen| seen.surpasses(&bound)).then_some(all);
+            }
+            Bound::Above(at) => {
+                let (at, most) = first.part.climbed(at);
+                // Where doubles do not see the peak, it is known to be this high at least.
+                (all[0].at, all[0].most) = (at, most.max(2.0 * limit));
+            }
+            Bound::Open => return None,
+        }
+    }
+    None
 }
 
 /// The least greatest |κ| of all solutions, or of the paper's; `None` where the precision does not suffice.
@@ -47,25 +81,20 @@ pub(super) fn least<N: Turned>(datum: &Datum, paper: bool, bits: usize) -> Optio
     if curves.straight {
         return Some(Greatest::Value(N::of(0.0, bits)));
     }
-    let margin = margin(bits);
-    let all = seen(&curves, paper);
-    let Some(first) = all.first() else { return Some(Greatest::None) };
-    let mut best = first.part.greatest(first.at, &margin)?;
-    for other in &all[1..] {
-        let at = N::of(other.at, bits);
-        let apart = |value: &N, best: &N| value.sub(best).certain_sign(0.0);
-        // A value is enough to be out.
-        if other.part.curvature(&at).is_some_and(|k| apart(&k, &best) == Some(Greater)) {
-            continue;
-        }
-        let value = other.part.greatest(other.at, &margin)?;
-        best = match apart(&value, &best) {
-            Some(Greater) => best,
-            Some(Less) => value,
-            _ => value.union(&best),
-        };
-    }
-    Some(Greatest::Value(best))
+    let values = contenders(&curves, paper, bits)?.iter().map(|seen| greatest(seen, bits)).collect::<Option<Vec<_>>>()?;
+    let lesser = |a: N, b: N| match a.sub(&b).certain_sign(0.0) {
+        Some(Greater) => b,
+        Some(Less) => a,
+        _ => a.union(&b),
+    };
+    Some(values.into_iter().reduce(lesser).map_or(Greatest::None, Greatest::Value))
+}
+
+/// The greatest |κ|. Half the digits are tried above the value at the peak, since the curvature is level there.
+fn greatest<N: Real>(seen: &Seen<'_, N>, bits: usize) -> Option<N> {
+    let halvings = if bits <= 53 { 36 } else { (bits / 2).min(1200) as i32 };
+    let margin = N::of(2f64.powi(-halvings / 2), bits).times(2f64.powi(halvings / 2 - halvings));
+    seen.part.greatest(seen.at, &margin)
 }
 
 /// The flags; `None` where the precision does not suffice.
@@ -74,44 +103,34 @@ pub(super) fn verdict<N: Turned>(datum: &Datum, bits: usize) -> Option<Code> {
     if curves.straight {
         return Some(Code::new(REGULAR | ONE_WAY | PAPER, 0));
     }
-    let all = seen(&curves, false);
-    if all.is_empty() {
+    let close = contenders(&curves, false, bits)?;
+    if close.is_empty() {
         return Some(Code::new(0, 0));
     }
-    // It stays below a curvature that all others exceed.
-    let best = winner(&all, bits)?;
+    let best = winners(close, datum, bits)?;
     let flag = |holds: bool, bit: u8| if holds { bit } else { 0 };
-    let one_way = flag(one_way(&best.curve.whole)?, ONE_WAY);
-    let inside = flag(peak_inside(best)?, PEAK_INSIDE);
-    Some(Code::new(REGULAR | one_way | inside | flag(best.curve.paper, PAPER), 0))
+    let ways = best.iter().map(|seen| one_way(&seen.curve.whole)).collect::<Option<Vec<_>>>()?;
+    let inside = flag(peak_inside(&best[0])?, PEAK_INSIDE);
+    let paper = flag(best[0].curve.paper, PAPER);
+    Some(Code::new(REGULAR | flag(ways.contains(&true), ONE_WAY) | inside | paper, 0))
 }
 
-/// The solution whose greatest |κ| is least: it stays below a curvature that all others exceed.
-fn winner<'s, 'c, N: Turned>(all: &'s [Seen<'c, N>], bits: usize) -> Option<&'s Seen<'c, N>> {
-    let least = all.first()?.most;
-    // Guesses cannot tell these apart.
-    let (close, clear) = all.split_at(all.partition_point(|seen| seen.most <= least * (1.0 + 1e-9)));
-    let next = clear.first().map_or(f64::INFINITY, |seen| seen.most);
-    let limit = (least * next.min(4.0 * least)).sqrt();
-    limit.is_finite().then_some(())?;
-    let limit = N::of(limit, bits);
-    let exceeds = |value: &N, limit: &N| value.sub(limit).certain_sign(0.0) == Some(Greater);
-    for other in clear {
-        exceeds(&other.part.curvature(&N::of(other.at, bits))?, &limit).then_some(())?;
+/// The contenders that bend least: one, or two that tie.
+///
+/// With `θ1 = θ0` both ends of w are parallel, so that both signs of √Z give the same |κ| at each end. If that is the greatest for both, they
+/// tie, whatever the precision. No other tie is known but mirror images, of which one is left out.
+fn winners<'c, N: Real>(mut close: Vec<Seen<'c, N>>, datum: &Datum, bits: usize) -> Option<Vec<Seen<'c, N>>> {
+    let [first, others @ ..] = &close[..] else { return Some(close) };
+    if others.is_empty() {
+        return Some(close);
     }
-    if let [only] = close {
-        return matches!(only.part.below(&limit, false), Bound::Below).then_some(only);
+    let alike = datum.theta[0] == datum.theta[1] && others.len() == 1 && others[0].curve.paper == first.curve.paper;
+    if alike && close.iter().all(|seen| peak_inside(seen) == Some(false)) {
+        return Some(close);
     }
-    let value = |seen: &Seen<'c, N>| seen.part.greatest(seen.at, &margin(bits));
-    let values = close.iter().map(value).collect::<Option<Vec<_>>>()?;
-    let wins = |i: &usize| exceeds(&limit, &values[*i]) && (0..close.len()).all(|j| j == *i || exceeds(&values[j], &values[*i]));
-    (0..close.len()).find(wins).map(|i| &close[i])
-}
-
-/// How much above the value at a peak is tried, relative: half the digits, since the curvature is level there.
-fn margin<N: Real>(bits: usize) -> N {
-    let halvings = if bits <= 53 { 36 } else { (bits / 2).min(1200) as i32 };
-    N::of(2f64.powi(-halvings / 2), bits).times(2f64.powi(halvings / 2 - halvings))
+    let values = close.iter().map(|seen| greatest(seen, bits)).collect::<Option<Vec<_>>>()?;
+    let wins = |i: &usize| (0..close.len()).all(|j| j == *i || exceeds(&values[j], &values[*i]));
+    (0..close.len()).find(wins).map(|i| vec![close.swap_remove(i)])
 }
 
 /// Whether h keeps its sign.
@@ -132,16 +151,22 @@ fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
     let at = |t: f64| seen.part.curvature(&N::of(t, bits));
     // The end of half a curve is no end.
     let ends: &[f64] = if seen.curve.folded { &[0.0] } else { &[0.0, 1.0] };
-    let above = |k: &N, t: f64| Some(k.sub(&at(t)?).certain_sign(0.0) == Some(Greater));
-    if !ends.contains(&seen.at) {
-        let peak = at(seen.at)?;
-        if ends.iter().map(|t| above(&peak, *t)).collect::<Option<Vec<_>>>()?.into_iter().all(|above| above) {
-            return Some(true);
-        }
+    let over_both = |t: f64| {
+        let peak = at(t)?;
+        Some(ends.iter().all(|end| at(*end).is_some_and(|k| exceeds(&peak, &k))))
+    };
+    if !ends.contains(&seen.at) && over_both(seen.at)? {
+        return Some(true);
     }
     // The greater end; that it is the greater one is proved with the rest.
     let turned = !seen.curve.folded && at(1.0)?.approx() > at(0.0)?.approx();
     let part = if turned { seen.part.clone().reversed() } else { seen.part.clone() };
-    let below = part.below(&part.curvature(&N::of(0.0, bits))?, true);
-    matches!(below, Bound::Below).then_some(false)
+    match part.below(&part.curvature(&N::of(0.0, bits))?, true) {
+        Bound::Below => Some(false),
+        Bound::Above(t) => {
+            let (t, _) = part.climbed(t);
+            over_both(if turned { 1.0 - t } else { t })?.then_some(true)
+        }
+        Bound::Open => None,
+    }
 }
