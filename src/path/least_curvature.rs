@@ -56,7 +56,7 @@ pub struct LeastCurvature {
 }
 
 /// How near to the proved bound a search ends, relative.
-const TOLERANCE: f64 = 1e-6;
+const TOLERANCE: f64 = 1e-4;
 /// Ranges that are halved at most, with one and with two free numbers.
 const MOST: [usize; 2] = [20_000, 60_000];
 /// Least arc length over the distance less 1, and least derivative over the distance.
@@ -68,7 +68,7 @@ const LEAST: [f64; 2] = [1e-6, 1e-2];
 /// that are no longer than allowed. A derivative is at most nine times the length: a polynomial w of degree 2 with `w(0) = 1` has `∫ w² >= 1/9`.
 ///
 /// # Accuracy
-/// `at_least` is proved by enclosing curvatures over ranges of the free numbers, in halves until it is within a millionth of what was found, or
+/// `at_least` is proved by enclosing curvatures over ranges of the free numbers, in halves until it is within 1e-4 of what was found, or
 /// until 20,000 halvings (60,000 for two free numbers) are spent: then it is what they have proved. The curve is refined by a local search.
 ///
 /// # Errors
@@ -82,7 +82,7 @@ const LEAST: [f64; 2] = [1e-6, 1e-2];
 /// let free = Free::EqualDerivatives;
 /// let found = least_curvature(&Directions { start, end, start_direction, end_direction, greatest_length: 2.0, free })?;
 /// assert!((found.greatest_curvature - 3.1210262).abs() < 1e-7 && (found.derivatives[0] - 1.4132589).abs() < 1e-5);
-/// assert!(found.at_least > 3.1210 && found.at_least <= found.greatest_curvature);
+/// assert!(found.at_least > 3.1207 && found.at_least <= found.greatest_curvature);
 /// # Ok::<(), spiral_atlas::Error>(())
 /// ```
 pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
@@ -199,21 +199,25 @@ impl Space {
 
     /// The best path for numbers from `low` to `high`, and what is proved of all.
     fn least(&self, low: f64, high: f64) -> Option<(Found, f64)> {
-        let mut best = self.scanned(low, high);
+        let refined = |(x, found)| self.refined(x, found, [low, high]);
+        let mut best = self.scanned(low, high).map(refined);
         let mut waiting = BinaryHeap::from([self.region([[low, high]; 2], 0.0)]);
         for _ in 0..MOST[self.dimensions() - 1] {
             let most = best.map_or(f64::INFINITY, |(_, found)| found.most);
             let Some(region) = waiting.pop_if_below(most * (1.0 - TOLERANCE)) else { break };
             for half in self.halves(&region) {
                 let middle = half.ranges.map(|[a, b]| 0.5 * (a + b));
-                if half.least < most {
-                    best = lesser(best, self.at(middle).map(|found| (middle, found)));
-                    waiting.push(half);
+                if half.least >= most {
+                    continue;
                 }
+                // Nothing new is seen in small ones; the local search does that.
+                if half.ranges[..self.dimensions()].iter().any(|[a, b]| *b > 1.05 * a) {
+                    best = lesser(best, self.at(middle).map(|found| (middle, found)));
+                }
+                waiting.push(half);
             }
         }
-        let (x, found) = best?;
-        let (_, found) = self.refined(x, found, [low, high]);
+        let (_, found) = best.map(refined)?;
         let proved = waiting.peek().map_or(f64::INFINITY, |region| region.least);
         Some((found, proved.min(found.most)))
     }

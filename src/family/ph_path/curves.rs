@@ -102,7 +102,7 @@ fn solutions<N: Real>(ends: &Ends<N>, symmetry: Symmetry, equal: bool, paper: bo
     let signs: &[f64] = if mirrored { &[0.25] } else { &[0.25, -0.25] };
     signs.iter().map(move |sign| {
         let w1 = [0, 1].map(|i| root[i].times(*sign).sub(&w0[i].add(&w2[i]).times(0.75)));
-        Curve { whole: Arc { w: [w0.clone(), w1, w2.clone()], width: 1.0 }, folded, paper }
+        Curve { whole: Arc::new([w0.clone(), w1, w2.clone()]), folded, paper }
     })
 }
 

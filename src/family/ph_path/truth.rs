@@ -135,19 +135,19 @@ fn winners<'c, N: Real>(mut close: Vec<Seen<'c, N>>, datum: &Datum, bits: usize)
 
 /// Whether h keeps its sign.
 fn one_way<N: Real>(curve: &Arc<N>) -> Option<bool> {
-    let turn = curve.turn();
+    let turn = &curve.turn;
     let depth = if turn[0].bits() <= 53 { 20 } else { 100 };
     let [first, _, last] = [0, 1, 2].map(|i| turn[i].certain_sign(0.0));
     match (first, last) {
         (Some(Greater), Some(Less)) | (Some(Less), Some(Greater)) => Some(false),
-        (Some(Less), _) | (_, Some(Less)) => positive(&turn.map(|h| h.times(-1.0)), 0.0, 0.0, depth),
-        _ => positive(&turn, 0.0, 0.0, depth),
+        (Some(Less), _) | (_, Some(Less)) => positive(&turn.clone().map(|h| h.times(-1.0)), 0.0, 0.0, depth),
+        _ => positive(turn, 0.0, 0.0, depth),
     }
 }
 
 /// Whether |κ| is greatest strictly inside, and greater there than at both ends.
 fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
-    let bits = seen.part.turn()[0].bits();
+    let bits = seen.part.turn[0].bits();
     let at = |t: f64| seen.part.curvature(&N::of(t, bits));
     // The end of half a curve is no end.
     let ends: &[f64] = if seen.curve.folded { &[0.0] } else { &[0.0, 1.0] };
