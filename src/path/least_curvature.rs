@@ -244,18 +244,23 @@ impl Space {
         })
     }
 
-    /// Steps along each axis and both diagonals as long as they help, then shorter ones.
+    /// Steps in directions all around, turned each time, as long as they help, then shorter ones: between a kink or the greatest length and what is
+    /// better there may be little room.
     fn refined(&self, mut x: [f64; 2], mut found: Found, [low, high]: [f64; 2]) -> ([f64; 2], Found) {
-        let mut step = 0.1;
-        while step > 1e-13 {
-            let ways = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0]];
-            let moved = ways[..if self.dimensions() == 1 { 2 } else { 8 }].iter().filter_map(|way| {
+        let (mut step, mut turn, around) = (0.1, 0.0, if self.dimensions() == 1 { 2 } else { 24 });
+        while step > 1e-12 {
+            let moved = (0..around).filter_map(|i| {
+                let angle = turn + std::f64::consts::TAU * f64::from(i) / f64::from(around);
+                let way = if self.dimensions() == 1 { [1.0 - 2.0 * f64::from(i); 2] } else { [angle.cos(), angle.sin()] };
                 let next = [0, 1].map(|i| (x[i] * (1.0 + step * way[i])).clamp(low, high));
                 Some((next, self.at(next)?))
             });
-            match moved.min_by(|a, b| a.1.most.total_cmp(&b.1.most)) {
+            let best = moved.min_by(|a, b| a.1.most.total_cmp(&b.1.most));
+            // The golden angle comes near every direction.
+            turn += 2.399963;
+            match best {
                 Some((next, better)) if better.most < found.most => (x, found) = (next, better),
-                _ => step *= 0.5,
+                _ => step *= 0.7,
             }
         }
         (x, found)

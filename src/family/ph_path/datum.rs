@@ -6,9 +6,9 @@ use crate::num::trig::{SIN_ERROR, cos, sin};
 use crate::num::{Ball, Interval, Real};
 use std::f64::consts::PI;
 
-/// Sizes beyond these, or lengths beyond the larger, are refused: every result then fits a single.
-const MOST: f64 = 1e9;
-const LEAST: f64 = 1e-9;
+/// Speeds beyond these are refused, and lengths over the chord nearer to 1 or larger: peaks would be more narrow than doubles show.
+const MOST: f64 = 1e6;
+const LEAST: f64 = 1e-6;
 
 /// Angles below are refused but for 0: a line that turns back would bend there beyond singles, and more narrowly than doubles show.
 const LEAST_ANGLE: f64 = 1e-9;
@@ -61,8 +61,10 @@ pub(super) fn check(kind: Kind, axis: usize, value: f64) -> Result<()> {
             let fits = value == 0.0 || (LEAST_ANGLE..=PI).contains(&value.abs());
             (fits, "0, or 1e-9 to pi in size (radians; beyond, add or subtract a turn)")
         }
-        (_, Kind::EqualLength) => (value > 1.0 && value <= MOST, "above 1, the straight line's, and at most 1e9"),
-        (_, Kind::Hermite) => ((LEAST..=MOST).contains(&value), "1e-9 to 1e9, in chords"),
+        (_, Kind::EqualLength) => {
+            ((1.0 + LEAST..=MOST).contains(&value), "above 1, the straight line's, by 1e-6 at least, and at most 1e6")
+        }
+        (_, Kind::Hermite) => ((LEAST..=MOST).contains(&value), "1e-6 to 1e6, in chords"),
     };
     if fits { Ok(()) } else { Err(Error::Domain(format!("{name} is {value:?}; it must be {range}"))) }
 }

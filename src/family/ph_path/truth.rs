@@ -63,8 +63,8 @@ fn contenders<N: Real>(curves: &Curves<N>, paper: bool, bits: usize) -> Option<V
             }
             Bound::Above(at) => {
                 let (at, most) = first.part.climbed(at);
-                // Where doubles do not see the peak, it is known to be this high at least.
-                (all[0].at, all[0].most) = (at, most.max(2.0 * limit));
+                // Where doubles do not see the peak, it is above the limit all the same.
+                (all[0].at, all[0].most) = (at, if most > limit { most } else { 2.0 * limit });
             }
             Bound::Open => return None,
         }
