@@ -43,8 +43,10 @@
 //!
 //! Angles may be written `"40deg"` on axes of angles.
 
+mod levels;
 mod raw;
 
+pub use levels::Levels;
 pub use raw::{is_angle, parse_angle, parse_coordinate};
 
 use crate::atlas::Lookup;
@@ -104,15 +106,6 @@ pub struct PicturePlan {
     pub levels: Option<Levels>,
     /// Points to mark; on slices and unions only.
     pub marks: Vec<Mark>,
-}
-
-/// Regions where a scalar is at most so much.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Levels {
-    /// The scalar, which the atlas stores.
-    pub field: &'static str,
-    /// The levels, increasing.
-    pub values: Vec<f64>,
 }
 
 /// How many slices a picture shows.
@@ -294,29 +287,8 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, st
     if let (true, Some(outline)) = (regions.is_empty(), raw.outlines.first()) {
         return Err(Fault::new(outline.span(), "`outlines` go with `regions`; say which flags to fill"));
     }
-    let levels = levels(raw, kind, family, stored)?;
+    let levels = levels::levels(raw, kind, family, stored)?;
     Ok(PicturePlan { kind, x, y, at, regions, outlines, levels, marks })
-}
-
-/// Levels of a stored scalar.
-fn levels(raw: &RawPicture, kind: PictureKind, family: &dyn Family, stored: &[usize]) -> Result<Option<Levels>, Fault> {
-    let (field, values) = match (&raw.field, &raw.levels) {
-        (None, None) => return Ok(None),
-        (Some(field), Some(values)) => (field, values),
-        (Some(field), None) => return Err(Fault::new(field.span(), "`field` goes with `levels`; say which to fill")),
-        (None, Some(values)) => return Err(Fault::new(values.span(), "`levels` go with `field`; say of which scalar")),
-    };
-    let known: Vec<&'static str> = stored.iter().map(|i| family.scalars()[*i].name).collect();
-    let name = known.iter().find(|name| *name == field.get_ref());
-    let name = name.ok_or_else(|| Fault::new(field.span(), unknown("field of this atlas", field.get_ref(), &known)))?;
-    let rising = values.get_ref().windows(2).all(|pair| pair[0] < pair[1]) && values.get_ref().iter().all(|x| x.is_finite());
-    if values.get_ref().is_empty() || !rising {
-        return Err(Fault::new(values.span(), "the levels must be finite and increase"));
-    }
-    if !matches!(kind, PictureKind::Slice | PictureKind::Multiples) || !raw.regions.is_empty() {
-        return Err(Fault::new(field.span(), "levels of a scalar fill a slice or multiples, without `regions`"));
-    }
-    Ok(Some(Levels { field: name, values: values.get_ref().clone() }))
 }
 
 /// The family that a picture compares with: both have a `SPIRAL`, and the other a chart of the same axes.

@@ -173,7 +173,7 @@ fn figures_are_reproduced() {
         let (size, k, t) = (number(&row[0]), number(&row[1]), number(&row[2]));
         let found = node(SPEEDS, &[PI / 6.0, PI / 4.0, size, size]);
         assert_eq!(found.scalars[1], k as f32, "l = {size}");
-        assert_eq!(found.scalars[0], if size == 4.0 { 9.900135045671872 } else { k as f32 });
+        assert_eq!(found.scalars[0], if size == 4.0 { 9.900_135 } else { k as f32 });
         assert_eq!(found.flags & PAPER != 0, size != 4.0);
         assert!(found.flags & PAPER == 0 || (found.flags & PEAK_INSIDE != 0) == (t < 1.0));
         compared += 1;

@@ -57,7 +57,8 @@ fn straight_ahead_is_straight() {
     let found = check(&ends(0.0, 0.0, 2.0, Free::Derivatives));
     assert_eq!((found.greatest_curvature, found.at_least), (0.0, 0.0));
     assert!((found.length - 1.0).abs() < 1e-15);
-    assert!(check(&ends(0.0, 0.0, 2.0, Free::Length)).greatest_curvature < 1.0);
+    // With equal end speeds a path of about the distance has l0 = l1 = 6: it turns back, so that the best is longer.
+    assert!(check(&ends(0.0, 0.0, 2.0, Free::Length)).length > 1.1);
 }
 
 /// Random ends, unit and place: nothing sampled is below the proved bound, and no sampled path is better than what was found.

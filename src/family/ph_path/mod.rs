@@ -77,12 +77,14 @@ const CHARTS: [&[Chart]; 2] = [
     &[Chart {
         name: "length",
         axes: &["theta0", "theta1", "S"],
-        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-9 and more); S: arc length over the chord, above 1 by at least 1e-6, at most 1e6",
+        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-9 and more); \
+              S: arc length over the chord, above 1 by at least 1e-6, at most 1e6",
     }],
     &[Chart {
         name: "speeds",
         axes: &["theta0", "theta1", "l0", "l1"],
-        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-9 and more); l0, l1: lengths of the end derivatives over the chord, 1e-6 to 1e6",
+        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-9 and more); \
+              l0, l1: lengths of the end derivatives over the chord, 1e-6 to 1e6",
     }],
 ];
 

@@ -39,7 +39,7 @@ impl Search {
         let found = |part: Arc<Ball>, whole: &Arc<Ball>| Found {
             most: part.guess().1,
             length: whole.length().value,
-            preimage: whole.w.clone().map(|z| z.map(|x| x.value)),
+            preimage: whole.w.map(|z| z.map(|x| x.value)),
         };
         let all = curves.bent.iter().map(|c| found(c.part(), &c.whole));
         all.filter(|f| f.length <= self.longest * (1.0 + 1e-12) && f.most.is_finite()).min_by(|a, b| a.most.total_cmp(&b.most))
