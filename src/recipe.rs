@@ -31,12 +31,22 @@
 //! kind = "union"                   # a slice that shows what is true for any of the other axes' nodes
 //! x = "kappa0"
 //! y = "kappa1"
+//!
+//! [[atlas.picture]]
+//! kind = "slice"                   # of a scalar, filled where it is at most each of these, here darkest where at most 0.1
+//! x = "kappa0"
+//! y = "kappa1"
+//! at = { phi0 = 0.7, phi1 = 1.4 }
+//! field = "margin"
+//! levels = [0.1, 0.3, 0.5]
 //! ```
 //!
 //! Angles may be written `"40deg"` on axes of angles.
 
+mod levels;
 mod raw;
 
+pub use levels::Levels;
 pub use raw::{is_angle, parse_angle, parse_coordinate};
 
 use crate::atlas::Lookup;
@@ -92,6 +102,8 @@ pub struct PicturePlan {
     pub regions: Vec<usize>,
     /// Flags to draw as outlines, where `regions` are chosen.
     pub outlines: Vec<usize>,
+    /// Levels of a scalar to fill, in place of flags; on slices and multiples only.
+    pub levels: Option<Levels>,
     /// Points to mark; on slices and unions only.
     pub marks: Vec<Mark>,
 }
@@ -202,7 +214,7 @@ fn plan(raw: RawAtlas, family: &'static dyn Family, scalars: Vec<usize>) -> Resu
         axes.push(spacing(name, axis.get_ref()).and_then(|s| new_axis(name, s)).map_err(|e| Fault::new(axis.span(), e))?);
     }
     let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
-    let pictures = raw.picture.iter().map(|p| picture(p, &grid, family, chart)).collect::<Result<_, _>>()?;
+    let pictures = raw.picture.iter().map(|p| picture(p, &grid, family, chart, &scalars)).collect::<Result<_, _>>()?;
     Ok(AtlasPlan { name: name.clone(), family, scalars, chart, grid, pictures })
 }
 
@@ -242,7 +254,7 @@ fn new_axis(name: &str, spacing: Spacing) -> Result<Axis, String> {
     Axis::new(name, spacing).map_err(|e| e.to_string())
 }
 
-fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart) -> Result<PicturePlan, Fault> {
+fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, stored: &[usize]) -> Result<PicturePlan, Fault> {
     let kinds = ["slice", "union", "multiples", "compare"];
     let kind = match &raw.kind.get_ref()[..] {
         "slice" => PictureKind::Slice,
@@ -275,7 +287,8 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart) ->
     if let (true, Some(outline)) = (regions.is_empty(), raw.outlines.first()) {
         return Err(Fault::new(outline.span(), "`outlines` go with `regions`; say which flags to fill"));
     }
-    Ok(PicturePlan { kind, x, y, at, regions, outlines, marks })
+    let levels = levels::levels(raw, kind, family, stored)?;
+    Ok(PicturePlan { kind, x, y, at, regions, outlines, levels, marks })
 }
 
 /// The family that a picture compares with: both have a `SPIRAL`, and the other a chart of the same axes.

@@ -93,6 +93,19 @@ fn pictures_choose_their_flags_and_unions_take_all_nodes() {
 }
 
 #[test]
+fn levels_are_of_a_stored_scalar() {
+    let with = |more: &str| format!("kind = \"multiples\"\n{more}");
+    let recipe = Recipe::parse(&GOOD.replacen("kind = \"multiples\"", &with("field = \"f0\"\nlevels = [0.5, 1]"), 1)).unwrap();
+    let levels = recipe.atlases[0].pictures[1].levels.as_ref().unwrap();
+    assert_eq!((levels.field, &levels.values[..]), ("f0", &[0.5, 1.0][..]));
+    assert!(complaint("kind = \"multiples\"", &with("field = \"f1\"\nlevels = [1]")).contains("did you mean `f0`?"));
+    assert!(complaint("kind = \"multiples\"", &with("field = \"f0\"")).contains("`field` goes with `levels`"));
+    assert!(complaint("kind = \"multiples\"", &with("levels = [1]")).contains("`levels` go with `field`"));
+    assert!(complaint("kind = \"multiples\"", &with("field = \"f0\"\nlevels = [1, 1]")).contains("must be finite and increase"));
+    assert!(complaint("kind = \"multiples\"", "kind = \"union\"\nfield = \"f0\"\nlevels = [1]").contains("a slice or multiples"));
+}
+
+#[test]
 fn an_atlas_may_have_its_own_family() {
     let own = GOOD.replacen("name = \"second\"", "name = \"second\"\nfamily = \"any-spiral\"", 1);
     match Recipe::parse(&own) {

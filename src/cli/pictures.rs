@@ -6,7 +6,7 @@ use spiral_atlas::eval::{Backend, Job, evaluate};
 use spiral_atlas::family::{Family, Flag};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 use spiral_atlas::plot::{self, AxisView, Mark, Multiples, Region, Slice};
-use spiral_atlas::recipe::{PictureKind, PicturePlan, Recipe, is_angle};
+use spiral_atlas::recipe::{Levels, PictureKind, PicturePlan, Recipe, is_angle};
 use spiral_atlas::{Error, Result, family};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -36,7 +36,16 @@ fn default_slice(atlas: &Atlas) -> Result<PicturePlan> {
         return Err(Error::Domain("an atlas of one axis has no slices; pictures need two axes".into()));
     };
     let at = counts[..x].iter().enumerate().map(|(axis, count)| (axis, vec![count / 2])).collect();
-    Ok(PicturePlan { kind: PictureKind::Slice, x, y: x + 1, at, regions: Vec::new(), outlines: Vec::new(), marks: Vec::new() })
+    Ok(PicturePlan {
+        kind: PictureKind::Slice,
+        x,
+        y: x + 1,
+        at,
+        regions: Vec::new(),
+        outlines: Vec::new(),
+        levels: None,
+        marks: Vec::new(),
+    })
 }
 
 /// The files of an atlas's pictures: `NAME.png`, or `NAME-1.png`, `NAME-2.png`, ... for several.
@@ -175,13 +184,38 @@ fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Resul
     let place = |name: &&str| flags.iter().enumerate().find(|(_, f)| f.name == *name);
     let nested = family.nested();
     let chosen = |places: &[usize]| places.iter().map(|i| region((*i, &flags[*i]))).collect::<Vec<_>>();
-    let (regions, outlines) = if plan.regions.is_empty() {
+    let (regions, outlines) = if let Some(levels) = &plan.levels {
+        (at_most(atlas, plan, levels, at)?, Vec::new())
+    } else if plan.regions.is_empty() {
         let others = flags.iter().enumerate().filter(|(_, f)| !nested.contains(&f.name));
         (nested.iter().filter_map(place).map(region).collect(), others.map(region).collect())
     } else {
         (chosen(&plan.regions), chosen(&plan.outlines))
     };
     Ok(Slice { title: String::new(), x: view(x), y: view(y), regions, outlines, marks: Vec::new(), note: String::new() })
+}
+
+/// Where a scalar is at most each level, on the plane through one node of each other axis: the largest first.
+fn at_most(atlas: &Atlas, plan: &PicturePlan, levels: &Levels, at: &[(usize, Vec<usize>)]) -> Result<Vec<Region>> {
+    let field = atlas.scalar(levels.field);
+    let field = field.ok_or_else(|| Error::Domain(format!("the atlas has no scalar `{}`", levels.field)))?;
+    let grid = atlas.grid();
+    let [x, y] = [plan.x, plan.y].map(|axis| grid.axes()[axis].values().len());
+    let mut index = vec![0; grid.axes().len()];
+    for (axis, nodes) in at {
+        index[*axis] = nodes.first().copied().unwrap_or_default();
+    }
+    let values = (0..x * y).map(|place| {
+        (index[plan.x], index[plan.y]) = (place % x, place / x);
+        let node = grid.axes().iter().zip(&index).fold(0, |flat, (axis, i)| flat * axis.values().len() + i);
+        field.get(node).copied().filter(|value| *value != family::NO_VALUE)
+    });
+    let values: Vec<Option<f32>> = values.collect();
+    let region = |level: &f64| Region {
+        label: format!("{} ≤ {level}", levels.field),
+        mask: values.iter().map(|value| value.is_some_and(|value| f64::from(value) <= *level)).collect(),
+    };
+    Ok(levels.values.iter().rev().map(region).collect())
 }
 
 /// Where any spiral exists, where only this family has one, only the other, and both; the other is evaluated here.

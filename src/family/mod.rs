@@ -7,6 +7,7 @@ pub mod any_spiral;
 pub mod cubic;
 mod hermite;
 mod outer;
+pub mod ph_path;
 pub mod ph_quintic;
 pub mod reach;
 mod rows;
@@ -214,6 +215,8 @@ pub fn all() -> &'static [&'static dyn Family] {
         &reach::Reach(reach::Kind::Cubic),
         &reach::Reach(reach::Kind::Ph),
         &trig_quintic::TrigQuintic,
+        &ph_path::PhPath(ph_path::Kind::EqualLength),
+        &ph_path::PhPath(ph_path::Kind::Hermite),
     ]
 }
 

@@ -8,6 +8,7 @@
 mod corner;
 mod equal;
 mod hermite;
+mod least_curvature;
 mod plan;
 mod separation;
 mod spline;
@@ -16,6 +17,7 @@ mod tridiagonal;
 pub use corner::Turn;
 pub use equal::{EqualLength, equal_length};
 pub use hermite::{Hermite, hermite};
+pub use least_curvature::{Directions, Free, LeastCurvature, least_curvature};
 pub use plan::{Clearance, Corner, Plan, Proof, Scene, plan, prove};
 pub use separation::{Closest, Motion, Separation, Verdict, separation, separations};
 pub use spline::{Spline, spline};

@@ -69,6 +69,8 @@ pub(super) struct RawPicture {
     pub regions: Vec<Spanned<String>>,
     #[serde(default)]
     pub outlines: Vec<Spanned<String>>,
+    pub field: Option<Spanned<String>>,
+    pub levels: Option<Spanned<Vec<f64>>>,
     #[serde(default)]
     pub mark: Vec<Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>>,
 }

@@ -167,3 +167,24 @@ fn mistakes_are_named() {
 fn run_or_pipe(args: &[&str], input: &str) -> Said {
     if input.is_empty() { run(["path"].iter().chain(args)) } else { piped(args, input) }
 }
+
+#[test]
+fn least_curvature() {
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/least-curvature.json");
+    let found = fine(["path", "least-curvature", example]).json();
+    let path = &found["paths"][0];
+    let (most, least) = (number(&path["greatest_curvature"]), number(&found["at_least"]));
+    assert!(least <= most && least > 0.0 && most < 4.2440 && number(&path["length"]) <= 1.6 + 1e-9, "{found}");
+    let says = |input: &str, parts: &[&str]| {
+        let said = piped(&["least-curvature", "-"], input);
+        assert!(said.code != Some(0) && parts.iter().all(|p| said.err.contains(p)), "{}", said.err);
+    };
+    says(
+        r#"{"start": [0, 0], "end": [1, 0], "start_direction": 1, "end_direction": 1, "free": "width"}"#,
+        &["width", "equal-derivatives"],
+    );
+    says(
+        r#"{"start": [2, 1], "end": [2, 1], "start_direction": 1, "end_direction": 1, "free": "length"}"#,
+        &["`start` and `end`", "apart"],
+    );
+}

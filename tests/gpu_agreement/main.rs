@@ -13,6 +13,7 @@ use std::sync::atomic::AtomicBool;
 mod adapters;
 mod any_spiral;
 mod cubic;
+mod ph_path;
 mod ph_quintic;
 mod reach;
 mod trig_quintic;
@@ -60,6 +61,8 @@ families! {
     on_reach_cubic => crate::reach::cubic(),
     on_reach_ph => crate::reach::ph(),
     on_trig_quintic => crate::trig_quintic::subject(),
+    on_ph_equal_length => crate::ph_path::equal_length(),
+    on_ph_hermite => crate::ph_path::hermite(),
 }
 
 fn lin(name: &str, lo: f64, hi: f64, count: usize) -> Axis {

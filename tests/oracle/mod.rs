@@ -10,6 +10,7 @@ pub mod data;
 pub mod iv;
 mod margin;
 pub mod ph;
+pub mod ph_path;
 pub mod poly;
 pub mod random;
 pub mod reach;

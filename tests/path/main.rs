@@ -5,6 +5,7 @@ mod corner;
 mod curve;
 mod equal;
 mod hermite;
+mod least_curvature;
 mod plan;
 mod separation;
 mod spline;

@@ -3,6 +3,7 @@
 mod equal_length;
 mod figure;
 mod hermite;
+mod least_curvature;
 mod plan;
 mod separation;
 mod spline;
@@ -35,6 +36,7 @@ pub struct Args {
 enum Tool {
     Hermite(hermite::Args),
     EqualLength(equal_length::Args),
+    LeastCurvature(least_curvature::Args),
     Spline(spline::Args),
     Plan(plan::Args),
     Separation(separation::Args),
@@ -45,6 +47,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
     match &args.tool {
         Tool::Hermite(args) => hermite::run(args),
         Tool::EqualLength(args) => equal_length::run(args),
+        Tool::LeastCurvature(args) => least_curvature::run(args),
         Tool::Spline(args) => spline::run(args),
         Tool::Plan(args) => plan::run(args),
         Tool::Separation(args) => separation::run(args),

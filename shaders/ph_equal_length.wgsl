@@ -1,0 +1,71 @@
+// Given arc length: the end speed z and the root from (10)-(13), as in path/equal.rs.
+
+fn plus(a: Near, b: Near) -> Near {
+    let value = a.value + b.value;
+    return Near(value, 1.00001 * (a.error + b.error) + 4.0 * UNIT * (abs(a.value) + abs(b.value)));
+}
+
+fn times(a: Near, b: Near) -> Near {
+    let value = a.value * b.value;
+    return Near(value, 1.00001 * (abs(a.value) * b.error + abs(b.value) * a.error + a.error * b.error) + 2.0 * UNIT * abs(value));
+}
+
+// a/b: the remainder tells how far the quotient is off.
+fn over(a: Near, b: Near) -> Near {
+    let least = b.value - b.error;
+    if !(least > 1e-25) {
+        return Near(0.0, 1e30);
+    }
+    let value = a.value / b.value;
+    let rest = abs(a.value - value * b.value) + 3.0 * UNIT * abs(a.value);
+    return Near(value, 1.01 * (rest + a.error + abs(value) * b.error) / least);
+}
+
+fn root_of(x: Near) -> Near {
+    let value = sqrt(max(x.value, 1e-25));
+    let rest = abs(x.value - value * value) + 3.0 * UNIT * value * value;
+    return Near(value, select(1e30, 1.01 * (rest + x.error) / value, x.value > x.error));
+}
+
+fn rounded(value: f32) -> Near {
+    return Near(value, 1.01 * UNIT * abs(value));
+}
+
+// offsets: first pair of the chunk, where the axis of S begins.
+fn ends(index: vec4<u32>, other: bool) -> Ends {
+    let pair = (index.x * params.shape.y + index.y - params.offsets.x) * PAIR_STRIDE;
+    let first = vec2<f32>(inputs[pair], inputs[pair + 1u]);
+    let last = select(1.0, -1.0, other) * vec2<f32>(inputs[pair + 2u], inputs[pair + 3u]);
+    let sums = pair + select(5u, 8u, other);
+    let length = params.offsets.y + 2u * index.z;
+    let p0 = rounded(inputs[length]);
+    let q0 = rounded(inputs[length + 1u]);
+    let usable = inputs[pair + 4u] > 0.0 && p0.value > 0.0;
+    // g comes from differences in f64.
+    let g = Near(inputs[sums + 2u], 1.01 * UNIT * abs(inputs[sums + 2u]) + 1e-13);
+    let a = times(p0, rounded(inputs[sums]));
+    let b = times(q0, rounded(inputs[sums + 1u]));
+    let above = a.value >= b.value;
+    let apart = plus(a, Near(-b.value, b.error));
+    let excess = Near(abs(apart.value), apart.error);
+    let both = times(p0, q0);
+    let mixed = times(times(g, g), both);
+    let root = root_of(plus(times(excess, excess), Near(4.0 * mixed.value, 4.0 * mixed.error)));
+    let whole = plus(plus(a, b), root);
+    let z = over(Near(2.0 * both.value, 2.0 * both.error), whole);
+    var top = q0;
+    if above {
+        top = p0;
+    }
+    let safe = root_of(over(times(top, plus(excess, root)), whole));
+    let rest = over(times(g, z), safe);
+    let size = root_of(z);
+    let error = 1.01 * size.error + 2.1 * UNIT * size.value;
+    var roots = vec2<f32>(rest.value, safe.value);
+    if above {
+        roots = roots.yx;
+    }
+    let root_error = safe.error + rest.error;
+    let fits = root_error < 0.1 * safe.value && error < 0.1 * size.value && safe.value < 1e6;
+    return Ends(size.value * first, size.value * last, error, roots, root_error, usable && fits);
+}

@@ -1,0 +1,54 @@
+//! `path least-curvature`.
+
+use super::{Files, Found, Outcome, angle, figure};
+use serde::{Deserialize, Serialize};
+use spiral_atlas::Result;
+use spiral_atlas::path::{Directions, Free, least_curvature};
+
+/// Join two points with given directions by the path whose greatest curvature is least.
+///
+/// Input: {"start": [x, y], "end": [x, y], "start_direction": angle, "end_direction": angle, "free": "length", "greatest_length": L}.
+///
+/// `free` is `length`, `equal-derivatives` or `derivatives`: what is varied. Without `greatest_length` the path is at most twice as long as the
+/// distance of the ends. No searched path bends less than `at_least`: that is proved.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  spiral-atlas path least-curvature examples/least-curvature.json --figure least.png")]
+pub struct Args {
+    #[command(flatten)]
+    files: Files,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Input {
+    start: [f64; 2],
+    end: [f64; 2],
+    #[serde(deserialize_with = "angle")]
+    start_direction: f64,
+    #[serde(deserialize_with = "angle")]
+    end_direction: f64,
+    free: Free,
+    greatest_length: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Output {
+    paths: Vec<Found>,
+    /// Below which no searched path's greatest curvature lies.
+    at_least: f64,
+    derivatives: [f64; 2],
+    /// Range of the arc length, or of each derivative's.
+    searched: [f64; 2],
+}
+
+pub fn run(args: &Args) -> Result<Outcome> {
+    let Input { start, end, start_direction, end_direction, free, greatest_length } = args.files.read()?;
+    let distance = (end[0] - start[0]).hypot(end[1] - start[1]);
+    let greatest_length = greatest_length.unwrap_or(2.0 * distance);
+    let ends = Directions { start, end, start_direction, end_direction, greatest_length, free };
+    let found = least_curvature(&ends).map_err(|e| args.files.blame(e))?;
+    let paths = vec![Found::new(&[found.curve])];
+    let title = format!("Greatest curvature {:.6}, length {:.6}", found.greatest_curvature, found.length);
+    let output = Output { paths, at_least: found.at_least, derivatives: found.derivatives, searched: found.searched };
+    args.files.finish(&output, || figure::curves(&[vec![found.curve]], &title))
+}

@@ -1,0 +1,331 @@
+//! The greatest |curvature| of a PH quintic, enclosed.
+//!
+//! With pre-image w the curvature is `h/σ²`, `σ = |w|²`, `h = 2 Im(conj(w) w')`. It stays below v on a piece where both
+//! `v σ² - h` and `v σ² + h`, of degree 8, are positive: where their Bernstein coefficients are, or those of the halves, and so on. The pieces
+//! are pieces of w, from which σ is formed anew (where the curve is slow, |w| is small, and so are its errors), and of h, which is halved itself:
+//! from w on a short piece it would be a difference of almost equal products.
+
+use crate::num::Real;
+use crate::num::bernstein::halve;
+use num_complex::Complex64;
+use std::cmp::Ordering::{Greater, Less};
+
+/// A complex number.
+pub(super) type Complex<N> = [N; 2];
+
+/// A piece of a curve, as Bernstein coefficients.
+#[derive(Debug, Clone)]
+pub(super) struct Arc<N> {
+    /// The pre-image.
+    pub w: [Complex<N>; 3],
+    /// h of the whole curve's parameter.
+    pub turn: [N; 3],
+}
+
+/// How a curve compares with a curvature.
+pub(super) enum Bound {
+    /// It stays below.
+    Below,
+    /// It does not, at this parameter of the piece.
+    Above(f64),
+    /// The precision does not tell.
+    Open,
+}
+
+/// The same of a piece, from its coefficients alone.
+enum Compared {
+    Below,
+    /// At the start, 0, or at the end, 1.
+    Above(f64),
+    /// Halves may tell.
+    Open,
+    Hopeless,
+}
+
+/// `Re(conj(a) b)`.
+fn re<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
+    a[0].mul(&b[0]).add(&a[1].mul(&b[1]))
+}
+
+/// `Im(conj(a) b)`.
+fn im<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
+    a[0].mul(&b[1]).sub(&a[1].mul(&b[0]))
+}
+
+fn mean<N: Real>(a: &Complex<N>, b: &Complex<N>) -> Complex<N> {
+    [0, 1].map(|i| a[i].add(&b[i]).times(0.5))
+}
+
+/// The absolute value, if its number is certainly not 0.
+pub(super) fn size<N: Real>(x: &N) -> Option<N> {
+    match x.certain_sign(0.0)? {
+        Greater => Some(x.clone()),
+        Less => Some(x.times(-1.0)),
+        _ => None,
+    }
+}
+
+/// Of polynomials as Bernstein coefficients times binomials: those of the product are the plain convolution.
+fn product<N: Real, const A: usize, const B: usize, const C: usize>(a: &[N; A], b: &[N; B]) -> [N; C] {
+    std::array::from_fn(|k| {
+        let terms = (k.saturating_sub(B - 1)..=k.min(A - 1)).map(|i| a[i].mul(&b[k - i]));
+        terms.reduce(|sum, x| sum.add(&x)).unwrap_or_else(|| a[0].clone())
+    })
+}
+
+impl<N: Real> Arc<N> {
+    fn bits(&self) -> usize {
+        self.w[0][0].bits()
+    }
+
+    /// A whole curve.
+    pub fn new(w: [Complex<N>; 3]) -> Arc<N> {
+        let [w0, w1, w2] = &w;
+        let turn = [im(w0, w1).times(4.0), im(w0, w2).times(2.0), im(w1, w2).times(4.0)];
+        Arc { w, turn }
+    }
+
+    /// `σ²` and h as polynomials of degree 8, times binomials.
+    fn sides(&self) -> ([N; 9], [N; 9]) {
+        let [w0, w1, w2] = &self.w;
+        let middle = re(w1, w1).times(2.0).add(&re(w0, w2)).times(2.0);
+        let speed = [re(w0, w0), re(w0, w1).times(4.0), middle, re(w1, w2).times(4.0), re(w2, w2)];
+        let [h0, h1, h2] = self.turn.clone();
+        let ones = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0].map(|x| N::of(x, self.bits()));
+        (product(&speed, &speed), product(&[h0, h1.times(2.0), h2], &ones))
+    }
+
+    pub fn halves(&self) -> [Arc<N>; 2] {
+        let [w0, w1, w2] = &self.w;
+        let (left, right) = (mean(w0, w1), mean(w1, w2));
+        let middle = mean(&left, &right);
+        let (first, last) = halve(&self.turn);
+        [Arc { w: [w0.clone(), left, middle.clone()], turn: first }, Arc { w: [middle, right, w2.clone()], turn: last }]
+    }
+
+    /// The same the other way.
+    pub fn reversed(self) -> Arc<N> {
+        let ([w0, w1, w2], [h0, h1, h2]) = (self.w, self.turn);
+        // Its sign does not matter.
+        Arc { w: [w2, w1, w0], turn: [h2, h1, h0] }
+    }
+
+    /// σ, σ' and σ'' at t, and h, h' and h''.
+    fn jets(&self, t: &N) -> [[N; 3]; 2] {
+        let back = t.times(-1.0).plus(1.0);
+        let mix = |a: &N, b: &N| a.mul(&back).add(&b.mul(t));
+        let jet = |[a, b, c]: [&N; 3]| {
+            let (first, last) = (b.sub(a).times(2.0), c.sub(b).times(2.0));
+            [mix(&mix(a, b), &mix(b, c)), mix(&first, &last), last.sub(&first)]
+        };
+        let part = |i: usize| jet([0, 1, 2].map(|k| &self.w[k][i]));
+        let ([x, u, p], [y, v, q]) = (part(0), part(1));
+        let both = |a: &N, b: &N, c: &N, d: &N| a.mul(b).add(&c.mul(d));
+        let rise = both(&x, &u, &y, &v).times(2.0);
+        let lift = both(&u, &u, &v, &v).add(&both(&x, &p, &y, &q)).times(2.0);
+        [[both(&x, &x, &y, &y), rise, lift], jet([0, 1, 2].map(|k| &self.turn[k]))]
+    }
+
+    /// |κ| at t; `None` where it may be 0 or infinite.
+    pub fn curvature(&self, t: &N) -> Option<N> {
+        let [[speed, ..], [turn, ..]] = self.jets(t);
+        size(&turn.over(&speed.mul(&speed))?)
+    }
+
+    /// An extremum of the curvature near t by Newton's method on `σh' - 2hσ'`: a guess.
+    fn polished(&self, t: f64) -> N {
+        let mut t = N::of(t, self.bits());
+        if t.approx() <= 0.0 || t.approx() >= 1.0 {
+            return t;
+        }
+        // Each step doubles the digits of what doubles gave.
+        for _ in 0..(self.bits() / 26).ilog2() {
+            let [[speed, rise, lift], [turn, bent, bend]] = self.jets(&t);
+            let f = speed.mul(&bent).sub(&turn.mul(&rise).times(2.0));
+            let slope = speed.mul(&bend).sub(&rise.mul(&bent)).sub(&turn.mul(&lift).times(2.0));
+            let next = f.over(&slope).map(|step| t.sub(&step).middle());
+            match next {
+                Some(next) if next.approx() > 0.0 && next.approx() < 1.0 => t = next,
+                _ => break,
+            }
+        }
+        t
+    }
+
+    /// Whether |κ| stays below v. With `touching`, v is the curvature at the start, where it may be equal.
+    pub fn below(&self, v: &N, touching: bool) -> Bound {
+        // No margin needs more halvings.
+        let most = if self.bits() <= 53 { 40 } else { 640 };
+        let mut waiting = vec![(self.clone(), 0.0, 0)];
+        while let Some((piece, from, depth)) = waiting.pop() {
+            let width = 2f64.powi(-depth);
+            match piece.compared(v, touching && from == 0.0) {
+                Compared::Below => {}
+                Compared::Open if depth < most => {
+                    let [first, second] = piece.halves();
+                    waiting.push((second, from + 0.5 * width, depth + 1));
+                    waiting.push((first, from, depth + 1));
+                }
+                Compared::Above(part) => return Bound::Above(from + part * width),
+                _ => return Bound::Open,
+            }
+        }
+        Bound::Below
+    }
+
+    /// The same as far as the coefficients tell.
+    fn compared(&self, v: &N, touching: bool) -> Compared {
+        let (square, turn) = self.sides();
+        let left = turn[0].certain_sign(0.0) == Some(Greater);
+        let (mut all, mut some) = (true, false);
+        for (k, (s, h)) in square.iter().zip(&turn).enumerate() {
+            let most = v.mul(s);
+            for (side, touches) in [(most.sub(h), left), (most.add(h), !left)] {
+                // Exactly 0.
+                if k == 0 && touching && touches {
+                    continue;
+                }
+                let sign = side.certain_sign(0.0);
+                if sign == Some(Less) && (k == 0 || k == 8) {
+                    return Compared::Above(if k == 0 { 0.0 } else { 1.0 });
+                }
+                all &= sign == Some(Greater);
+                some |= sign.is_some();
+            }
+        }
+        match (all, some) {
+            (true, _) => Compared::Below,
+            (false, true) => Compared::Open,
+            (false, false) => Compared::Hopeless,
+        }
+    }
+
+    /// In doubles.
+    fn plain(&self) -> Plain {
+        let w = [0, 1, 2].map(|i| Complex64::new(self.w[i][0].approx(), self.w[i][1].approx()));
+        Plain { w, turn: [0, 1, 2].map(|i| self.turn[i].approx()) }
+    }
+
+    /// Where the curvature is greatest, and how great: a guess.
+    pub fn guess(&self) -> (f64, f64) {
+        let plain = self.plain();
+        let inside = (1..16).map(|i| f64::from(i) / 16.0).chain(plain.slow().into_iter().filter(|t| *t > 0.0 && *t < 1.0));
+        let best = inside.map(|t| (t, plain.bend(t))).fold((0.5, 0.0), better).0;
+        [0.0, best, 1.0].map(|t| self.climbed(t)).into_iter().fold((0.0, 0.0), better)
+    }
+
+    /// Where the curvature is about greatest inside, by samples and one step of Newton's method.
+    pub fn sampled(&self) -> f64 {
+        let plain = self.plain();
+        let inside = (1..16).map(|i| f64::from(i) / 16.0).map(|t| (t, plain.bend(t)));
+        self.polished(inside.fold((0.5, 0.0), better).0).approx()
+    }
+
+    /// `∫ σ`.
+    pub fn length(&self) -> N {
+        let [w0, w1, w2] = &self.w;
+        let inner = re(w1, w1).times(2.0).add(&re(w0, w2));
+        let outer = re(w0, w0).add(&re(w0, w1)).add(&re(w1, w2)).add(&re(w2, w2));
+        // A third and a fifth, to a rounding: not for proofs of more than doubles' digits.
+        outer.times(3.0).add(&inner).times(1.0 / 15.0)
+    }
+
+    /// From t up to the next peak, and how great that is: a guess.
+    pub fn climbed(&self, t: f64) -> (f64, f64) {
+        self.plain().climbed(t)
+    }
+
+    /// The greatest |κ|; `None` where the precision does not suffice.
+    ///
+    /// `margin` is how much more than the value at the peak is proved, relative.
+    pub fn greatest(&self, guess: f64, margin: &N) -> Option<N> {
+        let ends = [0.0, 1.0].map(|t| N::of(t, self.bits()));
+        let mut best = self.curvature(&self.polished(guess));
+        best = ends.iter().fold(best, |best, t| higher(best, self.curvature(t)));
+        // Each round begins where the last was found too low.
+        for _ in 0..16 {
+            let value = best?;
+            let most = value.mul(&margin.plus(1.0));
+            match self.below(&most, false) {
+                Bound::Below => return Some(value.union(&most)),
+                Bound::Above(at) => {
+                    let from = [self.polished(self.climbed(at).0), self.polished(at), N::of(at, self.bits())];
+                    best = from.iter().fold(None, |best, t| higher(best, self.curvature(t)));
+                }
+                Bound::Open => return None,
+            }
+        }
+        None
+    }
+}
+
+/// The greater of what is known.
+fn higher<N: Real>(a: Option<N>, b: Option<N>) -> Option<N> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.sub(&a).approx() > 0.0 { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
+fn better(best: (f64, f64), next: (f64, f64)) -> (f64, f64) {
+    if next.1 > best.1 { next } else { best }
+}
+
+/// A piece in doubles, for guesses.
+struct Plain {
+    w: [Complex64; 3],
+    turn: [f64; 3],
+}
+
+impl Plain {
+    /// The real parts of the roots of w: near them the curve is slow, and bends most.
+    fn slow(&self) -> [f64; 2] {
+        let [c, w1, w2] = self.w;
+        let (a, b) = (w2 - 2.0 * w1 + c, w1 - c);
+        let root = (b * b - a * c).sqrt();
+        [((root - b) / a).re, ((-root - b) / a).re]
+    }
+
+    /// w, w', w'' and h, h', h''.
+    fn jets(&self, t: f64) -> ([Complex64; 3], [f64; 3]) {
+        let ([w0, w1, w2], [h0, h1, h2]) = (self.w, self.turn);
+        let (first, last) = (2.0 * (w1 - w0), 2.0 * (w2 - w1));
+        let (a, b) = (w0 * (1.0 - t) + w1 * t, w1 * (1.0 - t) + w2 * t);
+        let (rise, fall) = (2.0 * (h1 - h0), 2.0 * (h2 - h1));
+        let (c, d) = (h0 * (1.0 - t) + h1 * t, h1 * (1.0 - t) + h2 * t);
+        let w = [a * (1.0 - t) + b * t, first * (1.0 - t) + last * t, last - first];
+        (w, [c * (1.0 - t) + d * t, rise * (1.0 - t) + fall * t, fall - rise])
+    }
+
+    /// |κ|; infinite where the curve stands still.
+    fn bend(&self, t: f64) -> f64 {
+        let ([w, ..], [turn, ..]) = self.jets(t);
+        let size = turn.abs() / w.norm_sqr().powi(2);
+        if size.is_nan() { f64::INFINITY } else { size }
+    }
+
+    /// From t up to a local maximum of |κ|: Newton's method, as long as it climbs.
+    fn climbed(&self, from: f64) -> (f64, f64) {
+        let (mut t, mut best) = (from, self.bend(from));
+        let mut reach = 1.0 / 32.0;
+        for _ in 0..40 {
+            let ([z, v, a], [turn, bent, bend]) = self.jets(t);
+            let (speed, rise) = (z.norm_sqr(), 2.0 * (z.conj() * v).re);
+            let lift = 2.0 * (v.norm_sqr() + (z.conj() * a).re);
+            let f = (speed * bent - 2.0 * turn * rise) * turn.signum();
+            let slope = (speed * bend - rise * bent - 2.0 * turn * lift) * turn.signum();
+            // Up the slope where the curve is not concave.
+            let step = if slope < 0.0 { (-f / slope).clamp(-reach, reach) } else { reach * f.signum() };
+            let next = (t + step).clamp(0.0, 1.0);
+            let value = self.bend(next);
+            if value >= best && next != t {
+                (t, best) = (next, value);
+            } else if (next - t).abs() < 1e-13 {
+                break;
+            } else {
+                reach = 0.25 * (next - t).abs();
+            }
+        }
+        (t, best)
+    }
+}

@@ -1,0 +1,286 @@
+//! Paths that bend as little as possible: both minimisations of section 6, by branch and bound.
+
+use super::{complex, finite, pair};
+use crate::curve::PhQuintic;
+use crate::error::{Error, Result};
+use crate::family::ph_path::{Found, Kind, Search};
+use num_complex::Complex64;
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// What a search may change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Free {
+    /// The arc length; both ends have the same parametric speed.
+    Length,
+    /// The end derivatives' common length.
+    EqualDerivatives,
+    /// The lengths of both end derivatives.
+    Derivatives,
+}
+
+/// End points, directions of travel, what is free, and how long the path may be.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Directions {
+    /// Where it starts.
+    pub start: [f64; 2],
+    /// Where it ends, elsewhere.
+    pub end: [f64; 2],
+    /// Direction of travel at the start, radians from the x axis.
+    pub start_direction: f64,
+    /// Direction of travel at the end.
+    pub end_direction: f64,
+    /// Greatest arc length, above the distance of the ends, at most 1e6 times that.
+    pub greatest_length: f64,
+    /// What the search may change.
+    pub free: Free,
+}
+
+/// The path that bends least of those searched, and what is known of the others.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LeastCurvature {
+    /// The path.
+    pub curve: PhQuintic,
+    /// Its greatest |curvature|.
+    pub greatest_curvature: f64,
+    /// No path within the searched ranges has a greatest |curvature| below this: proved, up to 1e-12 of it.
+    pub at_least: f64,
+    /// Its arc length.
+    pub length: f64,
+    /// Lengths of its end derivatives.
+    pub derivatives: [f64; 2],
+    /// From where to where the arc length, or each derivative's length, was searched.
+    pub searched: [f64; 2],
+}
+
+/// How near to the proved bound a search ends, relative.
+const TOLERANCE: f64 = 1e-4;
+/// Ranges that are halved at most, with one and with two free numbers.
+const MOST: [usize; 2] = [20_000, 60_000];
+/// Least arc length over the distance less 1, and least derivative over the distance.
+const LEAST: [f64; 2] = [1e-6, 1e-2];
+
+/// The path of least greatest curvature between two ends with given directions.
+///
+/// Searched are all four PH quintics for each arc length from a millionth above the distance, or for each derivative from a hundredth of it,
+/// that are no longer than allowed. A derivative is at most nine times the length: a polynomial w of degree 2 with `w(0) = 1` has `∫ w² >= 1/9`.
+///
+/// # Accuracy
+/// `at_least` is proved by enclosing curvatures over ranges of the free numbers, in halves until it is within 1e-4 of what was found, or
+/// until 20,000 halvings (60,000 for two free numbers) are spent: then it is what they have proved. The curve is refined by a local search.
+///
+/// # Errors
+/// [`Error::Domain`] naming a number that is not finite, ends that coincide, a greatest length not above their distance or beyond a million times
+/// that, or that no searched path is short enough.
+///
+/// ```
+/// use spiral_atlas::path::{Directions, Free, least_curvature};
+/// let (start, end) = ([0.0, 0.0], [1.0, 0.0]);
+/// let (start_direction, end_direction) = (std::f64::consts::FRAC_PI_6, std::f64::consts::FRAC_PI_4);
+/// let free = Free::EqualDerivatives;
+/// let found = least_curvature(&Directions { start, end, start_direction, end_direction, greatest_length: 2.0, free })?;
+/// assert!((found.greatest_curvature - 3.1210262).abs() < 1e-7 && (found.derivatives[0] - 1.4132589).abs() < 1e-5);
+/// assert!(found.at_least > 3.1207 && found.at_least <= found.greatest_curvature);
+/// # Ok::<(), spiral_atlas::Error>(())
+/// ```
+pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
+    let (chord, search) = checked(ends)?;
+    let distance = chord.norm();
+    let (low, high) = match ends.free {
+        Free::Length => (1.0 + LEAST[0], search.longest),
+        _ => (LEAST[1], 9.0 * search.longest),
+    };
+    if low >= high {
+        let least = distance * low;
+        return fail(format!("`greatest_length` is {:?}; the search begins at {least:?}", ends.greatest_length));
+    }
+    let space = Space { search, free: ends.free };
+    let (best, at_least) = space.least(low, high).ok_or_else(|| {
+        let what =
+            format!("no path with these directions is as short as `greatest_length`, {:?}; allow more", ends.greatest_length);
+        Error::Domain(format!("least curvature: {what}"))
+    })?;
+    let back = chord.sqrt();
+    let curve = PhQuintic::between(ends.start, ends.end, best.preimage.map(|w| pair(complex(w) * back)));
+    let greatest_curvature = curve.greatest_curvature().1;
+    Ok(LeastCurvature {
+        curve,
+        greatest_curvature,
+        at_least: (at_least / distance * (1.0 - 1e-12)).min(greatest_curvature),
+        length: curve.length(),
+        derivatives: [curve.speed(0.0), curve.speed(1.0)],
+        searched: [low * distance, high * distance],
+    })
+}
+
+fn fail<T>(what: String) -> Result<T> {
+    Err(Error::Domain(format!("least curvature: {what}")))
+}
+
+/// The chord, and what is searched in units of it.
+fn checked(ends: &Directions) -> Result<(Complex64, Search)> {
+    let Directions { start, end, start_direction, end_direction, greatest_length, free } = *ends;
+    let numbers: [(&str, &[f64]); 5] = [
+        ("start", &start),
+        ("end", &end),
+        ("start_direction", &[start_direction]),
+        ("end_direction", &[end_direction]),
+        ("greatest_length", &[greatest_length]),
+    ];
+    for (name, numbers) in numbers {
+        finite("least curvature", name, numbers)?;
+    }
+    let chord = complex(end) - complex(start);
+    let distance = chord.norm();
+    if distance == 0.0 {
+        return fail(format!("`start` and `end` are both {start:?}; the ends must be apart"));
+    }
+    if !(greatest_length > distance && greatest_length <= 1e6 * distance) {
+        return fail(format!(
+            "`greatest_length` is {greatest_length:?}; it must exceed the distance {distance:?} of the ends, at most 1e6 times"
+        ));
+    }
+    let theta = |direction: f64| (Complex64::cis(direction) * chord.conj()).arg();
+    let kind = if free == Free::Length { Kind::EqualLength } else { Kind::Hermite };
+    let theta = [theta(start_direction), theta(end_direction)];
+    Ok((chord, Search { kind, theta, longest: greatest_length / distance }))
+}
+
+/// The free numbers.
+struct Space {
+    search: Search,
+    free: Free,
+}
+
+/// A product of ranges, one or two, and what the greatest curvature exceeds there.
+#[derive(Debug, Clone, Copy)]
+struct Region {
+    ranges: [[f64; 2]; 2],
+    least: f64,
+}
+
+impl PartialEq for Region {
+    fn eq(&self, other: &Region) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Region {}
+
+impl PartialOrd for Region {
+    fn partial_cmp(&self, other: &Region) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// The greatest is the one with the least bound.
+impl Ord for Region {
+    fn cmp(&self, other: &Region) -> Ordering {
+        other.least.total_cmp(&self.least)
+    }
+}
+
+impl Space {
+    fn dimensions(&self) -> usize {
+        if self.free == Free::Derivatives { 2 } else { 1 }
+    }
+
+    /// With one free number both sizes are that.
+    fn at(&self, x: [f64; 2]) -> Option<Found> {
+        self.search.at([x[0], x[self.dimensions() - 1]])
+    }
+
+    fn region(&self, ranges: [[f64; 2]; 2], least: f64) -> Region {
+        let found = self.search.least([ranges[0], ranges[self.dimensions() - 1]]);
+        Region { ranges, least: found.max(least) }
+    }
+
+    /// The best path for numbers from `low` to `high`, and what is proved of all.
+    fn least(&self, low: f64, high: f64) -> Option<(Found, f64)> {
+        let refined = |(x, found)| self.refined(x, found, [low, high]);
+        let mut best = self.scanned(low, high).map(refined);
+        let mut waiting = BinaryHeap::from([self.region([[low, high]; 2], 0.0)]);
+        for _ in 0..MOST[self.dimensions() - 1] {
+            let most = best.map_or(f64::INFINITY, |(_, found)| found.most);
+            let Some(region) = waiting.pop_if_below(most * (1.0 - TOLERANCE)) else { break };
+            for half in self.halves(&region) {
+                let middle = half.ranges.map(|[a, b]| 0.5 * (a + b));
+                if half.least >= most {
+                    continue;
+                }
+                // Nothing new is seen in small ones; the local search does that.
+                if half.ranges[..self.dimensions()].iter().any(|[a, b]| *b > 1.05 * a) {
+                    best = lesser(best, self.at(middle).map(|found| (middle, found)));
+                }
+                waiting.push(half);
+            }
+        }
+        let (_, found) = best.map(refined)?;
+        let proved = waiting.peek().map_or(f64::INFINITY, |region| region.least);
+        Some((found, proved.min(found.most)))
+    }
+
+    /// The best of a coarse grid.
+    fn scanned(&self, low: f64, high: f64) -> Option<([f64; 2], Found)> {
+        let count = [200, 24][self.dimensions() - 1];
+        let value = |i: usize| low * (high / low).powf(i as f64 / count as f64);
+        let others = if self.dimensions() == 1 { 0 } else { count };
+        let places = (0..=count).flat_map(|i| (0..=others).map(move |j| [i, j]));
+        places.map(|place| place.map(value)).filter_map(|x| Some((x, self.at(x)?))).min_by(|a, b| a.1.most.total_cmp(&b.1.most))
+    }
+
+    /// Both halves along the range whose ends differ most, as a ratio.
+    fn halves(&self, region: &Region) -> [Region; 2] {
+        let wide = |range: &[f64; 2]| range[1] / range[0];
+        let split = usize::from(self.dimensions() == 2 && wide(&region.ranges[1]) > wide(&region.ranges[0]));
+        let [low, high] = region.ranges[split];
+        let middle = if high > 4.0 * low { (low * high).sqrt() } else { 0.5 * (low + high) };
+        [[low, middle], [middle, high]].map(|half| {
+            let mut ranges = region.ranges;
+            ranges[split] = half;
+            self.region(ranges, region.least)
+        })
+    }
+
+    /// Steps in directions all around, turned each time, as long as they help, then shorter ones: between a kink or the greatest length and what is
+    /// better there may be little room.
+    fn refined(&self, mut x: [f64; 2], mut found: Found, [low, high]: [f64; 2]) -> ([f64; 2], Found) {
+        let (mut step, mut turn, around) = (0.1, 0.0, if self.dimensions() == 1 { 2 } else { 24 });
+        while step > 1e-12 {
+            let moved = (0..around).filter_map(|i| {
+                let angle = turn + std::f64::consts::TAU * f64::from(i) / f64::from(around);
+                let way = if self.dimensions() == 1 { [1.0 - 2.0 * f64::from(i); 2] } else { [angle.cos(), angle.sin()] };
+                let next = [0, 1].map(|i| (x[i] * (1.0 + step * way[i])).clamp(low, high));
+                Some((next, self.at(next)?))
+            });
+            let best = moved.min_by(|a, b| a.1.most.total_cmp(&b.1.most));
+            // The golden angle comes near every direction.
+            turn += 2.399963;
+            match best {
+                Some((next, better)) if better.most < found.most => (x, found) = (next, better),
+                _ => step *= 0.7,
+            }
+        }
+        (x, found)
+    }
+}
+
+fn lesser(a: Option<([f64; 2], Found)>, b: Option<([f64; 2], Found)>) -> Option<([f64; 2], Found)> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.1.most < a.1.most { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
+trait Waiting {
+    /// The region of the least bound, if that is below.
+    fn pop_if_below(&mut self, limit: f64) -> Option<Region>;
+}
+
+impl Waiting for BinaryHeap<Region> {
+    fn pop_if_below(&mut self, limit: f64) -> Option<Region> {
+        if self.peek().is_some_and(|region| region.least < limit) { self.pop() } else { None }
+    }
+}

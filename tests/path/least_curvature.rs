@@ -1,0 +1,125 @@
+//! Least greatest curvature.
+
+use super::*;
+use spiral_atlas::path::{Directions, EqualLength, Free, Hermite, LeastCurvature, equal_length, hermite, least_curvature};
+use std::f64::consts::PI;
+
+fn ends(start_direction: f64, end_direction: f64, greatest_length: f64, free: Free) -> Directions {
+    Directions { start: [0.0, 0.0], end: [1.0, 0.0], start_direction, end_direction, greatest_length, free }
+}
+
+/// Ends, directions and length are those asked for, and the numbers are the curve's.
+fn check(data: &Directions) -> LeastCurvature {
+    let found = least_curvature(data).unwrap_or_else(|e| panic!("{data:?}: {e}"));
+    let curve = &found.curve;
+    let size = (data.end[0] - data.start[0]).hypot(data.end[1] - data.start[1]);
+    assert_eq!((curve.start, curve.end), (data.start, data.end));
+    let integral = PhQuintic::new(data.start, curve.preimage).end;
+    let legs = curve.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
+    assert!((integral[0] - data.end[0]).hypot(integral[1] - data.end[1]) < 1e-12 * (legs + size), "{data:?}");
+    for (t, direction) in [(0.0, data.start_direction), (1.0, data.end_direction)] {
+        let off = bezier(curve, t).direction() - direction;
+        assert!(off.sin().abs() < 1e-9 && off.cos() > 0.0, "{data:?}");
+    }
+    assert!(curve.length() <= data.greatest_length * (1.0 + 1e-9), "{data:?}");
+    assert!(found.at_least <= found.greatest_curvature && found.at_least >= 0.0, "{data:?} {found:?}");
+    // By sampling the Bézier curve.
+    let sampled = (0..=2000).map(|i| bezier(curve, f64::from(i) / 2000.0).curvature().abs()).fold(0.0, f64::max);
+    assert!(sampled <= found.greatest_curvature * (1.0 + 1e-6) + 1e-9 / size, "{data:?}");
+    found
+}
+
+/// Figure 8: the minimum over equal derivatives.
+#[test]
+fn published_minimum() {
+    let found = check(&ends(PI / 6.0, PI / 4.0, 2.0, Free::EqualDerivatives));
+    assert!((found.greatest_curvature - 3.1210262181019).abs() < 1e-10, "{found:?}");
+    assert!((found.derivatives[0] - 1.41325888).abs() < 1e-6 && found.at_least > 3.1207, "{found:?}");
+    // Both free: less.
+    let both = check(&ends(PI / 6.0, PI / 4.0, 2.0, Free::Derivatives));
+    println!("{both:?}");
+    assert!(both.greatest_curvature < found.greatest_curvature && both.at_least > 0.3 * both.greatest_curvature, "{both:?}");
+}
+
+/// Figure 6: there is no minimum up to 1.6, so it lies at the bound.
+#[test]
+fn the_bound_on_length_is_reached() {
+    let found = check(&ends(PI / 3.0, -0.75 * PI, 1.6, Free::Length));
+    assert!((found.length - 1.6).abs() < 1e-9 && (found.greatest_curvature - 4.337433134206).abs() < 1e-8, "{found:?}");
+    assert!(found.at_least > 4.337, "{found:?}");
+    let longer = check(&ends(PI / 3.0, -0.75 * PI, 3.0, Free::Length));
+    println!("{longer:?}");
+    assert!(longer.greatest_curvature < found.greatest_curvature);
+}
+
+#[test]
+fn straight_ahead_is_straight() {
+    let found = check(&ends(0.0, 0.0, 2.0, Free::Derivatives));
+    assert_eq!((found.greatest_curvature, found.at_least), (0.0, 0.0));
+    assert!((found.length - 1.0).abs() < 1e-15);
+    // With equal end speeds a path of about the distance has l0 = l1 = 6: it turns back, so that the best is longer.
+    assert!(check(&ends(0.0, 0.0, 2.0, Free::Length)).length > 1.1);
+}
+
+/// Random ends, unit and place: nothing sampled is below the proved bound, and no sampled path is better than what was found.
+#[test]
+fn nothing_sampled_is_below_the_bound() {
+    let mut noise = Noise(3);
+    let (mut compared, mut close) = (0, 0);
+    for i in 0..18 {
+        let free = [Free::Length, Free::EqualDerivatives, Free::Derivatives][i % 3];
+        let (start, end) = (noise.point().map(|x| 10.0 * x), noise.point().map(|x| 10.0 * x));
+        let size = (end[0] - start[0]).hypot(end[1] - start[1]);
+        let [mut first, last] = noise.point().map(|x| 3.0 * x);
+        if i % 4 == 3 {
+            first = last;
+        }
+        let greatest_length = size * (1.3 + 0.5 * (1.0 + noise.next()));
+        let data = Directions { start, end, start_direction: first, end_direction: last, greatest_length, free };
+        let Ok(found) = least_curvature(&data) else { continue };
+        let found = {
+            check(&data);
+            found
+        };
+        close += usize::from(found.at_least > 0.95 * found.greatest_curvature);
+        for _ in 0..400 {
+            let x = |noise: &mut Noise| size * 10f64.powf(noise.next());
+            let choice = match free {
+                Free::Length => {
+                    let length = size + (greatest_length - size) * (0.501 + 0.499 * noise.next());
+                    equal_length(&EqualLength { start, end, start_direction: first, end_direction: last, length })
+                }
+                _ => {
+                    let l0 = x(&mut noise);
+                    let l1 = if free == Free::EqualDerivatives { l0 } else { x(&mut noise) };
+                    let along = |l: f64, angle: f64| [l * angle.cos(), l * angle.sin()];
+                    hermite(&Hermite { start, end, start_derivative: along(l0, first), end_derivative: along(l1, last) })
+                }
+            };
+            for c in choice.unwrap().candidates.iter().filter(|c| c.regular && c.curve.length() <= greatest_length) {
+                let most = c.curve.greatest_curvature().1;
+                assert!(most >= found.at_least && most >= found.greatest_curvature * (1.0 - 1e-6), "{data:?} {found:?} {most}");
+                compared += 1;
+            }
+        }
+    }
+    println!("{compared} {close}");
+    assert!(compared > 5000 && close > 10, "{compared} {close}");
+}
+
+#[test]
+fn what_cannot_be_searched_is_named() {
+    let fine = ends(0.5, 1.0, 2.0, Free::Length);
+    let says = |data: Directions, parts: &[&str]| {
+        let error = least_curvature(&data).unwrap_err().to_string();
+        assert!(parts.iter().all(|p| error.contains(p)), "{error}");
+    };
+    says(Directions { greatest_length: 1.0, ..fine }, &["`greatest_length` is 1.0", "must exceed the distance 1.0"]);
+    says(Directions { greatest_length: f64::NAN, ..fine }, &["`greatest_length`", "NaN"]);
+    says(Directions { greatest_length: 1e7, ..fine }, &["at most 1e6 times"]);
+    says(Directions { greatest_length: 1.0000001, ..fine }, &["`greatest_length` is 1.0000001", "begins at 1.000001"]);
+    says(Directions { end: [0.0, 0.0], ..fine }, &["`start` and `end` are both"]);
+    says(Directions { start: [f64::INFINITY, 0.0], ..fine }, &["`start`", "inf"]);
+    says(Directions { end_direction: f64::NAN, ..fine }, &["`end_direction`", "NaN"]);
+    says(ends(3.0, -3.0, 1.001, Free::EqualDerivatives), &["no path", "1.001"]);
+}
