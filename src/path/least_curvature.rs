@@ -3,7 +3,7 @@
 use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
-use crate::family::ph_path::{Found, Kind, Search};
+use crate::family::ph_path::{Found, Search};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
@@ -13,10 +13,8 @@ use std::collections::BinaryHeap;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Free {
-    /// The arc length; both ends have the same parametric speed.
+    /// The arc length of paths whose end derivatives are of one length, which is the same as to vary that.
     Length,
-    /// The end derivatives' common length.
-    EqualDerivatives,
     /// The lengths of both end derivatives.
     Derivatives,
 }
@@ -51,7 +49,7 @@ pub struct LeastCurvature {
     pub length: f64,
     /// Lengths of its end derivatives.
     pub derivatives: [f64; 2],
-    /// From where to where the arc length, or each derivative's length, was searched.
+    /// From where to where the length of each end derivative was searched.
     pub searched: [f64; 2],
 }
 
@@ -59,13 +57,12 @@ pub struct LeastCurvature {
 const TOLERANCE: f64 = 1e-4;
 /// Ranges that are halved at most, with one and with two free numbers.
 const MOST: [usize; 2] = [20_000, 60_000];
-/// Least arc length over the distance less 1, and least derivative over the distance.
-const LEAST: [f64; 2] = [1e-6, 1e-2];
+/// Least derivative over the distance.
+const LEAST: f64 = 1e-2;
 
 /// The path of least greatest curvature between two ends with given directions.
 ///
-/// Searched are all four PH quintics for each arc length from a millionth above the distance, or for each derivative from a hundredth of it,
-/// that are no longer than allowed. A derivative is at most nine times the length: a polynomial w of degree 2 with `w(0) = 1` has `∫ w² >= 1/9`.
+/// Searched are all four PH quintics for end derivatives from a hundredth of the distance on, that are no longer than allowed. A derivative is at most nine times the length: a polynomial w of degree 2 with `w(0) = 1` has `∫ w² >= 1/9`.
 ///
 /// # Accuracy
 /// `at_least` is proved by enclosing curvatures over ranges of the free numbers, in halves until it is within 1e-4 of what was found, or
@@ -79,7 +76,7 @@ const LEAST: [f64; 2] = [1e-6, 1e-2];
 /// use spiral_atlas::path::{Directions, Free, least_curvature};
 /// let (start, end) = ([0.0, 0.0], [1.0, 0.0]);
 /// let (start_direction, end_direction) = (std::f64::consts::FRAC_PI_6, std::f64::consts::FRAC_PI_4);
-/// let free = Free::EqualDerivatives;
+/// let free = Free::Length;
 /// let found = least_curvature(&Directions { start, end, start_direction, end_direction, greatest_length: 2.0, free })?;
 /// assert!((found.greatest_curvature - 3.1210262).abs() < 1e-7 && (found.derivatives[0] - 1.4132589).abs() < 1e-5);
 /// assert!(found.at_least > 3.1207 && found.at_least <= found.greatest_curvature);
@@ -88,14 +85,7 @@ const LEAST: [f64; 2] = [1e-6, 1e-2];
 pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     let (chord, search) = checked(ends)?;
     let distance = chord.norm();
-    let (low, high) = match ends.free {
-        Free::Length => (1.0 + LEAST[0], search.longest),
-        _ => (LEAST[1], 9.0 * search.longest),
-    };
-    if low >= high {
-        let least = distance * low;
-        return fail(format!("`greatest_length` is {:?}; the search begins at {least:?}", ends.greatest_length));
-    }
+    let (low, high) = (LEAST, 9.0 * search.longest);
     let space = Space { search, free: ends.free };
     let (best, at_least) = space.least(low, high).ok_or_else(|| {
         let what =
@@ -121,7 +111,7 @@ fn fail<T>(what: String) -> Result<T> {
 
 /// The chord, and what is searched in units of it.
 fn checked(ends: &Directions) -> Result<(Complex64, Search)> {
-    let Directions { start, end, start_direction, end_direction, greatest_length, free } = *ends;
+    let Directions { start, end, start_direction, end_direction, greatest_length, .. } = *ends;
     let numbers: [(&str, &[f64]); 5] = [
         ("start", &start),
         ("end", &end),
@@ -143,9 +133,8 @@ fn checked(ends: &Directions) -> Result<(Complex64, Search)> {
         ));
     }
     let theta = |direction: f64| (Complex64::cis(direction) * chord.conj()).arg();
-    let kind = if free == Free::Length { Kind::EqualLength } else { Kind::Hermite };
     let theta = [theta(start_direction), theta(end_direction)];
-    Ok((chord, Search { kind, theta, longest: greatest_length / distance }))
+    Ok((chord, Search { theta, longest: greatest_length / distance }))
 }
 
 /// The free numbers.

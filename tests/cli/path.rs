@@ -181,7 +181,7 @@ fn least_curvature() {
     };
     says(
         r#"{"start": [0, 0], "end": [1, 0], "start_direction": 1, "end_direction": 1, "free": "width"}"#,
-        &["width", "equal-derivatives"],
+        &["width", "derivatives"],
     );
     says(
         r#"{"start": [2, 1], "end": [2, 1], "start_direction": 1, "end_direction": 1, "free": "length"}"#,

@@ -9,8 +9,8 @@ use spiral_atlas::path::{Directions, Free, least_curvature};
 ///
 /// Input: {"start": [x, y], "end": [x, y], "start_direction": angle, "end_direction": angle, "free": "length", "greatest_length": L}.
 ///
-/// `free` is `length`, `equal-derivatives` or `derivatives`: what is varied. Without `greatest_length` the path is at most twice as long as the
-/// distance of the ends. No searched path bends less than `at_least`: that is proved.
+/// `free` is what is varied: `length`, of paths whose end derivatives are of one length, or `derivatives`, the length of each. Without
+/// `greatest_length` the path is at most twice as long as the distance of the ends. No searched path bends less than `at_least`: that is proved.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path least-curvature examples/least-curvature.json --figure least.png")]
 pub struct Args {
@@ -37,7 +37,7 @@ struct Output {
     /// Below which no searched path's greatest curvature lies.
     at_least: f64,
     derivatives: [f64; 2],
-    /// Range of the arc length, or of each derivative's.
+    /// Range of each derivative's length.
     searched: [f64; 2],
 }
 

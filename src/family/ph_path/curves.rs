@@ -70,9 +70,9 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
 }
 
 /// All four solutions for sizes in ranges, symmetric or not.
-pub(super) fn boxed(kind: Kind, theta: [f64; 2], size: [Ball; 2]) -> Option<Vec<Arc<Ball>>> {
+pub(super) fn boxed(theta: [f64; 2], size: [Ball; 2]) -> Option<Vec<Arc<Ball>>> {
     let half = theta.map(|theta| Ball::half_turn(theta, 53));
-    let given = Given { kind, half, size, symmetry: Symmetry::None };
+    let given = Given { kind: Kind::Hermite, half, size, symmetry: Symmetry::None };
     let mut all = Vec::with_capacity(4);
     for paper in [true, false] {
         all.extend(solutions(&given.ends(paper)?, Symmetry::None, false, paper).map(|curve| curve.whole));

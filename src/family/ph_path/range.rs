@@ -9,7 +9,6 @@ use crate::num::{Ball, Real};
 /// Solutions with end directions (to the chord) whose lengths are at most `longest`, in chords.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Search {
-    pub kind: Kind,
     pub theta: [f64; 2],
     pub longest: f64,
 }
@@ -30,7 +29,7 @@ fn range([low, high]: [f64; 2]) -> Ball {
 impl Search {
     /// The solution at these sizes that bends least.
     pub fn at(&self, size: [f64; 2]) -> Option<Found> {
-        let curves = curves::<Ball>(&Datum { kind: self.kind, theta: self.theta, size }, 53)?;
+        let curves = curves::<Ball>(&Datum { kind: Kind::Hermite, theta: self.theta, size }, 53)?;
         if curves.straight {
             let [a, b] = size.map(f64::sqrt);
             let middle = ((120.0 - 15.0 * (a * a + b * b) + 10.0 * a * b).sqrt() - 3.0 * (a + b)) / 4.0;
@@ -49,7 +48,7 @@ impl Search {
     ///
     /// Each is bounded by the curvature at three parameters, enclosed.
     pub fn least(&self, size: [[f64; 2]; 2]) -> f64 {
-        let Some(arcs) = boxed(self.kind, self.theta, size.map(range)) else { return 0.0 };
+        let Some(arcs) = boxed(self.theta, size.map(range)) else { return 0.0 };
         let low = |x: Ball| (x.value - x.error) * (1.0 - 1e-15);
         let bends = |arc: &Arc<Ball>| {
             let at = [0.0, arc.sampled(), 1.0].map(|t| arc.curvature(&Ball::of(t, 53)).map_or(0.0, low));
