@@ -311,7 +311,7 @@ fn what_makes_no_sense_or_has_no_path_is_named() {
     says(&|s| s.greatest_curvature = 0.0, &["`greatest_curvature` is 0.0"]);
     says(&|s| s.greatest_curvature = -1.0, &["`greatest_curvature` is -1.0"]);
     says(&|s| s.goal = s.start, &["both [-2.0, 0.0]"]);
-    says(&|s| s.obstacles[0][2][1] = f64::NEG_INFINITY, &["`obstacles[0]`", "inf"]);
+    says(&|s| s.obstacles[0][2][1] = f64::NEG_INFINITY, &["`obstacles[0][2]` is [1.0, -inf]"]);
     says(&|s| s.obstacles.push(vec![[5.0, 5.0], [6.0, 5.0]]), &["obstacles[1] has 2 different vertices"]);
     says(&|s| s.obstacles.push(vec![[5.0, 5.0]; 9]), &["obstacles[1] has 1 different vertices"]);
     says(&|s| s.obstacles.push(vec![]), &["obstacles[1] has 0"]);
@@ -342,9 +342,9 @@ fn what_makes_no_sense_or_has_no_path_is_named() {
     let found = plan(&room(2.5, 8.0)).unwrap();
     audit_plan(&room(2.5, 8.0), &found).unwrap();
     // Curvature that no leg has room for: the corner is named, with what it needs.
-    let error = error(Scene { greatest_curvature: 1e-3, ..fine() });
+    let error = error(room(1.9, 1e-3));
     assert!(
-        ["the shortest way turns", "obstacles[0]", "degrees", "curvature 0.001", "needs"].iter().all(|p| error.contains(p)),
+        ["the shortest way turns", "obstacles[", "degrees", "curvature 0.001", "needs"].iter().all(|p| error.contains(p)),
         "{error}"
     );
 }
@@ -377,4 +377,105 @@ fn vehicles_in_step_on_planned_paths_are_told_apart_exactly() {
     let found = separation(&pair[0], &pair[1], 0.5 - 1e-7).unwrap();
     let closest = found.closest;
     assert!(found.verdict == Verdict::Kept && (closest.at_most - 0.5).abs() < 1e-12, "{found:?}");
+}
+
+/// Plans, audits, and tells how long the path is.
+fn planned(given: &Scene) -> f64 {
+    let found = plan(given).unwrap();
+    audit_plan(given, &found).unwrap();
+    length(&found)
+}
+
+#[test]
+fn low_curvature_swings_out() {
+    // With both ends free there is a path for every curvature.
+    for most in [1.0, 0.3, 0.1, 0.01] {
+        let given = scene([-1.5, 0.0], [1.5, 0.0], vec![square([0.0, 0.0], 1.0)], 0.2, most);
+        // Proved; the audit's tolerances are those of the scene, which such paths leave far behind.
+        let length = length(&plan(&given).unwrap());
+        assert!(length > 5.0 && length < 90.0 / most, "{length}");
+    }
+}
+
+#[test]
+fn wide_corridors_leave_room_for_corners_a_little_further_off() {
+    let walls = vec![
+        vec![[-1.0, -1.0], [11.0, -1.0], [11.0, 0.0], [-1.0, 0.0]],
+        vec![[-1.0, 1.0], [9.0, 1.0], [9.0, 10.0], [-1.0, 10.0]],
+        vec![[10.0, -1.0], [11.0, -1.0], [11.0, 10.0], [10.0, 10.0]],
+    ];
+    let length = planned(&scene([0.0, 0.5], [9.5, 9.0], walls, 0.1, 1.0));
+    assert!((16.0..18.0).contains(&length), "{length}");
+}
+
+#[test]
+fn needles_are_turned_at_the_tip() {
+    let slab = vec![[-1000.0, -1.0], [1000.0, -1.0], [1000.0, 0.001], [-1000.0, 0.001]];
+    let needle = vec![[-0.05, 0.0], [0.05, 0.0], [0.0, 10.0]];
+    let length = planned(&scene([-1.0, 9.0], [1.0, 9.0], vec![needle, slab], 0.2, 10.0));
+    assert!(length < 5.0, "{length}");
+}
+
+/// A wall with teeth one apart, 0.3 thick.
+fn comb(teeth: usize) -> Ring {
+    let end = teeth as f64 + 1.0;
+    let tooth = |i: usize| [[0.2, 0.0], [0.2, 3.0], [0.5, 3.0], [0.5, 0.0]].map(|p| [p[0] + i as f64, p[1]]);
+    [[0.0, -1.0]].into_iter().chain((0..teeth).flat_map(tooth)).chain([[end, -1.0]]).collect()
+}
+
+#[test]
+fn combs_grids_and_spirals_do_not_exhaust_the_search() {
+    let teeth = scene([0.85, 0.5], [29.85, 0.5], vec![comb(30)], 0.05, 1.0);
+    let squares = (0..64).map(|k| square([f64::from(k / 8), f64::from(k % 8)], 0.3)).collect();
+    let grid = scene([0.5, 0.5], [6.5, 6.5], squares, 0.05, 3.0);
+    let wall = |in_by: f64| {
+        (0..400).map(move |k| {
+            let angle = 4.0 * std::f64::consts::PI * f64::from(k) / 399.0;
+            let far = 1.0 + angle / std::f64::consts::TAU - in_by;
+            [far * angle.cos(), far * angle.sin()]
+        })
+    };
+    let spiral = scene([0.0, 0.0], [5.0, 0.0], vec![wall(0.0).chain(wall(0.05).rev()).collect()], 0.1, 5.0);
+    for (given, most) in [(teeth, 40.0), (grid, 12.0), (spiral, 16.0)] {
+        let start = std::time::Instant::now();
+        let length = planned(&given);
+        let seconds = start.elapsed().as_secs_f64();
+        assert!(length < most && seconds < 20.0, "{length} {seconds}");
+    }
+}
+
+#[test]
+fn blocked_is_said_at_once_and_only_where_it_is_so() {
+    // Four walls around the goal that leave slits 0.05 narrower than given at their corners, in a field of squares.
+    let walls = |slit: f64| {
+        let side = move |turn: usize| -> Ring {
+            let ring = [[slit - 0.5, 0.45], [0.5, 0.45], [0.5, 0.5], [slit - 0.5, 0.5]];
+            ring.iter().map(|p| (0..turn).fold(*p, |p, _| [-p[1], p[0]])).map(|p| [p[0] + 6.0, p[1] + 6.0]).collect()
+        };
+        (0..4).map(side)
+    };
+    let squares = || (0..144).filter(|k| *k != 6 * 12 + 6).map(|k| square([f64::from(k / 12), f64::from(k % 12)], 0.3));
+    let given =
+        |slit: f64, clearance: f64| scene([-1.0, -1.0], [6.0, 6.0], walls(slit).chain(squares()).collect(), clearance, 1e4);
+    let says = |scene: Scene| plan(&scene).map_or_else(|e| e.to_string(), |_| "found".into());
+    let start = std::time::Instant::now();
+    for (slit, clearance) in [(0.0, 0.0), (0.0, 0.05), (0.15, 0.0501)] {
+        assert!(says(given(slit, clearance)).contains("every way is blocked: obstacles grown"), "{slit} {clearance}");
+    }
+    assert!(start.elapsed().as_secs_f64() < 5.0);
+    assert_eq!([says(given(0.15, 0.0)), says(given(0.15, 0.04))], ["found", "found"]);
+    // A ring around both ends, or beside them, parts nothing.
+    let ring = |x: f64| walls(0.0).map(move |ring| ring.into_iter().map(|p| [p[0] - 6.0 + x, p[1] - 6.0]).collect::<Ring>());
+    for x in [0.0, 2.0, 4.0] {
+        let blocked = says(scene([x - 0.1, 0.0], [0.1, 0.2], ring(0.0).collect(), 0.01, 1e3)).contains("blocked");
+        assert_eq!(blocked, x != 0.0, "{x}");
+        let blocked = says(scene([-3.0, 0.0], [7.0, 0.0], ring(x).collect(), 0.01, 1e3)).contains("blocked");
+        assert!(!blocked, "{x}");
+    }
+}
+
+#[test]
+fn a_list_is_no_scene() {
+    let error = serde_json::from_str::<Scene>("[[0, 0]]").unwrap_err().to_string();
+    assert!(error.contains("an object with start, goal, obstacles, clearance and greatest_curvature"), "{error}");
 }

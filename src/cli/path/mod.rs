@@ -59,7 +59,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 struct Files {
     /// JSON file, TOML file named .toml, or `-` for JSON from standard input.
     input: PathBuf,
-    /// Draw the paths with their curvature, or their separation over time.
+    /// Draw what was found.
     #[arg(long, value_name = "FILE.png")]
     figure: Option<PathBuf>,
 }

@@ -5,9 +5,11 @@ use serde::Serialize;
 use spiral_atlas::Result;
 use spiral_atlas::path::{Clearance, Corner, Scene, plan};
 
-/// Plan a path of bounded curvature among polygons: the shortest polyline around them whose corners can be rounded, rounded.
+/// Plan a path of bounded curvature among polygons: a short polyline around them whose corners can be rounded, rounded.
 ///
 /// Input: {"start": [x, y], "goal": [x, y], "obstacles": [[[x, y], ..], ..], "clearance": d, "greatest_curvature": k}.
+///
+/// Vertices run either way around an obstacle. Start and goal must be further from obstacles than the clearance.
 ///
 /// `clearance` and `curvature_at_most` are proved for the path printed; without a path that keeps them there is an error that tells why.
 #[derive(clap::Args)]

@@ -3,6 +3,7 @@
 //! Places beside the vertices of obstacles, visibility, the search and the rounding are guesses; [`prove`] has the last word.
 
 mod obstacles;
+mod parted;
 mod places;
 mod proof;
 mod round;
@@ -12,11 +13,12 @@ use super::{ROUNDINGS, Turn, finite};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use obstacles::{Obstacles, to_segment};
+use parted::parted;
 use places::{Place, places};
 pub use proof::Clearance;
 use proof::{bends_less, clearance};
 use round::Polyline;
-use search::{Found, Limits, Search, Why};
+use search::{Found, Limits, Search, Why, distance};
 
 /// The clearance is enclosed to this share of the size of the scene.
 const TOLERANCE: f64 = 1e-9;
@@ -24,12 +26,17 @@ const TOLERANCE: f64 = 1e-9;
 const LEAST_REACH: f64 = 1e-9;
 /// Scenes within which no square leaves the range of doubles.
 const SIZES: [f64; 2] = [1e-100, 1e100];
-/// How much further off places are, in least radii; all but the first where those give no path.
-const WIDE: [f64; 5] = [0.0, 0.5, 1.0, 2.0, 4.0];
+/// How much further off places are, in least radii, where those beside vertices give no path: one distance after the other, then several.
+const WIDE: [f64; 12] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
+const SEVERAL: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
+/// Work for each of them and for all together: some seconds.
+const WORK: [usize; 2] = [1_000_000, 8_000_000];
+/// Paths this much longer than without a limit of curvature are detours: then there may be shorter ones further off.
+const DETOUR: f64 = 2.0;
 
 /// Where to go, and what is in the way.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with start, goal, obstacles, clearance and greatest_curvature")]
 pub struct Scene {
     /// Where the path starts, in any direction.
     pub start: [f64; 2],
@@ -151,13 +158,14 @@ impl Scene {
 ///
 /// Each corner stands where the sharpest turn around its vertex would keep the clearance at the greatest curvature, or a part of that turn.
 /// Its curve is then as large as its legs and the obstacles allow. The polyline is the shortest with its corners at such places that can be
-/// rounded; where there is none, places further off are tried.
+/// rounded; where there is none, or it is a large detour, places further off are tried.
 ///
 /// # Accuracy
 /// What [`prove`] says. The path is not the shortest of all paths of bounded curvature.
 ///
 /// # Errors
-/// [`Error::Domain`] naming what is wrong with the scene, or the corner that cannot be rounded.
+/// [`Error::Domain`] naming what is wrong with the scene, or the corner that cannot be rounded; "every way is blocked" alone proves that
+/// there is no path.
 ///
 /// ```
 /// use spiral_atlas::path::{Scene, plan};
@@ -257,23 +265,56 @@ fn bounded(i: usize, span: &PhQuintic, most: f64) -> Result<f64> {
 
 /// The places of the path: beside obstacles as far as turns need, else also further off.
 fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Place>> {
+    let ends = [scene.start, scene.goal];
+    if parted(obstacles, ends, scene.clearance, 32.0 * ROUNDINGS * scene.size()) {
+        let clearance = scene.clearance;
+        return fail(format!("every way is blocked: obstacles grown by the clearance {clearance:?} part `start` from `goal`"));
+    }
     let search = |limits: Limits, wide: &[f64]| {
-        let beside = wide.iter().flat_map(|wide| places(obstacles, limits.keep, limits.most, *wide)).collect();
-        Search::new(obstacles, limits, [scene.start, scene.goal], beside).run()
+        let wide = [0.0].iter().chain(wide);
+        let beside = wide.flat_map(|wide| places(obstacles, limits.keep, limits.most, *wide)).collect();
+        Search::new(obstacles, limits, ends, beside)
     };
-    for wide in [&WIDE[..1], &WIDE] {
-        match search(limits, wide) {
-            Found::Path(path) => return Ok(path),
+    // If it could turn on the spot: found at most once, where it is needed.
+    let sharp = || search(limits.sharp(), &[]).within(f64::INFINITY, WORK[1]).run().0;
+    let (mut best, mut gave_up, mut shortest) = (None, false, None);
+    let mut longest = f64::INFINITY;
+    match search(limits, &[]).run().0 {
+        Found::Path(path, length) if length <= DETOUR * distance(ends[0], ends[1]) => return Ok(path),
+        Found::Path(path, length) => {
+            shortest = Some(sharp());
+            if let Some(Found::Path(_, least)) = shortest
+                && length <= DETOUR * least
+            {
+                return Ok(path);
+            }
+            (best, longest) = (Some(path), length);
+        }
+        Found::None => {}
+        Found::GaveUp => gave_up = true,
+    }
+    let mut left = if best.is_some() { WORK[0] } else { WORK[1] };
+    for wide in WIDE.chunks(1).chain([&SEVERAL[..]]) {
+        let work = left.min(WORK[0]);
+        let (found, rest) = search(limits, wide).within(longest, work).run();
+        left -= work - rest;
+        match found {
+            Found::Path(path, length) => (best, longest) = (Some(path), length),
             Found::None => {}
-            Found::GaveUp => return fail("there are too many ways to try; leave out obstacles that are out of the way".into()),
+            Found::GaveUp => gave_up = true,
         }
     }
-    // Could it turn on the spot?
-    match search(limits.sharp(), &WIDE[..1]) {
-        Found::Path(path) => fail(explain(&path, scene, obstacles, limits)),
-        _ => {
-            fail(format!("every way is blocked: no polyline was found that keeps {:?} away from all obstacles", scene.clearance))
-        }
+    if let Some(path) = best {
+        return Ok(path);
+    }
+    let beyond = if gave_up { "; the search gave up before it had tried all, so there may be one" } else { "" };
+    match shortest.unwrap_or_else(sharp) {
+        Found::Path(path, _) => fail(explain(&path, scene, obstacles, limits) + beyond),
+        _ => fail(format!(
+            "no path was found, though obstacles grown by the clearance {:?} do not part `start` from `goal`: \
+             a way is too narrow for doubles so far from the origin, or has too many turns{beyond}",
+            scene.clearance
+        )),
     }
 }
 
@@ -298,7 +339,7 @@ fn explain(path: &[Place], scene: &Scene, obstacles: &Obstacles, limits: Limits)
     let (at, angle, most) = (place.at, turn.angle().to_degrees(), scene.greatest_curvature);
     format!(
         "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature {most:?} {why}; \
-         allow more curvature or less clearance"
+         allow more curvature"
     )
 }
 

@@ -17,7 +17,7 @@ pub struct Side {
     /// The obstacle.
     pub obstacle: usize,
     /// Index of the vertex where it starts, in the ring without repeated vertices.
-    index: usize,
+    pub index: usize,
 }
 
 impl RTreeObject for Side {
@@ -60,6 +60,11 @@ impl Obstacles {
         Ok(Obstacles { rings, ..obstacles })
     }
 
+    /// All sides.
+    pub fn sides(&self) -> impl Iterator<Item = &Side> {
+        self.tree.iter()
+    }
+
     /// Sides that may be within a distance of a segment: all that are, and some more.
     pub fn near(&self, segment: [Point; 2], within: f64) -> impl Iterator<Item = &Side> {
         self.tree.locate_with_selection_function(Near { segment, within })
@@ -100,7 +105,9 @@ impl Obstacles {
 
 /// The vertices, without those that repeat their predecessor.
 fn ring(i: usize, polygon: &[Point]) -> Result<Vec<Point>> {
-    crate::path::finite("plan", &format!("obstacles[{i}]"), polygon.as_flattened())?;
+    for (j, vertex) in polygon.iter().enumerate() {
+        crate::path::finite("plan", &format!("obstacles[{i}][{j}]"), vertex)?;
+    }
     let mut ring = polygon.to_vec();
     ring.dedup();
     while ring.len() > 1 && ring.first() == ring.last() {

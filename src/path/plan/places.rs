@@ -11,6 +11,8 @@ const SHARPEST: f64 = 0.1;
 /// The turn at a vertex is also cut into this many, each above 20 degrees.
 const PARTS: i32 = 2;
 const LEAST_PART: f64 = 0.35;
+/// The turn at a vertex sharper than this is cut further off, too.
+const SHARP: f64 = 2.1;
 
 /// Bends below this are gentle.
 const GENTLE: f64 = 0.26;
@@ -30,6 +32,8 @@ pub struct Place {
     pub at: Point,
     /// The vertex that it turns around; none at start and goal.
     pub vertex: Option<Vertex>,
+    /// Whether it is further off than the turn needs: then lines may lead there that only begin beside the sides around the vertex.
+    pub wide: bool,
 }
 
 impl Place {
@@ -49,6 +53,7 @@ impl Place {
         };
         let (here, walls) = (across(vertex), [wall(before), wall(after)]);
         match here {
+            _ if self.wide && here != 0.0 => Some(if here > 0.0 { 1 } else { -1 }),
             _ if here > 0.0 && walls.iter().all(|w| *w >= 0.0) => Some(1),
             _ if here < 0.0 && walls.iter().all(|w| *w <= 0.0) => Some(-1),
             _ => None,
@@ -104,7 +109,8 @@ fn beside(vertex: Vertex, keep: f64, most: f64, wide: f64) -> Vec<Place> {
     let Some(whole) = Turn::new(incoming, outgoing) else { return vec![] };
     let (angle, first) = (whole.angle(), incoming[1].atan2(incoming[0]) - std::f64::consts::FRAC_PI_2);
 
-    let parts = (1..=if wide > 0.0 { 1 } else { PARTS }).map(|parts| (f64::from(parts), angle / f64::from(parts)));
+    let most_parts = if wide > 0.0 && angle < SHARP { 1 } else { PARTS };
+    let parts = (1..=most_parts).map(|parts| (f64::from(parts), angle / f64::from(parts)));
     let offset = |(parts, part): (f64, f64)| {
         let turn = Turn::new([1.0, 0.0], [part.cos(), part.sin()])?;
         let fair = (0.5 * part).cos() > SHARPEST && (parts == 1.0 || part > LEAST_PART);
@@ -115,7 +121,7 @@ fn beside(vertex: Vertex, keep: f64, most: f64, wide: f64) -> Vec<Place> {
     let points = |(parts, part, far): (f64, f64, f64)| {
         (0..parts as i32).map(move |i| {
             let direction = first + part * (f64::from(i) + 0.5);
-            Place { at: [at[0] + far * direction.cos(), at[1] + far * direction.sin()], vertex: Some(vertex) }
+            Place { at: [at[0] + far * direction.cos(), at[1] + far * direction.sin()], vertex: Some(vertex), wide: wide > 0.0 }
         })
     };
     parts.filter_map(offset).flat_map(points).collect()

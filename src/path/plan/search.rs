@@ -6,11 +6,17 @@ use super::places::Place;
 use super::proof::{Clearance, clearance};
 use crate::path::Turn;
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::BinaryHeap;
 use std::rc::Rc;
 
-/// Legs looked at, at most.
+/// Legs found in one search, at most.
 const LEGS: usize = 1_000_000;
+/// A leg found takes as long as so many looks from one place to another.
+const LEG: usize = 4;
+/// And a corner curve that is looked at.
+const CURVE: usize = 20;
+/// Places this nearly on a line are passed without turning there: sine of the angle.
+const STRAIGHT: f64 = 1e-9;
 /// Corner curves take no more of a leg than this; between them remains a straight piece.
 pub const ROOM: f64 = 0.999;
 const START: usize = 0;
@@ -66,8 +72,8 @@ pub enum Why {
 /// How the search ended.
 #[derive(Debug)]
 pub enum Found {
-    /// Places from start to goal.
-    Path(Vec<Place>),
+    /// Places from start to goal, and the length of the polyline.
+    Path(Vec<Place>, f64),
     /// There is none.
     None,
     /// Not to the end.
@@ -86,6 +92,8 @@ struct Seen {
 /// A leg reached by some path.
 struct Leg {
     places: [usize; 2],
+    /// Index of its end among what its start sees.
+    index: usize,
     length: f64,
     /// On which side of the leg the vertex at its end is.
     side: i8,
@@ -128,35 +136,53 @@ pub struct Search<'o> {
     places: Vec<Place>,
     seen: Vec<Option<Rc<[Seen]>>>,
     legs: Vec<Leg>,
-    /// How much of a leg the turn at its start took, for legs looked at.
-    taken: HashMap<[usize; 2], f64>,
+    /// How much of a leg the turn at its start took, for legs looked at, by their start and index.
+    taken: Vec<Vec<f64>>,
     heap: BinaryHeap<Waiting>,
+    /// Longer paths are not wanted.
+    longest: f64,
+    /// Looks and legs left.
+    work: usize,
 }
 
 impl<'o> Search<'o> {
     pub fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
         let free = |place: &Place| place.at.iter().all(|x| x.is_finite()) && is_clear(obstacles, [place.at; 2], limits.keep);
-        let ends = ends.map(|at| Place { at, vertex: None }).into_iter();
+        let ends = ends.map(|at| Place { at, vertex: None, wide: false }).into_iter();
         let places: Vec<Place> = ends.chain(beside.into_iter().filter(free)).collect();
         let seen = vec![None; places.len()];
-        Search { obstacles, limits, places, seen, legs: vec![], taken: HashMap::new(), heap: BinaryHeap::new() }
+        let taken = vec![vec![]; places.len()];
+        let (legs, heap) = (vec![], BinaryHeap::new());
+        Search { obstacles, limits, places, seen, legs, taken, heap, longest: f64::INFINITY, work: usize::MAX }
+    }
+
+    /// Only paths shorter than this, and not for ever.
+    pub fn within(self, longest: f64, work: usize) -> Search<'o> {
+        Search { longest, work, ..self }
     }
 
     /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than before.
-    pub fn run(mut self) -> Found {
+    ///
+    /// Also tells how much work is left.
+    pub fn run(mut self) -> (Found, usize) {
+        let found = self.find();
+        (found, self.work)
+    }
+
+    fn find(&mut self) -> Found {
         self.extend(None);
         while let Some(Waiting { leg, .. }) = self.heap.pop() {
-            if self.legs.len() > LEGS {
+            if self.legs.len() > LEGS || self.work == 0 {
                 return Found::GaveUp;
             }
-            let Leg { places, turn, .. } = self.legs[leg];
+            let Leg { places, index, turn, path, .. } = self.legs[leg];
             let takes = turn.map_or(0.0, |(_, reach)| reach);
-            if self.taken.get(&places).is_some_and(|least| *least <= takes) || self.breaches(places[0], turn) {
+            if self.taken[places[0]][index] <= takes || self.breaches(places[0], turn) {
                 continue;
             }
-            self.taken.insert(places, takes);
+            self.taken[places[0]][index] = takes;
             if places[1] == GOAL {
-                return Found::Path(self.path(leg));
+                return Found::Path(self.path(leg), path);
             }
             self.extend(Some(leg));
         }
@@ -164,14 +190,15 @@ impl<'o> Search<'o> {
     }
 
     /// Whether the curve at the start of a leg comes too near to something.
-    fn breaches(&self, place: usize, turn: Option<(Turn, f64)>) -> bool {
+    fn breaches(&mut self, place: usize, turn: Option<(Turn, f64)>) -> bool {
+        self.work = self.work.saturating_sub(CURVE);
         turn.is_some_and(|(turn, reach)| self.limits.breach(&turn, self.places[place].at, reach, self.obstacles).is_some())
     }
 
     /// All legs that go on from a leg, or from the start.
     fn extend(&mut self, before: Option<usize>) {
         let from = before.map_or(START, |leg| self.legs[leg].places[1]);
-        for seen in self.seen_from(from).iter() {
+        for (index, seen) in self.seen_from(from).iter().enumerate() {
             let turn = match before {
                 None => None,
                 Some(leg) => match self.turn(leg, seen) {
@@ -180,12 +207,14 @@ impl<'o> Search<'o> {
                 },
             };
             let takes = turn.map_or(0.0, |(_, reach)| reach);
-            if self.taken.get(&[from, seen.place]).is_some_and(|least| *least <= takes) {
+            let path = before.map_or(0.0, |leg| self.legs[leg].path) + seen.length;
+            let bound = path + self.to_goal(seen.place);
+            if self.taken[from][index] <= takes || bound >= self.longest {
                 continue;
             }
-            let path = before.map_or(0.0, |leg| self.legs[leg].path) + seen.length;
-            let leg = Leg { places: [from, seen.place], length: seen.length, side: seen.there, turn, path, before };
-            self.heap.push(Waiting { bound: path + self.to_goal(seen.place), leg: self.legs.len() });
+            let leg = Leg { places: [from, seen.place], index, length: seen.length, side: seen.there, turn, path, before };
+            self.work = self.work.saturating_sub(LEG);
+            self.heap.push(Waiting { bound, leg: self.legs.len() });
             self.legs.push(leg);
         }
     }
@@ -200,7 +229,7 @@ impl<'o> Search<'o> {
         let [a, b, c] = [from, at, next.place].map(|i| self.places[i].at);
         let (incoming, outgoing) = (minus(b, a), minus(c, b));
         let bend = incoming[0] * outgoing[1] - incoming[1] * outgoing[0];
-        if next.here != side || bend * f64::from(side) <= 0.0 {
+        if next.here != side || bend * f64::from(side) <= STRAIGHT * length * next.length {
             return None;
         }
         let turn = Turn::new(incoming, outgoing)?;
@@ -222,6 +251,8 @@ impl<'o> Search<'o> {
             clear.then_some(seen)
         };
         let seen: Rc<[Seen]> = self.places.iter().enumerate().skip(GOAL).filter_map(look).collect();
+        self.work = self.work.saturating_sub(self.places.len());
+        self.taken[from] = vec![f64::INFINITY; seen.len()];
         self.seen[from] = Some(seen.clone());
         seen
     }
