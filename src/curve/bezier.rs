@@ -32,8 +32,7 @@ impl CubicBezier {
     /// # Source
     /// Habib & Sakai, (3.3).
     pub fn from_ratios(phi0: f64, phi1: f64, f0: f64, f1: f64) -> CubicBezier {
-        let third = 2.0 / (3.0 * (phi0 + phi1).sin());
-        let (h0, h1) = (third * phi1.sin() * f0, third * phi0.sin() * f1);
+        let [h0, h1] = outer_legs(phi0, phi1, f0, f1);
         CubicBezier {
             p: [[-1.0, 0.0], [-1.0 + h0 * phi0.cos(), -h0 * phi0.sin()], [1.0 - h1 * phi1.cos(), -h1 * phi1.sin()], [1.0, 0.0]],
         }
@@ -50,11 +49,9 @@ impl CubicBezier {
     /// Habib & Sakai, (3.3), (3.4).
     pub fn legs(datum: &Datum, f0: f64, f1: f64) -> [[f64; 2]; 3] {
         let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
-        let sine = (phi0 + phi1).sin();
-        let third = 2.0 / (3.0 * sine);
-        let (h0, h1) = (third * phi1.sin() * f0, third * phi0.sin() * f1);
+        let [h0, h1] = outer_legs(phi0, phi1, f0, f1);
         // κ0 = 2/3 (p1 - p0) × (p2 - p1) / |p1 - p0|³.
-        let [g0, g1] = [kappa1 * h1 * h1, kappa0 * h0 * h0].map(|x| 1.5 * x / sine);
+        let [g0, g1] = [kappa1 * h1 * h1, kappa0 * h0 * h0].map(|x| 1.5 * x / (phi0 + phi1).sin());
         let (along0, along1) = ([phi0.cos(), -phi0.sin()], [phi1.cos(), phi1.sin()]);
         [scale(along0, h0), add(scale(along0, g0), scale(along1, g1)), scale(along1, h1)]
     }
@@ -103,4 +100,10 @@ impl CubicBezier {
     pub fn curvature_extrema(&self) -> Vec<f64> {
         extrema::curvature_extrema(&self.p)
     }
+}
+
+/// Lengths of the outer sides of the control polygon.
+fn outer_legs(phi0: f64, phi1: f64, f0: f64, f1: f64) -> [f64; 2] {
+    let third = 2.0 / (3.0 * (phi0 + phi1).sin());
+    [third * phi1.sin() * f0, third * phi0.sin() * f1]
 }

@@ -1,13 +1,12 @@
 //! Paths that bend as little as possible: both minimisations of section 6, by branch and bound.
 
+use super::queue::Queue;
 use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::ph_path::{Found, Search};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
 /// What a search may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -150,27 +149,6 @@ struct Region {
     least: f64,
 }
 
-impl PartialEq for Region {
-    fn eq(&self, other: &Region) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Region {}
-
-impl PartialOrd for Region {
-    fn partial_cmp(&self, other: &Region) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-/// The greatest is the one with the least bound.
-impl Ord for Region {
-    fn cmp(&self, other: &Region) -> Ordering {
-        other.least.total_cmp(&self.least)
-    }
-}
-
 impl Space {
     fn dimensions(&self) -> usize {
         if self.free == Free::Derivatives { 2 } else { 1 }
@@ -190,10 +168,12 @@ impl Space {
     fn least(&self, low: f64, high: f64) -> Option<(Found, f64)> {
         let refined = |(x, found)| self.refined(x, found, [low, high]);
         let mut best = self.scanned(low, high).map(refined);
-        let mut waiting = BinaryHeap::from([self.region([[low, high]; 2], 0.0)]);
+        let mut waiting = Queue::new();
+        let whole = self.region([[low, high]; 2], 0.0);
+        waiting.push(whole.least, whole);
         for _ in 0..MOST[self.dimensions() - 1] {
             let most = best.map_or(f64::INFINITY, |(_, found)| found.most);
-            let Some(region) = waiting.pop_if_below(most * (1.0 - TOLERANCE)) else { break };
+            let Some((_, region)) = waiting.pop_below(most * (1.0 - TOLERANCE)) else { break };
             for half in self.halves(&region) {
                 let middle = half.ranges.map(|[a, b]| 0.5 * (a + b));
                 if half.least >= most {
@@ -203,11 +183,11 @@ impl Space {
                 if half.ranges[..self.dimensions()].iter().any(|[a, b]| *b > 1.05 * a) {
                     best = lesser(best, self.at(middle).map(|found| (middle, found)));
                 }
-                waiting.push(half);
+                waiting.push(half.least, half);
             }
         }
         let (_, found) = best.map(refined)?;
-        let proved = waiting.peek().map_or(f64::INFINITY, |region| region.least);
+        let proved = waiting.least().unwrap_or(f64::INFINITY);
         Some((found, proved.min(found.most)))
     }
 
@@ -260,16 +240,5 @@ fn lesser(a: Option<([f64; 2], Found)>, b: Option<([f64; 2], Found)>) -> Option<
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.1.most < a.1.most { b } else { a }),
         (a, b) => a.or(b),
-    }
-}
-
-trait Waiting {
-    /// The region of the least bound, if that is below.
-    fn pop_if_below(&mut self, limit: f64) -> Option<Region>;
-}
-
-impl Waiting for BinaryHeap<Region> {
-    fn pop_if_below(&mut self, limit: f64) -> Option<Region> {
-        if self.peek().is_some_and(|region| region.least < limit) { self.pop() } else { None }
     }
 }

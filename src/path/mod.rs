@@ -10,6 +10,7 @@ mod equal;
 mod hermite;
 mod least_curvature;
 mod plan;
+mod queue;
 mod separation;
 mod spline;
 mod tridiagonal;
@@ -81,7 +82,11 @@ const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 /// How far the end of a span is from where its pre-image leads.
 fn mismatch(span: &PhQuintic) -> f64 {
     let end = PhQuintic::new(span.start, span.preimage).end;
-    (end[0] - span.end[0]).hypot(end[1] - span.end[1])
+    distance(end, span.end)
+}
+
+fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
+    (p[0] - q[0]).hypot(p[1] - q[1])
 }
 
 fn complex([re, im]: [f64; 2]) -> Complex64 {

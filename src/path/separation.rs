@@ -5,11 +5,10 @@
 //! the one with the least bound first, until the least separation is enclosed and the verdict certain. Where both move in step the
 //! second bound needs far fewer stretches than the first.
 
-use super::{ROUNDINGS, complex, finite, mismatch};
+use super::queue::Queue;
+use super::{ROUNDINGS, complex, distance, finite, mismatch};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
 /// Stretches at most.
 const STRETCHES: usize = 400_000;
@@ -177,31 +176,6 @@ pub struct Separation {
     pub closest: Closest,
 }
 
-/// A stretch of time, by its lower bound.
-struct Stretch {
-    bound: f64,
-    from: f64,
-    to: f64,
-}
-
-impl PartialEq for Stretch {
-    fn eq(&self, other: &Stretch) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Stretch {}
-impl PartialOrd for Stretch {
-    fn partial_cmp(&self, other: &Stretch) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Stretch {
-    /// The least bound is the greatest stretch, for it comes out of the heap first.
-    fn cmp(&self, other: &Stretch) -> Ordering {
-        other.bound.total_cmp(&self.bound)
-    }
-}
-
 /// Whether two vehicles keep a minimum distance, and how near they come.
 ///
 /// At all times: before its start time a vehicle stands at its start, and once it has arrived at its end.
@@ -219,7 +193,7 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
     }
     let mut events = [a.times(), b.times()].concat();
     events.sort_by(f64::total_cmp);
-    let mut search = Search { a, b, heap: BinaryHeap::new(), best: (f64::INFINITY, events[0], [[0.0; 2]; 2]) };
+    let mut search = Search { a, b, waiting: Queue::new(), best: (f64::INFINITY, events[0], [[0.0; 2]; 2]) };
     // Where one starts or arrives the least separation often is. In between both keep standing or moving.
     for time in &events {
         search.look(*time);
@@ -231,17 +205,17 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
     let tolerance = TOLERANCE * (a.size + b.size);
     let mut at_least = 0.0;
     for _ in 0..STRETCHES {
-        let Some(stretch) = search.heap.pop() else { break };
-        at_least = stretch.bound;
+        let Some((bound, [from, to])) = search.waiting.pop() else { break };
+        at_least = bound;
         let at_most = search.best.0;
         let decided = at_least >= minimum || at_most < minimum;
-        let middle = 0.5 * (stretch.from + stretch.to);
-        let halved = stretch.from < middle && middle < stretch.to;
+        let middle = 0.5 * (from + to);
+        let halved = from < middle && middle < to;
         if (decided && at_most - at_least <= tolerance) || !halved {
             break;
         }
-        search.add(stretch.from, middle);
-        search.add(middle, stretch.to);
+        search.add(from, middle);
+        search.add(middle, to);
     }
     let (at_most, time, points) = search.best;
     let verdict = match () {
@@ -264,7 +238,8 @@ pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<(usize, usize
 struct Search<'m> {
     a: &'m Motion,
     b: &'m Motion,
-    heap: BinaryHeap<Stretch>,
+    /// Stretches of time.
+    waiting: Queue<[f64; 2]>,
     /// Least upper bound, when, and where both are then.
     best: (f64, f64, [[f64; 2]; 2]),
 }
@@ -292,12 +267,8 @@ impl Search<'_> {
         let by_curvature = nearest(r, v, half) - bend - (a.velocity_off + b.velocity_off) * half;
         let bound = if by_curvature > by_speed { by_curvature } else { by_speed };
         // Distances and bounds themselves round, by less than the roundings in `off`.
-        self.heap.push(Stretch { bound: (bound - 2.0 * off).max(0.0), from, to });
+        self.waiting.push((bound - 2.0 * off).max(0.0), [from, to]);
     }
-}
-
-fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
-    (p[0] - q[0]).hypot(p[1] - q[1])
 }
 
 /// The least `|r + vτ|` for `|τ| <= half`.

@@ -5,8 +5,8 @@
 //! are pieces of w, from which σ is formed anew (where the curve is slow, |w| is small, and so are its errors), and of h, which is halved itself:
 //! from w on a short piece it would be a difference of almost equal products.
 
-use crate::num::Real;
 use crate::num::bernstein::halve;
+use crate::num::{Ball, Interval, Real};
 use num_complex::Complex64;
 use std::cmp::Ordering::{Greater, Less};
 
@@ -40,6 +40,15 @@ enum Compared {
     /// Halves may tell.
     Open,
     Hopeless,
+}
+
+/// Whether |κ| stays below `most` on a curve, proved; false also where that is not.
+pub(crate) fn bends_less(preimage: [[f64; 2]; 3], most: f64) -> bool {
+    fn proved<N: Real>(preimage: [[f64; 2]; 3], most: f64, bits: usize) -> bool {
+        let arc = Arc::new(preimage.map(|z| z.map(|x| N::of(x, bits))));
+        matches!(arc.below(&N::of(most, bits), false), Bound::Below)
+    }
+    proved::<Ball>(preimage, most, 53) || proved::<Interval>(preimage, most, 256)
 }
 
 /// `Re(conj(a) b)`.

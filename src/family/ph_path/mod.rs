@@ -11,6 +11,7 @@ mod straight;
 mod table;
 mod truth;
 
+pub(crate) use arc::bends_less;
 pub(crate) use range::{Found, Search};
 
 use super::{Answer, Chart, Count, Family, Flag, Scalar, Table};

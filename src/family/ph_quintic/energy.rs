@@ -6,6 +6,7 @@
 //! `(m + 1) y_{m+1} = -Σ c_j (m + 1 + 2j) y_{m+1-j}`. Other pieces are halved.
 
 use super::shape::Shape;
+use crate::num::bernstein::halve;
 use crate::num::{Number, Real};
 
 /// The energy times `Z / (4 sin² Φ)`; `None` when the precision does not suffice.
@@ -27,19 +28,6 @@ pub(super) fn energy<N: Real>(shape: &Shape<N>) -> Option<N> {
         waiting.push((s0, t0, depth + 1));
     }
     Some(sum)
-}
-
-/// Both halves (de Casteljau).
-fn halve<N: Number, const D: usize>(c: &[N; D]) -> ([N; D], [N; D]) {
-    let (mut left, mut right) = (c.clone(), c.clone());
-    for step in 1..D {
-        left[step - 1] = right[0].clone();
-        for i in 0..D - step {
-            right[i] = right[i].add(&right[i + 1]).times(0.5);
-        }
-    }
-    left[D - 1] = right[0].clone();
-    (left, right)
 }
 
 fn combine<N: Number, const D: usize>(b: &[N; D], by: [f64; D]) -> N {

@@ -9,16 +9,17 @@ mod proof;
 mod round;
 mod search;
 
-use super::{ROUNDINGS, Turn, finite};
+use super::{ROUNDINGS, Turn, distance, finite};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
+use crate::family::ph_path::bends_less;
 use obstacles::{Obstacles, to_segment};
 use parted::parted;
 use places::{Place, places};
 pub use proof::Clearance;
-use proof::{bends_less, clearance};
+use proof::clearance;
 use round::Polyline;
-use search::{Found, Limits, Search, Why, distance};
+use search::{Found, Limits, Search, Why};
 
 /// The clearance is enclosed to this share of the size of the scene.
 const TOLERANCE: f64 = 1e-9;
@@ -257,8 +258,8 @@ fn bounded(i: usize, span: &PhQuintic, most: f64) -> Result<f64> {
     let close = value * (1.0 + 1e-9);
     match () {
         () if value == 0.0 && span.turn_coefficients() == [0.0; 3] => Ok(0.0),
-        () if close <= most && bends_less(span, close) => Ok(close),
-        () if bends_less(span, most) => Ok(most),
+        () if close <= most && bends_less(span.preimage, close) => Ok(close),
+        () if bends_less(span.preimage, most) => Ok(most),
         () => fail(format!("span {i} has a curvature of {value:?}; the greatest allowed, {most:?}, is not proved")),
     }
 }

@@ -1,6 +1,7 @@
 //! Whether obstacles, grown by the clearance, part start from goal: exact up to rounding, and independent of curvature.
 
-use super::obstacles::{Obstacles, Side, between, cross, turn};
+use super::obstacles::{Obstacles, Side, along, between, cross, foot, meet, turn};
+use crate::path::distance;
 
 type Point = [f64; 2];
 
@@ -79,34 +80,18 @@ fn firsts(obstacles: &Obstacles) -> Vec<usize> {
 
 /// From the start of one side along it, over to another side, and along that to its start; none where they are too far apart.
 fn way(one: &Side, two: &Side, within: f64) -> Option<[Point; 4]> {
-    let ([a, b], [c, d]) = (one.ends, two.ends);
-    let steps = [(a, foot(a, [c, d])), (b, foot(b, [c, d])), (foot(c, [a, b]), c), (foot(d, [a, b]), d)];
-    let length = |(p, q): &(Point, Point)| (p[0] - q[0]).hypot(p[1] - q[1]);
+    let (one, two) = (one.ends, two.ends);
+    let nearest = |p: Point, side: [Point; 2]| along(side, foot(p, side));
+    let ([a, b], [c, d]) = (one, two);
+    let steps = [(a, nearest(a, two)), (b, nearest(b, two)), (nearest(c, one), c), (nearest(d, one), d)];
+    let length = |(p, q): &(Point, Point)| distance(*p, *q);
     let least = steps.into_iter().min_by(|x, y| length(x).total_cmp(&length(y)))?;
-    if cross([a, b], [c, d]) {
-        let at = meet([a, b], [c, d]).unwrap_or(least.0);
+    if cross(one, two) {
+        let share = meet(one, two).clamp(0.0, 1.0);
+        let at = if share.is_finite() { along(one, share) } else { least.0 };
         return Some([a, at, at, c]);
     }
-    (between([a, b], [c, d]) < within).then_some([a, least.0, least.1, c])
-}
-
-/// The point of a segment nearest to a point, about; its ends exactly.
-fn foot(p: Point, [a, b]: [Point; 2]) -> Point {
-    let (d, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let share = (d[0] * v[0] + d[1] * v[1]) / (d[0] * d[0] + d[1] * d[1]);
-    match share {
-        _ if share.is_nan() || share <= 0.0 => a,
-        _ if share >= 1.0 => b,
-        _ => [a[0] + share * d[0], a[1] + share * d[1]],
-    }
-}
-
-/// Where two segments cross, about; none where they are parallel.
-fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
-    let (p, q, r) = ([b[0] - a[0], b[1] - a[1]], [d[0] - c[0], d[1] - c[1]], [c[0] - a[0], c[1] - a[1]]);
-    let share = (r[0] * q[1] - r[1] * q[0]) / (p[0] * q[1] - p[1] * q[0]);
-    let share = share.clamp(0.0, 1.0);
-    share.is_finite().then(|| [a[0] + share * p[0], a[1] + share * p[1]])
+    (between(one, two) < within).then_some([a, least.0, least.1, c])
 }
 
 /// Whether a segment leads across the one between the ends. Points on their line count as right of it, so the loops that this counts for may

@@ -1,7 +1,7 @@
 //! Where a path may have its corners: beside the convex vertices of obstacles.
 
 use super::minus;
-use super::obstacles::Obstacles;
+use super::obstacles::{Obstacles, along, meet};
 use crate::path::Turn;
 
 type Point = [f64; 2];
@@ -86,20 +86,14 @@ fn convex(obstacle: usize, ring: &[Point]) -> Vec<Vertex> {
             sum += bend(last);
         }
         let (before, after) = (at(first + n - 1), at(last + 1));
-        let corner = if first == last { at(first) } else { meet([before, at(first)], [after, at(last)]) };
+        let sides = [[before, at(first)], [after, at(last)]];
+        let corner = if first == last { at(first) } else { along(sides[0], meet(sides[0], sides[1])) };
         if sum > 0.0 {
             all.push(Vertex { at: corner, obstacle, before, after });
         }
         first = last + 1;
     }
     all
-}
-
-/// Where two lines meet.
-fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Point {
-    let ([p, q], r) = ([minus(b, a), minus(d, c)], minus(c, a));
-    let share = (r[0] * q[1] - r[1] * q[0]) / (p[0] * q[1] - p[1] * q[0]);
-    [a[0] + share * p[0], a[1] + share * p[1]]
 }
 
 /// The corners of the offset polygon: one, and those that cut it off in two and three.

@@ -1,12 +1,9 @@
-//! What is proved of a path, whoever made it: its clearance from obstacles and a bound of its curvature.
+//! The clearance of a path from obstacles, whoever made it.
 
 use super::obstacles::{Obstacles, between, to_segment};
 use crate::curve::PhQuintic;
-use crate::num::bernstein::{MOST_HALVINGS, positive};
-use crate::num::{Ball, Interval, Real};
+use crate::path::queue::Queue;
 use crate::path::{ROUNDINGS, mismatch};
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
 /// Pieces at most.
 const PIECES: usize = 200_000;
@@ -24,30 +21,11 @@ pub struct Clearance {
     pub obstacle: usize,
 }
 
-/// A piece of a span, by the lower bound of its distance.
+/// A piece of a span.
 struct Piece {
-    bound: f64,
     span: usize,
     from: f64,
     to: f64,
-}
-
-impl PartialEq for Piece {
-    fn eq(&self, other: &Piece) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Piece {}
-impl PartialOrd for Piece {
-    fn partial_cmp(&self, other: &Piece) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Piece {
-    /// The least bound is the greatest piece, for it comes out of the heap first.
-    fn cmp(&self, other: &Piece) -> Ordering {
-        other.bound.total_cmp(&self.bound)
-    }
 }
 
 /// What is known of a span before it is cut.
@@ -76,7 +54,8 @@ impl Span {
 struct Search<'o> {
     spans: Vec<Span>,
     obstacles: &'o Obstacles,
-    heap: BinaryHeap<Piece>,
+    /// By the lower bounds of their distances.
+    waiting: Queue<Piece>,
     best: Clearance,
 }
 
@@ -89,15 +68,15 @@ pub fn clearance(spans: &[PhQuintic], obstacles: &Obstacles, wanted: f64, tolera
     let spans: Vec<Span> = spans.iter().map(|curve| Span::new(curve, obstacles.size)).collect();
     let count = spans.len();
     let best = Clearance { at_least: 0.0, at_most: f64::INFINITY, point: [0.0; 2], obstacle: 0 };
-    let mut search = Search { spans, obstacles, heap: BinaryHeap::new(), best };
+    let mut search = Search { spans, obstacles, waiting: Queue::new(), best };
     for span in 0..count {
         [0.0, 0.5, 1.0].into_iter().for_each(|t| search.look(span, t));
     }
     (search.best.at_most < f64::INFINITY).then_some(())?;
     (0..count).for_each(|span| search.add(span, 0.0, 1.0));
     for _ in 0..PIECES {
-        let Some(piece) = search.heap.pop() else { break };
-        search.best.at_least = piece.bound;
+        let Some((bound, piece)) = search.waiting.pop() else { break };
+        search.best.at_least = bound;
         let Clearance { at_least, at_most, .. } = search.best;
         let middle = 0.5 * (piece.from + piece.to);
         let fine = at_least >= wanted && at_most - at_least <= tolerance;
@@ -133,51 +112,6 @@ impl Search<'_> {
         let within = self.best.at_most + bend;
         let near = self.obstacles.near(chord, within).map(|side| between(chord, side.ends));
         let bound = (near.fold(within, f64::min) - bend - 2.0 * slack).max(0.0);
-        self.heap.push(Piece { bound, span, from, to });
+        self.waiting.push(bound, Piece { span, from, to });
     }
-}
-
-/// Whether `|κ| < most` throughout, proved; false also where it is not.
-///
-/// `most σ² ± h`, of degree 8, is positive.
-pub fn bends_less(curve: &PhQuintic, most: f64) -> bool {
-    let less = |positive: Option<bool>| positive == Some(true);
-    less(margins::<Ball>(curve, most, 53)) || less(margins::<Interval>(curve, most, 256))
-}
-
-fn margins<N: Real>(curve: &PhQuintic, most: f64, bits: usize) -> Option<bool> {
-    let w = curve.preimage.map(|z| z.map(|x| N::of(x, bits)));
-    let re = |i: usize, j: usize| w[i][0].mul(&w[j][0]).add(&w[i][1].mul(&w[j][1]));
-    let im = |i: usize, j: usize| w[i][0].mul(&w[j][1]).sub(&w[i][1].mul(&w[j][0]));
-    let middle = re(1, 1).times(2.0).add(&re(0, 2)).over(&N::of(3.0, bits))?;
-    let speed = [re(0, 0), re(0, 1), middle, re(1, 2), re(2, 2)];
-    let turn = [im(0, 1).times(4.0), im(0, 2).times(2.0), im(1, 2).times(4.0)];
-    let one = N::of(1.0, bits);
-    let ones: [N; 7] = std::array::from_fn(|_| one.clone());
-    let (square, turn) = (product(&speed, &speed)?, product(&turn, &ones)?);
-    for sign in [1.0, -1.0] {
-        let room: [N; 9] = std::array::from_fn(|i| square[i].times(most).add(&turn[i].times(sign)));
-        if positive(&room, 0.0, 0.0, MOST_HALVINGS) != Some(true) {
-            return Some(false);
-        }
-    }
-    Some(true)
-}
-
-/// Bernstein coefficients, of degree 8, of the product of two polynomials in that form.
-fn product<N: Real>(a: &[N], b: &[N]) -> Option<[N; 9]> {
-    let (m, n) = (a.len() - 1, b.len() - 1);
-    let zero = a[0].sub(&a[0]);
-    let mut all = std::array::from_fn(|_| zero.clone());
-    for (k, sum) in all.iter_mut().enumerate() {
-        for i in k.saturating_sub(n)..=k.min(m) {
-            *sum = sum.add(&a[i].mul(&b[k - i]).times(choose(m, i) * choose(n, k - i)));
-        }
-        *sum = sum.over(&N::of(choose(8, k), a[0].bits()))?;
-    }
-    Some(all)
-}
-
-fn choose(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |c, i| c * (n - i) as f64 / (i + 1) as f64)
 }

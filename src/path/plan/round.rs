@@ -1,10 +1,10 @@
 //! From a polyline to a smooth path: how far each corner curve reaches, and the spans.
 
 use super::obstacles::Obstacles;
-use super::search::{Limits, ROOM, distance};
+use super::search::{Limits, ROOM};
 use crate::curve::PhQuintic;
 use crate::error::Result;
-use crate::path::Turn;
+use crate::path::{Turn, distance};
 
 /// Halvings in search of the largest reach that is clear.
 const HALVINGS: usize = 12;

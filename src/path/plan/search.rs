@@ -4,9 +4,8 @@ use super::minus;
 use super::obstacles::{Obstacles, between};
 use super::places::Place;
 use super::proof::{Clearance, clearance};
-use crate::path::Turn;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use crate::path::queue::Queue;
+use crate::path::{Turn, distance};
 use std::rc::Rc;
 
 /// Legs found in one search, at most.
@@ -105,30 +104,6 @@ struct Leg {
     before: Option<usize>,
 }
 
-/// A leg by the least length of a path through it.
-struct Waiting {
-    bound: f64,
-    leg: usize,
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Waiting) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Waiting {}
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Waiting) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Waiting {
-    /// The shortest comes first, of equals the one found first.
-    fn cmp(&self, other: &Waiting) -> Ordering {
-        other.bound.total_cmp(&self.bound).then(other.leg.cmp(&self.leg))
-    }
-}
-
 pub struct Search<'o> {
     obstacles: &'o Obstacles,
     limits: Limits,
@@ -138,7 +113,8 @@ pub struct Search<'o> {
     legs: Vec<Leg>,
     /// How much of a leg the turn at its start took, for legs looked at, by their start and index.
     taken: Vec<Vec<f64>>,
-    heap: BinaryHeap<Waiting>,
+    /// Legs by the least length of a path through them.
+    waiting: Queue<usize>,
     /// Longer paths are not wanted.
     longest: f64,
     /// Looks and legs left.
@@ -152,8 +128,8 @@ impl<'o> Search<'o> {
         let places: Vec<Place> = ends.chain(beside.into_iter().filter(free)).collect();
         let seen = vec![None; places.len()];
         let taken = vec![vec![]; places.len()];
-        let (legs, heap) = (vec![], BinaryHeap::new());
-        Search { obstacles, limits, places, seen, legs, taken, heap, longest: f64::INFINITY, work: usize::MAX }
+        let (legs, waiting) = (vec![], Queue::new());
+        Search { obstacles, limits, places, seen, legs, taken, waiting, longest: f64::INFINITY, work: usize::MAX }
     }
 
     /// Only paths shorter than this, and not for ever.
@@ -171,7 +147,7 @@ impl<'o> Search<'o> {
 
     fn find(&mut self) -> Found {
         self.extend(None);
-        while let Some(Waiting { leg, .. }) = self.heap.pop() {
+        while let Some((_, leg)) = self.waiting.pop() {
             if self.legs.len() > LEGS || self.work == 0 {
                 return Found::GaveUp;
             }
@@ -214,7 +190,7 @@ impl<'o> Search<'o> {
             }
             let leg = Leg { places: [from, seen.place], index, length: seen.length, side: seen.there, turn, path, before };
             self.work = self.work.saturating_sub(LEG);
-            self.heap.push(Waiting { bound, leg: self.legs.len() });
+            self.waiting.push(bound, self.legs.len());
             self.legs.push(leg);
         }
     }
@@ -269,8 +245,4 @@ impl<'o> Search<'o> {
 /// Whether a segment keeps a distance from all sides, about.
 pub fn is_clear(obstacles: &Obstacles, segment: [[f64; 2]; 2], keep: f64) -> bool {
     obstacles.near(segment, keep).all(|side| between(segment, side.ends) >= keep)
-}
-
-pub fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
-    (p[0] - q[0]).hypot(p[1] - q[1])
 }
