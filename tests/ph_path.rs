@@ -133,6 +133,31 @@ fn speeds_agree_with_sampling() {
     assert!(kinds[1..].iter().all(|k| *k > 5 && u64::from(*k) < count - 5) && quick * 10 > count * 7, "{kinds:?} {quick}");
 }
 
+/// Both ends of such curves bend alike to the last bit of doubles, and beyond.
+#[test]
+fn neighbours_of_symmetric_data_are_decided() {
+    let mut random = Random(5);
+    let step = |x: f64, i: u64| match i % 5 {
+        0 => x,
+        1 => x.next_up(),
+        2 => x.next_down(),
+        3 => x * (1.0 + 1e-15),
+        _ => x * (1.0 - 1e-14),
+    };
+    let mut slow = 0;
+    for i in 0..120 {
+        let first = random.uniform(-3.1, 3.1);
+        let second = step(if i % 2 == 0 { first } else { -first }, i / 2);
+        let size = random.decades(-1.0, 0.7);
+        let other = step(size, i / 10);
+        slow += u32::from(!node(LENGTH, &[first, second, 1.0 + size]).quick);
+        slow += u32::from(!node(SPEEDS, &[first, second, size, other]).quick);
+    }
+    assert!(slow > 30, "{slow}");
+    // From whole degrees by steps of ninety 37ths.
+    node(LENGTH, &[1.3962634015954634, -1.3962634015954636, 1.05]);
+}
+
 #[test]
 fn the_comparison_can_fail() {
     let datum = [0.4, 0.9, 1.3];

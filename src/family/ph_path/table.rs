@@ -21,8 +21,7 @@ impl<'g> PathTable<'g> {
     pub fn new(kind: Kind, grid: &'g Grid) -> Result<PathTable<'g>> {
         chart_of(&PhPath(kind), grid)?;
         for (which, axis) in grid.axes().iter().enumerate() {
-            check(kind, which, axis.values()[0])?;
-            check(kind, which, axis.values()[axis.values().len() - 1])?;
+            axis.values().iter().try_for_each(|value| check(kind, which, *value))?;
         }
         Ok(PathTable { kind, grid })
     }

@@ -158,8 +158,8 @@ fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
     if !ends.contains(&seen.at) && over_both(seen.at)? {
         return Some(true);
     }
-    // The greater end; that it is the greater one is proved with the rest.
-    let turned = !seen.curve.folded && at(1.0)?.approx() > at(0.0)?.approx();
+    // The greater end, which may be greater by far less than doubles tell; that it is the greater one is proved with the rest.
+    let turned = !seen.curve.folded && at(1.0)?.sub(&at(0.0)?).approx() > 0.0;
     let part = if turned { seen.part.clone().reversed() } else { seen.part.clone() };
     match part.below(&part.curvature(&N::of(0.0, bits))?, true) {
         Bound::Below => Some(false),
