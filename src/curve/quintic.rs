@@ -304,7 +304,7 @@ impl PhQuintic {
 
     /// The roots of w that are finite.
     fn roots(&self) -> Vec<Complex64> {
-        let [c, w1, w2] = complex(&self.preimage);
+        let [c, w1, w2] = complex(&self.scaled().0.preimage);
         let (a, b) = ((w2 - w1) - (w1 - c), w1 - c);
         let root = (b * b - a * c).sqrt();
         // The sum that does not cancel.
@@ -326,9 +326,14 @@ impl PhQuintic {
         let middle = re(1, 1).times(2.0).add(&re(0, 2)).over(&N::of(3.0, bits))?;
         let speed = [re(0, 0), re(0, 1), middle, re(1, 2), re(2, 2)];
         let turn = [im(0, 1).times(4.0), im(0, 2).times(2.0), im(1, 2).times(4.0)];
-        let energy = energy_integral(speed, turn)?;
+        // The square of a small h would leave the range of doubles, so h is scaled to size 1 by powers of 2 that are doubles themselves.
+        let most = turn.iter().fold(f64::MIN_POSITIVE, |most, h| h.most().max(most));
+        let half = most.log2().floor() * 0.5;
+        let (first, last) = (half.floor().exp2(), half.ceil().exp2());
+        let energy = energy_integral(speed, turn.map(|h| h.times(1.0 / first).times(1.0 / last)))?;
         let value = energy.approx();
-        (value.is_finite() && energy.sub(&energy.middle()).most() <= 2f64.powi(-40) * value).then_some(value)
+        let known = value.is_finite() && energy.sub(&energy.middle()).most() <= 2f64.powi(-40) * value;
+        known.then_some(value * first * last * first * last)
     }
 }
 
@@ -358,7 +363,12 @@ fn changes(c: &[f64]) -> Vec<f64> {
 
 /// Twice the angles under which the roots see the way from `a` to `b`.
 fn turned(roots: &[Complex64], a: f64, b: f64) -> f64 {
-    let angle = |z: &Complex64| ((b - z) * (a - z).conj()).arg();
+    // Of (b - z) conj(a - z), scaled so that the squares of large roots stay in range.
+    let angle = |z: &Complex64| {
+        let size = z.re.abs().max(z.im.abs()).max(1.0);
+        let across = z.im / size;
+        (across * ((b - a) / size)).atan2((b - z.re) / size * ((a - z.re) / size) + across * across)
+    };
     2.0 * roots.iter().filter(|z| z.im != 0.0).map(angle).sum::<f64>()
 }
 
