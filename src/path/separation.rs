@@ -16,7 +16,7 @@ const STRETCHES: usize = 400_000;
 const FIRST: usize = 64;
 /// Directions that differ by no more where spans join are a matter of rounding.
 const SMOOTH: f64 = 1e-6;
-/// The least separation is enclosed to this share of the size of the scene, or as rounding allows.
+/// The least separation is enclosed to this share of the greatest length and coordinate, or as rounding allows.
 const TOLERANCE: f64 = 1e-10;
 
 /// A vehicle on its way.
@@ -31,6 +31,8 @@ pub struct Motion {
     acceleration: f64,
     /// Bound of what its direction changes by where spans join, all together.
     kinks: f64,
+    /// Its length or its largest coordinate.
+    extent: f64,
     /// Bound of its coordinates, lengths and legs.
     size: f64,
     /// How far the end of a span is from where its pre-image leads.
@@ -89,7 +91,7 @@ impl Motion {
         let sizes = |s: &PhQuintic| s.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
         let size = far + length + spans.iter().map(sizes).fold(0.0, f64::max);
         let mismatch = spans.iter().map(mismatch).fold(0.0, f64::max);
-        Ok(Motion { spans, lengths, speed, start_time, acceleration, kinks, size, mismatch })
+        Ok(Motion { spans, lengths, speed, start_time, acceleration, kinks, extent: far.max(length), size, mismatch })
     }
 
     /// Length of the path.
@@ -202,7 +204,7 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
         let time = |i: usize| if i == FIRST { w[1] } else { w[0] + (w[1] - w[0]) * (i as f64 / FIRST as f64) };
         (0..FIRST).for_each(|i| search.add(time(i), time(i + 1)));
     }
-    let tolerance = TOLERANCE * (a.size + b.size);
+    let tolerance = TOLERANCE * a.extent.max(b.extent);
     let mut at_least = 0.0;
     for _ in 0..STRETCHES {
         let Some((bound, [from, to])) = search.waiting.pop() else { break };
