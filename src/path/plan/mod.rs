@@ -3,6 +3,7 @@
 //! Places beside the vertices of obstacles, visibility, the search and the rounding are guesses; [`prove`] has the last word.
 
 mod obstacles;
+mod open;
 mod parted;
 mod places;
 mod proof;
@@ -14,6 +15,7 @@ use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::ph_path::bends_less;
 use obstacles::{Obstacles, to_segment};
+use open::open;
 use parted::parted;
 use places::{Place, places};
 pub use proof::Clearance;
@@ -27,11 +29,13 @@ const TOLERANCE: f64 = 1e-9;
 const LEAST_REACH: f64 = 1e-9;
 /// Scenes within which no square leaves the range of doubles.
 const SIZES: [f64; 2] = [1e-100, 1e100];
-/// How much further off places are, in least radii, where those beside vertices give no path: one distance after the other, then several.
+/// How much further off places are, in least radii, where those beside vertices and in the open give no path: one distance after the other,
+/// then several.
 const WIDE: [f64; 12] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 const SEVERAL: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
-/// Work for each of them and for all together: some seconds.
-const WORK: [usize; 2] = [1_000_000, 8_000_000];
+/// Work for all searches but the first, some seconds, and for those after there is a path.
+const WORK: usize = 8_000_000;
+const MORE: usize = 1_000_000;
 /// Paths this much longer than without a limit of curvature are detours: then there may be shorter ones further off.
 const DETOUR: f64 = 2.0;
 
@@ -56,10 +60,10 @@ pub struct Scene {
 pub struct Corner {
     /// The corner of the polyline.
     pub at: [f64; 2],
-    /// The obstacle that it leads around, and a vertex of it.
-    pub obstacle: usize,
-    /// That vertex; for a gentle bend of several, where the sides around it would meet.
-    pub vertex: [f64; 2],
+    /// The obstacle that it leads around; nothing for one in the open, where the path only needs room to turn.
+    pub obstacle: Option<usize>,
+    /// The vertex of that obstacle; for a gentle bend of several, where the sides around it would meet.
+    pub vertex: Option<[f64; 2]>,
     /// Turning angle, radians, positive to the left.
     pub turning_angle: f64,
     /// Distance from the corner to the ends of its curve.
@@ -159,7 +163,7 @@ impl Scene {
 ///
 /// Each corner stands where the sharpest turn around its vertex would keep the clearance at the greatest curvature, or a part of that turn.
 /// Its curve is then as large as its legs and the obstacles allow. The polyline is the shortest with its corners at such places that can be
-/// rounded; where there is none, or it is a large detour, places further off are tried.
+/// rounded; where there is none, or it is a large detour, places in the open and further off are tried.
 ///
 /// # Accuracy
 /// What [`prove`] says. The path is not the shortest of all paths of bounded curvature.
@@ -190,18 +194,11 @@ pub fn plan(scene: &Scene) -> Result<Plan> {
     let spans = polyline.spans(&reaches)?;
     let proof = proved(scene, &obstacles, &spans)?;
     let corner = |(i, (turn, reach)): (usize, (&Turn, &f64))| {
-        let vertex = path[i + 1].vertex?;
-        let Place { at, .. } = path[i + 1];
-        Some(Corner {
-            at,
-            obstacle: vertex.obstacle,
-            vertex: vertex.at,
-            turning_angle: turn.angle(),
-            reach: *reach,
-            span: 2 * i + 1,
-        })
+        let Place { at, vertex, .. } = path[i + 1];
+        let (obstacle, vertex) = (vertex.map(|v| v.obstacle), vertex.map(|v| v.at));
+        Corner { at, obstacle, vertex, turning_angle: turn.angle(), reach: *reach, span: 2 * i + 1 }
     };
-    let corners = turns.iter().zip(&reaches).enumerate().filter_map(corner).collect();
+    let corners = turns.iter().zip(&reaches).enumerate().map(corner).collect();
     let length_saved = turns.iter().zip(&reaches).map(|(turn, reach)| turn.saved(*reach)).sum();
     Ok(Plan { spans, polyline: points, corners, length_saved, proof })
 }
@@ -271,16 +268,13 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
         let clearance = scene.clearance;
         return fail(format!("every way is blocked: obstacles grown by the clearance {clearance:?} part `start` from `goal`"));
     }
-    let search = |limits: Limits, wide: &[f64]| {
-        let wide = [0.0].iter().chain(wide);
-        let beside = wide.flat_map(|wide| places(obstacles, limits.keep, limits.most, *wide)).collect();
-        Search::new(obstacles, limits, ends, beside)
-    };
+    let beside = |limits: Limits, wide: f64| places(obstacles, limits.keep, limits.most, wide);
+    let search = |limits: Limits, more: Vec<Place>| Search::new(obstacles, limits, ends, [beside(limits, 0.0), more].concat());
     // If it could turn on the spot: found at most once, where it is needed.
-    let sharp = || search(limits.sharp(), &[]).within(f64::INFINITY, WORK[1]).run().0;
+    let sharp = || search(limits.sharp(), vec![]).within(f64::INFINITY, WORK).run().0;
     let (mut best, mut gave_up, mut shortest) = (None, false, None);
     let mut longest = f64::INFINITY;
-    match search(limits, &[]).run().0 {
+    match search(limits, vec![]).run().0 {
         Found::Path(path, length) if length <= DETOUR * distance(ends[0], ends[1]) => return Ok(path),
         Found::Path(path, length) => {
             shortest = Some(sharp());
@@ -294,13 +288,18 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
         Found::None => {}
         Found::GaveUp => gave_up = true,
     }
-    let mut left = if best.is_some() { WORK[0] } else { WORK[1] };
-    for wide in WIDE.chunks(1).chain([&SEVERAL[..]]) {
-        let work = left.min(WORK[0]);
-        let (found, rest) = search(limits, wide).within(longest, work).run();
-        left -= work - rest;
+    let open = || open(obstacles, ends, &beside(limits, 0.0), &limits);
+    let wide = |all: &[f64]| all.iter().flat_map(|wide| beside(limits, *wide)).collect();
+    let wider = WIDE.chunks(1).chain([&SEVERAL[..]]).map(wide);
+    let mut left = WORK;
+    for more in std::iter::once_with(open).chain(wider) {
+        let (found, rest) = search(limits, more).within(longest, left).run();
+        left = rest;
         match found {
-            Found::Path(path, length) => (best, longest) = (Some(path), length),
+            Found::Path(path, length) => {
+                (best, longest) = (Some(path), length);
+                left = left.min(MORE);
+            }
             Found::None => {}
             Found::GaveUp => gave_up = true,
         }

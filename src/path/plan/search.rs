@@ -205,7 +205,9 @@ impl<'o> Search<'o> {
         let [a, b, c] = [from, at, next.place].map(|i| self.places[i].at);
         let (incoming, outgoing) = (minus(b, a), minus(c, b));
         let bend = incoming[0] * outgoing[1] - incoming[1] * outgoing[0];
-        if next.here != side || bend * f64::from(side) <= STRAIGHT * length * next.length {
+        // In the open either side will do.
+        let inward = if side == 0 { bend.abs() } else { bend * f64::from(side) };
+        if next.here != side || inward <= STRAIGHT * length * next.length {
             return None;
         }
         let turn = Turn::new(incoming, outgoing)?;
