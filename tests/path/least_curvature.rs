@@ -29,16 +29,21 @@ fn check(data: &Directions) -> LeastCurvature {
     found
 }
 
+/// As near as is promised.
+fn tight(found: &LeastCurvature) -> bool {
+    found.at_least >= found.greatest_curvature * (1.0 - 1.1e-6)
+}
+
 /// Figure 8: the minimum over equal derivatives.
 #[test]
 fn published_minimum() {
     let found = check(&ends(PI / 6.0, PI / 4.0, 2.0, Free::Length));
     assert!((found.greatest_curvature - 3.1210262181019).abs() < 1e-10, "{found:?}");
-    assert!((found.derivatives[0] - 1.41325888).abs() < 1e-6 && found.at_least > 3.1207, "{found:?}");
+    assert!((found.derivatives[0] - 1.41325888).abs() < 1e-6 && tight(&found), "{found:?}");
     // Both free: less.
     let both = check(&ends(PI / 6.0, PI / 4.0, 2.0, Free::Derivatives));
     println!("{both:?}");
-    assert!(both.greatest_curvature < found.greatest_curvature && both.at_least > 0.3 * both.greatest_curvature, "{both:?}");
+    assert!(both.greatest_curvature < found.greatest_curvature && tight(&both), "{both:?}");
 }
 
 /// Figure 6: there is no minimum up to 1.6, so it lies at the bound.
@@ -46,7 +51,7 @@ fn published_minimum() {
 fn the_bound_on_length_is_reached() {
     let found = check(&ends(PI / 3.0, -0.75 * PI, 1.6, Free::Length));
     assert!((found.length - 1.6).abs() < 1e-9 && (found.greatest_curvature - 4.337433134206).abs() < 1e-8, "{found:?}");
-    assert!(found.at_least > 4.337, "{found:?}");
+    assert!(tight(&found), "{found:?}");
     let longer = check(&ends(PI / 3.0, -0.75 * PI, 3.0, Free::Length));
     println!("{longer:?}");
     assert!(longer.greatest_curvature < found.greatest_curvature);
@@ -57,6 +62,7 @@ fn straight_ahead_is_straight() {
     let found = check(&ends(0.0, 0.0, 2.0, Free::Derivatives));
     assert_eq!((found.greatest_curvature, found.at_least), (0.0, 0.0));
     assert!((found.length - 1.0).abs() < 1e-15);
+    assert!((found.derivatives[0] - 1.0).abs() < 1e-15 && (found.derivatives[1] - 1.0).abs() < 1e-15, "{found:?}");
     assert_eq!(check(&ends(0.0, 0.0, 2.0, Free::Length)).greatest_curvature, 0.0);
     // Nearly so: about an arc of a circle, a seventh of a billionth longer than its chord.
     let found = check(&ends(3e-5, -3e-5, 2.0, Free::Length));
@@ -83,7 +89,7 @@ fn nothing_sampled_is_below_the_bound() {
             check(&data);
             found
         };
-        close += usize::from(found.at_least > 0.95 * found.greatest_curvature);
+        close += usize::from(tight(&found));
         for _ in 0..400 {
             let x = |noise: &mut Noise| size * 10f64.powf(noise.next());
             let choice = match free {
@@ -106,7 +112,58 @@ fn nothing_sampled_is_below_the_bound() {
         }
     }
     println!("{compared} {close}");
-    assert!(compared > 5000 && close > 10, "{compared} {close}");
+    assert!(compared > 5000 && close == 18, "{compared} {close}");
+}
+
+/// Mirrored, opposite, nearly straight and turning ends, short and long: the bound is as near as is promised, with one and with two free numbers, and two
+/// are never worse than one.
+#[test]
+fn the_proof_closes_for_degenerate_ends() {
+    let directions = [
+        [0.7, 0.7],
+        [0.7, -0.7],
+        [PI, PI],
+        [PI, 0.0],
+        [0.0, PI],
+        [0.5 * PI, -0.5 * PI],
+        [0.5 * PI, 0.5 * PI],
+        [3e-5, -3e-5],
+        [1e-3, 0.0],
+        [1e-2, 2e-2],
+    ];
+    let mut active = 0;
+    for [first, last] in directions {
+        for greatest_length in [1.7, 40.0] {
+            let [one, two] = [Free::Length, Free::Derivatives].map(|free| {
+                let data = ends(first, last, greatest_length, free);
+                least_curvature(&data).is_ok().then(|| check(&data))
+            });
+            let Some(two) = two else { continue };
+            assert!(tight(&two), "{first} {last} {greatest_length} {two:?}");
+            active += usize::from(two.length > greatest_length * (1.0 - 1e-6));
+            if let Some(one) = one {
+                assert!(
+                    tight(&one) && two.greatest_curvature <= one.greatest_curvature * (1.0 + 1.1e-6),
+                    "{first} {last} {one:?} {two:?}"
+                );
+            }
+        }
+    }
+    assert!((4..16).contains(&active), "{active}");
+}
+
+/// Such paths nearly stand still at their ends.
+#[test]
+fn little_more_than_the_distance_is_enough() {
+    for [first, last] in [[PI / 3.0, -0.75 * PI], [0.5, 1.0], [3.0, -3.0], [2.0, 2.0], [PI, 0.3]] {
+        for longest in [1.1, 1.001, 1.00001] {
+            for free in [Free::Length, Free::Derivatives] {
+                let found = check(&ends(first, last, longest, free));
+                println!("{first} {last} {longest} {free:?} {} {}", found.at_least / found.greatest_curvature, found.greatest_curvature);
+                assert!(tight(&found), "{first} {last} {longest} {found:?}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -119,9 +176,7 @@ fn what_cannot_be_searched_is_named() {
     says(Directions { greatest_length: 1.0, ..fine }, &["`greatest_length` is 1.0", "must exceed the distance 1.0"]);
     says(Directions { greatest_length: f64::NAN, ..fine }, &["`greatest_length`", "NaN"]);
     says(Directions { greatest_length: 1e7, ..fine }, &["at most 1e6 times"]);
-    says(Directions { greatest_length: 1.0000001, ..fine }, &["no path", "1.0000001"]);
     says(Directions { end: [0.0, 0.0], ..fine }, &["`start` and `end` are both"]);
     says(Directions { start: [f64::INFINITY, 0.0], ..fine }, &["`start`", "inf"]);
     says(Directions { end_direction: f64::NAN, ..fine }, &["`end_direction`", "NaN"]);
-    says(ends(3.0, -3.0, 1.001, Free::Length), &["no path", "1.001"]);
 }

@@ -52,7 +52,7 @@ pub(crate) fn bends_less(preimage: [[f64; 2]; 3], most: f64) -> bool {
 }
 
 /// `Re(conj(a) b)`.
-fn re<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
+pub(super) fn re<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
     a[0].mul(&b[0]).add(&a[1].mul(&b[1]))
 }
 
@@ -210,7 +210,7 @@ impl<N: Real> Arc<N> {
     }
 
     /// In doubles.
-    fn plain(&self) -> Plain {
+    pub fn plain(&self) -> Plain {
         let w = [0, 1, 2].map(|i| Complex64::new(self.w[i][0].approx(), self.w[i][1].approx()));
         Plain { w, turn: [0, 1, 2].map(|i| self.turn[i].approx()) }
     }
@@ -221,13 +221,6 @@ impl<N: Real> Arc<N> {
         let inside = (1..16).map(|i| f64::from(i) / 16.0).chain(plain.slow().into_iter().filter(|t| *t > 0.0 && *t < 1.0));
         let best = inside.map(|t| (t, plain.bend(t))).fold((0.5, 0.0), better).0;
         [0.0, best, 1.0].map(|t| self.climbed(t)).into_iter().fold((0.0, 0.0), better)
-    }
-
-    /// Where the curvature is about greatest inside, by samples and one step of Newton's method.
-    pub fn sampled(&self) -> f64 {
-        let plain = self.plain();
-        let inside = (1..16).map(|i| f64::from(i) / 16.0).map(|t| (t, plain.bend(t)));
-        self.polished(inside.fold((0.5, 0.0), better).0).approx()
     }
 
     /// `∫ σ`.
@@ -281,14 +274,14 @@ fn better(best: (f64, f64), next: (f64, f64)) -> (f64, f64) {
 }
 
 /// A piece in doubles, for guesses.
-struct Plain {
+pub(super) struct Plain {
     w: [Complex64; 3],
     turn: [f64; 3],
 }
 
 impl Plain {
     /// The real parts of the roots of w: near them the curve is slow, and bends most.
-    fn slow(&self) -> [f64; 2] {
+    pub fn slow(&self) -> [f64; 2] {
         let [c, w1, w2] = self.w;
         let (a, b) = (w2 - 2.0 * w1 + c, w1 - c);
         let root = (b * b - a * c).sqrt();
@@ -307,14 +300,14 @@ impl Plain {
     }
 
     /// |κ|; infinite where the curve stands still.
-    fn bend(&self, t: f64) -> f64 {
+    pub fn bend(&self, t: f64) -> f64 {
         let ([w, ..], [turn, ..]) = self.jets(t);
         let size = turn.abs() / w.norm_sqr().powi(2);
         if size.is_nan() { f64::INFINITY } else { size }
     }
 
     /// From t up to a local maximum of |κ|: Newton's method, as long as it climbs.
-    fn climbed(&self, from: f64) -> (f64, f64) {
+    pub fn climbed(&self, from: f64) -> (f64, f64) {
         let (mut t, mut best) = (from, self.bend(from));
         let mut reach = 1.0 / 32.0;
         for _ in 0..40 {

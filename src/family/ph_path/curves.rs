@@ -7,7 +7,7 @@ use super::Kind;
 use super::arc::{Arc, Complex};
 use super::datum::{Datum, Symmetry, Turned};
 use super::straight;
-use crate::num::{Ball, Real};
+use crate::num::{Ball, Quadratic, Real};
 use std::cmp::Ordering::{Equal, Greater, Less};
 
 /// A solution.
@@ -70,8 +70,8 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
 }
 
 /// All four solutions for sizes in ranges, symmetric or not.
-pub(super) fn boxed(theta: [f64; 2], size: [Ball; 2]) -> Option<Vec<Arc<Ball>>> {
-    let half = theta.map(|theta| Ball::half_turn(theta, 53));
+pub(super) fn boxed(theta: [f64; 2], size: [Quadratic; 2]) -> Option<Vec<Arc<Quadratic>>> {
+    let half = theta.map(|theta| Ball::half_turn(theta, 53).map(Quadratic::ball));
     let given = Given { kind: Kind::Hermite, half, size, symmetry: Symmetry::None };
     let mut all = Vec::with_capacity(4);
     for paper in [true, false] {

@@ -2,6 +2,7 @@
 
 mod answer;
 mod arc;
+mod bound;
 mod curves;
 mod datum;
 mod range;

@@ -1,10 +1,11 @@
-//! Solutions over ranges of sizes, for searches: doubles whose errors are the ranges.
+//! Solutions at sizes and over ranges of sizes, for searches.
 
 use super::Kind;
 use super::arc::Arc;
+use super::bound::bound;
 use super::curves::{boxed, curves};
 use super::datum::Datum;
-use crate::num::{Ball, Real};
+use crate::num::{Ball, Quadratic};
 
 /// Solutions with end directions (to the chord) whose lengths are at most `longest`, in chords.
 #[derive(Debug, Clone, Copy)]
@@ -19,11 +20,6 @@ pub(crate) struct Found {
     pub most: f64,
     pub length: f64,
     pub preimage: [[f64; 2]; 3],
-}
-
-/// All numbers from `low` to `high`.
-fn range([low, high]: [f64; 2]) -> Ball {
-    Ball { value: 0.5 * (low + high), error: 0.5 * (high - low) + f64::EPSILON * (low.abs() + high.abs()) }
 }
 
 impl Search {
@@ -44,17 +40,86 @@ impl Search {
         all.filter(|f| f.length <= self.longest * (1.0 + 1e-12) && f.most.is_finite()).min_by(|a, b| a.most.total_cmp(&b.most))
     }
 
-    /// For all sizes in these ranges: what the greatest |κ| of every solution that is not too long certainly exceeds.
+    /// What the greatest |κ| of every solution that is not too long exceeds, for all sizes in these ranges (`equal`: both the same in the first).
     ///
-    /// Each is bounded by the curvature at three parameters, enclosed.
-    pub fn least(&self, size: [[f64; 2]; 2]) -> f64 {
-        let Some(arcs) = boxed(self.theta, size.map(range)) else { return 0.0 };
-        let low = |x: Ball| (x.value - x.error) * (1.0 - 1e-15);
-        let bends = |arc: &Arc<Ball>| {
-            let at = [0.0, arc.sampled(), 1.0].map(|t| arc.curvature(&Ball::of(t, 53)).map_or(0.0, low));
-            at.into_iter().fold(0.0, f64::max)
-        };
-        let short = |arc: &&Arc<Ball>| low(arc.length()) <= self.longest;
-        arcs.iter().filter(short).map(bends).fold(f64::INFINITY, f64::min)
+    /// As much as is `enough`, or more.
+    pub fn least(&self, size: [[f64; 2]; 2], equal: bool, enough: f64) -> f64 {
+        let first = Quadratic::along(size[0], 0);
+        let last = if equal { first } else { Quadratic::along(size[1], 1) };
+        let Some(arcs) = boxed(self.theta, [first, last]) else { return 0.0 };
+        arcs.iter().map(|arc| bound(arc, self.longest, enough)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_complex::Complex64;
+    use std::f64::consts::PI;
+
+    struct Noise(u64);
+
+    impl Noise {
+        /// From 0 to 1.
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (self.0 >> 33) as f64 / 2f64.powi(31)
+        }
+    }
+
+    /// Sizes in the ratio of these at which Z is about as near to 0 as it gets.
+    fn meeting(theta: [f64; 2], size: [f64; 2]) -> [f64; 2] {
+        let [w0, w2] = [0, 1].map(|i| Complex64::from_polar(size[i].sqrt(), 0.5 * theta[i]));
+        let rest = 15.0 * w0 * w0 + 15.0 * w2 * w2 - 10.0 * w0 * w2;
+        size.map(|l| l * (120.0 / rest.norm()).min(1e3))
+    }
+
+    /// Boxes of every size, many around places where two solutions meet (Z = 0), with general, mirrored, opposite and nearly straight directions: no
+    /// solution in them bends less than the bound. Many bounds are so tight that 1.001 of them would fail.
+    #[test]
+    fn no_solution_bends_less_than_its_box_says() {
+        let mut noise = Noise(5);
+        let (mut compared, mut tight) = (0, 0);
+        for round in 0..3000 {
+            let angle = 2.0 * PI * (noise.next() - 0.5);
+            let other = 2.0 * PI * (noise.next() - 0.5);
+            let small = 10f64.powf(-6.0 * noise.next());
+            let theta = match round % 8 {
+                0 => [angle, angle],
+                1 => [angle, -angle],
+                2 => [small * angle, small * other],
+                3 => [0.0, small * other],
+                4 => [PI, [PI, 0.0][round / 8 % 2]],
+                5 => [0.5 * PI, if angle > 0.0 { -0.5 * PI } else { 0.5 * PI }],
+                _ => [angle, other],
+            };
+            let longest = if round % 3 == 0 { 1.0 + noise.next() } else { 100.0 };
+            let search = Search { theta, longest };
+            let equal = round % 5 == 0;
+            let width = 10f64.powf(-7.0 * noise.next());
+            let mut middle = [0, 1].map(|_| 20.0 * 10f64.powf(-3.0 * noise.next()));
+            if round % 4 == 0 {
+                middle = meeting(theta, if equal { [1.0; 2] } else { middle });
+            }
+            let size = middle.map(|x| [x * (1.0 - 0.5 * width), x * (1.0 + width)]);
+            let least = search.least(size, equal, f64::INFINITY);
+            let mut lowest = f64::INFINITY;
+            for i in 0..12 {
+                // Corners too.
+                let part = |noise: &mut Noise| if i < 6 { noise.next() } else { noise.next().round() };
+                let x = size.map(|[low, high]| (low + (high - low) * part(&mut noise)).clamp(low, high));
+                let Some(found) = search.at(if equal { [x[0]; 2] } else { x }) else { continue };
+                // Only those that are certainly not too long.
+                if found.length > longest {
+                    continue;
+                }
+                assert!(least <= found.most * (1.0 + 1e-9), "{search:?} {size:?} {equal}: {least} {found:?}");
+                lowest = lowest.min(found.most);
+                compared += 1;
+            }
+            tight += usize::from(lowest.is_finite() && least > 0.999 * lowest);
+        }
+        println!("{compared} {tight}");
+        assert!(compared > 20_000 && tight > 1000, "{compared} {tight}");
     }
 }

@@ -1,0 +1,342 @@
+//! Quadratic polynomials in two symbols that know how far they may be off: doubles for proofs over boxes.
+//!
+//! A ball forgets on what its number depends; of a number that varies over a box it holds every combination of the extremes. Here the first two
+//! orders of that dependence are kept, so that terms cancel as they should and what is lost is of the third order in the size of the box.
+
+use super::bernstein::Certain;
+use super::{Ball, Number, Real};
+use std::cmp::Ordering;
+
+/// Unit roundoff.
+const UNIT: f64 = 0.5 * f64::EPSILON;
+/// Covers the roundings of an error's own computation: fewer than 24 additions and products of numbers that are not negative.
+const GROW: f64 = 1.0 + 32.0 * UNIT;
+/// More than underflow can do to a result and to the terms of its error.
+const TINY: f64 = f64::MIN_POSITIVE;
+
+/// All functions of `x` and `y` from -1 to 1 within `error` of `value + slope (x, y) + bend (x², xy, y²)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quadratic {
+    /// In the middle of the box.
+    pub value: f64,
+    /// Of x and y.
+    pub slope: [f64; 2],
+    /// Of x², xy and y².
+    pub bend: [f64; 3],
+    /// At least 0.
+    pub error: f64,
+}
+
+impl Quadratic {
+    /// Numbers of a ball, which may depend on x and y in any way.
+    pub fn ball(ball: Ball) -> Quadratic {
+        Quadratic { value: ball.value, slope: [0.0; 2], bend: [0.0; 3], error: ball.error }
+    }
+
+    /// The numbers from `low` to `high`, as a linear function of one symbol: 0 or 1.
+    pub fn along([low, high]: [f64; 2], symbol: usize) -> Quadratic {
+        let mut slope = [0.0; 2];
+        slope[symbol] = 0.5 * (high - low);
+        // More than the roundings of both.
+        Quadratic {
+            value: 0.5 * (low + high),
+            slope,
+            bend: [0.0; 3],
+            error: 2.0 * f64::EPSILON * (low.abs() + high.abs()) + TINY,
+        }
+    }
+
+    #[inline(always)]
+    fn linear(&self) -> f64 {
+        self.slope[0].abs() + self.slope[1].abs()
+    }
+
+    #[inline(always)]
+    fn curved(&self) -> f64 {
+        self.bend[0].abs() + self.bend[1].abs() + self.bend[2].abs()
+    }
+
+    /// How far its numbers are from `value`, at most.
+    #[inline(always)]
+    fn around(&self) -> f64 {
+        (self.linear() + self.curved() + self.error) * GROW
+    }
+
+    /// Every number it holds.
+    pub fn range(&self) -> Ball {
+        Ball { value: self.value, error: self.around() }
+    }
+
+    /// Less than every number it holds, and not by much where it is convex or nearly linear.
+    pub fn low(&self) -> f64 {
+        let [a, b, c] = self.bend;
+        // |2xy| <= x² + y².
+        let own = [a - 0.5 * b.abs(), c - 0.5 * b.abs()];
+        let fall = |slope: f64, bend: f64| {
+            let slope = slope.abs();
+            if slope < 2.0 * bend { 0.25 * slope * (slope / bend) } else { slope - bend }
+        };
+        // The roundings are below a few units of what they belong to.
+        let size = self.value.abs() + self.linear() + self.curved();
+        self.value - fall(self.slope[0], own[0]) - fall(self.slope[1], own[1]) - (self.error + 16.0 * UNIT * size) * GROW
+    }
+
+    /// Off by so much more.
+    fn off(mut self, error: f64) -> Quadratic {
+        self.error = (self.error + error) * GROW;
+        self
+    }
+
+    #[inline(always)]
+    fn zip(&self, other: &Quadratic, f: impl Fn(f64, f64) -> f64) -> Quadratic {
+        let ([a, b], [c, d]) = (self.slope, other.slope);
+        let ([p, q, r], [s, t, u]) = (self.bend, other.bend);
+        let sum = Quadratic {
+            value: f(self.value, other.value),
+            slope: [f(a, c), f(b, d)],
+            bend: [f(p, s), f(q, t), f(r, u)],
+            error: 0.0,
+        };
+        let size = sum.value.abs() + sum.linear() + sum.curved();
+        Quadratic { error: (self.error + other.error + UNIT * size) * GROW, ..sum }
+    }
+
+    /// `1 / self`: with a double r near `1 / value` and `self r = 1 + u` that is `r (1 - u + u² - u³ / (1 + u))`.
+    fn inverse(&self) -> Option<Quadratic> {
+        let r = 1.0 / self.value;
+        let u = self.times(r).plus(-1.0);
+        let most = u.most();
+        // Not for NaN either.
+        (most < 1.0).then_some(())?;
+        let rest = most * most * most / (1.0 - most) * GROW;
+        Some(u.mul(&u).sub(&u).plus(1.0).off(rest).times(r))
+    }
+}
+
+impl Number for Quadratic {
+    #[inline(always)]
+    fn add(&self, other: &Quadratic) -> Quadratic {
+        self.zip(other, |a, b| a + b)
+    }
+    #[inline(always)]
+    fn sub(&self, other: &Quadratic) -> Quadratic {
+        self.zip(other, |a, b| a - b)
+    }
+    /// Each coefficient is a sum of at most four products, and all these together are terms of the product of the sizes: four roundings of each.
+    #[inline(always)]
+    fn mul(&self, other: &Quadratic) -> Quadratic {
+        let (x, y) = (self.value, other.value);
+        let ([a, b], [c, d]) = (self.slope, other.slope);
+        let ([p, q, r], [s, t, u]) = (self.bend, other.bend);
+        let (one, two) = (self.linear(), other.linear());
+        let (own, its) = (self.curved(), other.curved());
+        let (size, other_size) = (x.abs() + one + own, y.abs() + two + its);
+        let cut = one * its + own * two + own * its;
+        let inputs = self.error * (other_size + other.error) + other.error * size;
+        Quadratic {
+            value: x * y,
+            slope: [x * c + a * y, x * d + b * y],
+            bend: [x * s + a * c + p * y, x * t + (a * d + b * c) + q * y, x * u + b * d + r * y],
+            error: (cut + inputs + 4.0 * UNIT * (size * other_size)) * GROW + TINY,
+        }
+    }
+    #[inline(always)]
+    fn times(&self, k: f64) -> Quadratic {
+        let size = self.value.abs() + self.linear() + self.curved();
+        Quadratic {
+            value: self.value * k,
+            slope: self.slope.map(|x| x * k),
+            bend: self.bend.map(|x| x * k),
+            error: ((self.error + UNIT * size) * k.abs()) * GROW + TINY,
+        }
+    }
+    #[inline(always)]
+    fn plus(&self, k: f64) -> Quadratic {
+        let value = self.value + k;
+        Quadratic { value, error: (self.error + value.abs() * UNIT) * GROW, ..*self }
+    }
+}
+
+impl Certain for Quadratic {
+    fn certain_sign(&self, error: f64) -> Option<Ordering> {
+        self.range().certain_sign(error)
+    }
+}
+
+impl Real for Quadratic {
+    fn of(x: f64, _bits: usize) -> Quadratic {
+        Quadratic { value: x, slope: [0.0; 2], bend: [0.0; 3], error: 0.0 }
+    }
+    fn bits(&self) -> usize {
+        53
+    }
+    fn over(&self, divisor: &Quadratic) -> Option<Quadratic> {
+        Some(self.mul(&divisor.inverse()?))
+    }
+    /// With a double s near `1 / value` and `self s = 1 + u` that is `√(1/s) (1 + u/2 - u²/8 + ...)`. All further terms have one sign for `u < 0`,
+    /// so that the rest is largest at the least u: for `u >= -m` it is `1 - m/2 - m²/8 - √(1-m)`, and at most `m³ / 16 (1-m)^(-5/2)`.
+    fn sqrt(&self) -> Option<Quadratic> {
+        (self.value > self.around()).then_some(())?;
+        let s = 1.0 / self.value;
+        let u = self.times(s).plus(-1.0);
+        let most = u.most();
+        (most < 1.0).then_some(())?;
+        let left = 1.0 - most;
+        let rest = (most * most * most / (16.0 * left * left * left.sqrt()))
+            .min(1.0 - 0.5 * most - 0.125 * most * most - left.sqrt() + 8.0 * UNIT);
+        let root = u.times(0.5).sub(&u.mul(&u).times(0.125)).plus(1.0).off(rest * GROW);
+        // That √(1/s) is off by three units.
+        let back = root.times((1.0 / s).sqrt());
+        let size = back.most();
+        Some(back.off(4.0 * UNIT * size))
+    }
+    fn union(&self, other: &Quadratic) -> Quadratic {
+        Quadratic::ball(self.range().union(&other.range()))
+    }
+    fn size(&self) -> Quadratic {
+        Quadratic::ball(self.range().size())
+    }
+    fn most(&self) -> f64 {
+        (self.value.abs() + self.around()) * GROW
+    }
+    fn middle(&self) -> Quadratic {
+        Quadratic::of(self.value, 53)
+    }
+    fn approx(&self) -> f64 {
+        self.value
+    }
+    fn to_f32(&self) -> Option<f32> {
+        self.range().to_f32()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Interval;
+
+    struct Noise(u64);
+
+    impl Noise {
+        /// From -1 to 1.
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (self.0 >> 33) as f64 / 2f64.powi(30) - 1.0
+        }
+        fn scaled(&mut self) -> f64 {
+            self.next() * 2f64.powi((20.0 * self.next()) as i32)
+        }
+    }
+
+    /// What it says of one place, without its error.
+    fn at(q: &Quadratic, x: f64, y: f64) -> Interval {
+        let number = |x: f64| Interval::new(x, 300);
+        let (x, y) = (number(x), number(y));
+        let terms = [
+            (q.slope[0], x.clone()),
+            (q.slope[1], y.clone()),
+            (q.bend[0], x.square()),
+            (q.bend[1], &x * &y),
+            (q.bend[2], y.square()),
+        ];
+        terms.iter().fold(number(q.value), |sum, (k, term)| &sum + &term.scale(*k))
+    }
+
+    /// Two ranges, wide or narrow, and random expressions of both: at every place the truth is held, and not by being far too large.
+    #[test]
+    fn every_operation_holds_the_truth() {
+        let mut noise = Noise(1);
+        let mut worst = [0.0f64; 6];
+        let mut held = [0; 6];
+        for round in 0..6000 {
+            let width = 2f64.powi((40.0 * (noise.next() - 1.0)) as i32);
+            let ranges = [0, 1].map(|_| {
+                let (middle, half) = (noise.scaled(), width * noise.next().abs());
+                [middle - half * middle.abs(), middle + half * middle.abs()]
+            });
+            let (a, b, c) = (Quadratic::along(ranges[0], 0), Quadratic::along(ranges[1], 1), noise.scaled());
+            let kind = round % 6;
+            let product = a.mul(&b).plus(c);
+            let found = match kind {
+                0 => Some(product.mul(&product)),
+                1 => Some(product.sub(&a.times(0.3)).mul(&b.add(&a))),
+                2 => product.over(&b.plus(0.7)),
+                3 => a.mul(&a).plus(1e-9).sqrt(),
+                4 => a.mul(&a).add(&b).sqrt(),
+                _ => a.add(&b).mul(&product).over(&a.times(3.0).sub(&b)),
+            };
+            let Some(found) = found else { continue };
+            for _ in 0..4 {
+                // Ends and middles too.
+                let place = [0, 1].map(|_| (2.0 * noise.next()).clamp(-1.0, 1.0));
+                let [p, q] = [0, 1].map(|i| {
+                    let [low, high] = ranges[i].map(|x| Interval::new(x, 300));
+                    &low.scale(0.5 - 0.5 * place[i]) + &high.scale(0.5 + 0.5 * place[i])
+                });
+                let product = (&p * &q).plus(c);
+                let truth = match kind {
+                    0 => product.square(),
+                    1 => &(&product - &p.scale(0.3)) * &(&q + &p),
+                    2 => product.over(&q.plus(0.7)).expect("not zero"),
+                    3 => p.square().plus(1e-9).sqrt().expect("positive"),
+                    4 => (&p.square() + &q).sqrt().expect("positive"),
+                    _ => (&(&p + &q) * &product).over(&(&p.scale(3.0) - &q)).expect("not zero"),
+                };
+                let off = (&truth - &at(&found, place[0], place[1])).approx().abs();
+                assert!(off <= found.error, "{kind} {ranges:?} {place:?}: {found:?} is off by {off}");
+                assert!(
+                    found.low() <= truth.approx() && (truth.approx() - found.value).abs() <= found.range().error,
+                    "{kind} {ranges:?} {place:?}"
+                );
+                worst[kind] = worst[kind].max(off / found.error);
+                held[kind] += 1;
+            }
+        }
+        println!("{worst:?} {held:?}");
+        assert!(worst.iter().all(|w| *w > 0.1) && held.iter().all(|n| *n > 1000), "{worst:?} {held:?}");
+    }
+
+    /// The least value of a quadratic: exact where it is a sum of two of one symbol, never too large.
+    #[test]
+    fn least_values_are_not_exceeded() {
+        let mut noise = Noise(2);
+        for round in 0..2000 {
+            let mut random = || noise.next();
+            let mut q =
+                Quadratic { value: random(), slope: [random(), random()], bend: [random(), random(), random()], error: 0.0 };
+            if round % 2 == 0 {
+                q.bend[1] = 0.0;
+            }
+            let step = |i: i32| f64::from(i) / 50.0;
+            let value = |x: f64, y: f64| {
+                let [a, b, c] = q.bend;
+                q.value + q.slope[0] * x + q.slope[1] * y + a * x * x + b * x * y + c * y * y
+            };
+            let least = (-50..=50)
+                .flat_map(|i| (-50..=50).map(move |j| (step(i), step(j))))
+                .map(|(x, y)| value(x, y))
+                .fold(f64::INFINITY, f64::min);
+            assert!(q.low() <= least && (q.bend[1] != 0.0 || q.low() > least - 1e-3), "{q:?} {least}");
+        }
+    }
+
+    /// The same numbers as balls would lose what cancels.
+    #[test]
+    fn what_depends_on_the_same_cancels() {
+        let x = Quadratic::along([1.0, 1.1], 0);
+        let ratio = x.sqrt().unwrap().mul(&x.sqrt().unwrap()).over(&x).unwrap();
+        assert!((ratio.value - 1.0).abs() < 1e-15 && ratio.range().error < 1e-3, "{ratio:?}");
+        let (ball, other) = (Quadratic::ball(x.range()), Quadratic::ball(x.range()));
+        assert!(ball.over(&other).unwrap().range().error > 0.1);
+    }
+
+    #[test]
+    fn what_is_not_certain_is_not_said() {
+        let wide = Quadratic::along([-1.0, 3.0], 0);
+        assert!(wide.sqrt().is_none() && Quadratic::of(1.0, 53).over(&wide).is_none() && wide.certain_sign(0.0).is_none());
+        let huge = Quadratic::of(1e200, 53);
+        assert!(huge.mul(&huge).certain_sign(0.0).is_none() && huge.mul(&huge).sqrt().is_none());
+        assert!(Quadratic::of(1.0, 53).over(&Quadratic::of(0.0, 53)).is_none());
+        assert_eq!(Quadratic::along([2.0, 3.0], 1).certain_sign(0.0), Some(Ordering::Greater));
+    }
+}
