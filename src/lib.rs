@@ -8,6 +8,8 @@ pub mod eval;
 pub mod family;
 pub mod files;
 pub mod grid;
+#[cfg(test)]
+mod noise;
 pub mod num;
 pub mod path;
 #[cfg(feature = "cli")]

@@ -213,19 +213,12 @@ impl Real for Quadratic {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::noise::Noise;
     use crate::num::Interval;
 
-    struct Noise(u64);
-
-    impl Noise {
-        /// From -1 to 1.
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (self.0 >> 33) as f64 / 2f64.powi(30) - 1.0
-        }
-        fn scaled(&mut self) -> f64 {
-            self.next() * 2f64.powi((20.0 * self.next()) as i32)
-        }
+    /// Of any size.
+    fn scaled(noise: &mut Noise) -> f64 {
+        noise.signed() * 2f64.powi((20.0 * noise.signed()) as i32)
     }
 
     /// What it says of one place, without its error.
@@ -249,12 +242,12 @@ mod tests {
         let mut worst = [0.0f64; 6];
         let mut held = [0; 6];
         for round in 0..6000 {
-            let width = 2f64.powi((40.0 * (noise.next() - 1.0)) as i32);
+            let width = 2f64.powi((40.0 * (noise.signed() - 1.0)) as i32);
             let ranges = [0, 1].map(|_| {
-                let (middle, half) = (noise.scaled(), width * noise.next().abs());
+                let (middle, half) = (scaled(&mut noise), width * noise.signed().abs());
                 [middle - half * middle.abs(), middle + half * middle.abs()]
             });
-            let (a, b, c) = (Quadratic::along(ranges[0], 0), Quadratic::along(ranges[1], 1), noise.scaled());
+            let (a, b, c) = (Quadratic::along(ranges[0], 0), Quadratic::along(ranges[1], 1), scaled(&mut noise));
             let kind = round % 6;
             let product = a.mul(&b).plus(c);
             let found = match kind {
@@ -268,7 +261,7 @@ mod tests {
             let Some(found) = found else { continue };
             for _ in 0..4 {
                 // Ends and middles too.
-                let place = [0, 1].map(|_| (2.0 * noise.next()).clamp(-1.0, 1.0));
+                let place = [0, 1].map(|_| (2.0 * noise.signed()).clamp(-1.0, 1.0));
                 let [p, q] = [0, 1].map(|i| {
                     let [low, high] = ranges[i].map(|x| Interval::new(x, 300));
                     &low.scale(0.5 - 0.5 * place[i]) + &high.scale(0.5 + 0.5 * place[i])
@@ -301,7 +294,7 @@ mod tests {
     fn least_values_are_not_exceeded() {
         let mut noise = Noise(2);
         for round in 0..2000 {
-            let mut random = || noise.next();
+            let mut random = || noise.signed();
             let mut q =
                 Quadratic { value: random(), slope: [random(), random()], bend: [random(), random(), random()], error: 0.0 };
             if round % 2 == 0 {

@@ -88,23 +88,15 @@ fn eliminate<const K: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Some numbers without a pattern, in [-1, 1].
-    fn noise(state: &mut u64) -> Complex64 {
-        let mut next = || {
-            *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (*state >> 11) as f64 / 2f64.powi(52) - 1.0
-        };
-        Complex64::new(next(), next())
-    }
+    use crate::noise::Noise;
 
     #[test]
     fn solutions_satisfy_the_equations_whatever_the_pivots() {
-        let mut state = 7;
+        let mut noise = Noise(7);
         let mut exchanged = 0;
         for n in 1..40 {
             for closed in [false, n >= 3] {
-                let mut row = || (0..n).map(|_| noise(&mut state)).collect::<Vec<_>>();
+                let mut row = || (0..n).map(|_| Complex64::new(noise.signed(), noise.signed())).collect::<Vec<_>>();
                 let (mut lower, diagonal, mut upper, right) = (row(), row(), row(), row());
                 if !closed {
                     (lower[0], upper[n - 1]) = (ZERO, ZERO);

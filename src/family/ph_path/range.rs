@@ -54,18 +54,9 @@ impl Search {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::noise::Noise;
     use num_complex::Complex64;
     use std::f64::consts::PI;
-
-    struct Noise(u64);
-
-    impl Noise {
-        /// From 0 to 1.
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (self.0 >> 33) as f64 / 2f64.powi(31)
-        }
-    }
 
     /// Sizes in the ratio of these at which Z is about as near to 0 as it gets.
     fn meeting(theta: [f64; 2], size: [f64; 2]) -> [f64; 2] {

@@ -243,29 +243,24 @@ impl SelectionFunction<Side> for Near {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers without a pattern, in [0, 1].
-    fn noise(state: &mut u64) -> f64 {
-        *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (*state >> 11) as f64 / 2f64.powi(53)
-    }
+    use crate::noise::Noise;
 
     #[test]
     fn no_side_is_overlooked() {
-        let mut state = 1;
+        let mut noise = Noise(1);
         let mut triangle = || {
-            let [x, y] = [0, 1].map(|_| 9.0 * noise(&mut state));
-            [0, 1, 2].map(|_| [x + noise(&mut state), y + noise(&mut state)]).to_vec()
+            let [x, y] = [0, 1].map(|_| 9.0 * noise.next());
+            [0, 1, 2].map(|_| [x + noise.next(), y + noise.next()]).to_vec()
         };
         let polygons: Vec<_> = (0..200).map(|_| triangle()).collect();
         let obstacles = Obstacles::new(&polygons).unwrap();
         let all: Vec<Side> = obstacles.tree.iter().copied().collect();
         let (mut found, mut left_out) = (0, 0);
         for i in 0..500 {
-            let mut point = || [0, 1].map(|_| 10.0 * noise(&mut state));
+            let mut point = || [0, 1].map(|_| 10.0 * noise.next());
             let from = point();
             let segment = [from, if i % 5 == 0 { from } else { point() }];
-            let within = noise(&mut state).powi(3);
+            let within = noise.next().powi(3);
             let near: Vec<&Side> = obstacles.near(segment, within).collect();
             let close = all.iter().filter(|side| between(segment, side.ends) <= within).collect::<Vec<_>>();
             assert!(close.iter().all(|side| near.contains(side)));
