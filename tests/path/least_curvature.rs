@@ -159,7 +159,11 @@ fn little_more_than_the_distance_is_enough() {
         for longest in [1.1, 1.001, 1.00001] {
             for free in [Free::Length, Free::Derivatives] {
                 let found = check(&ends(first, last, longest, free));
-                println!("{first} {last} {longest} {free:?} {} {}", found.at_least / found.greatest_curvature, found.greatest_curvature);
+                println!(
+                    "{first} {last} {longest} {free:?} {} {}",
+                    found.at_least / found.greatest_curvature,
+                    found.greatest_curvature
+                );
                 assert!(tight(&found), "{first} {last} {longest} {found:?}");
             }
         }
