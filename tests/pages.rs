@@ -1,8 +1,9 @@
 //! What the pages tell users to type works, and the figures they show are what it draws.
 #![cfg(feature = "cli")]
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -12,16 +13,36 @@ fn pages() -> Vec<PathBuf> {
     [Path::new(ROOT).join("README.md")].into_iter().chain(pages).collect()
 }
 
-/// The arguments of every `query`, `curve` and `path` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
-fn commands(text: &str) -> Vec<Vec<String>> {
+/// A line of shell: the arguments of each command, whose output the next one reads.
+type Line = Vec<Vec<String>>;
+
+/// Every line of `query`, `curve` and `path` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
+fn commands(text: &str) -> Vec<Line> {
     let blocks = text.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     let lines = blocks.flat_map(|block| block.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
     let arguments = lines.filter_map(|line| {
-        let line = line.split(" #").next()?.to_owned();
-        let rest = line.strip_prefix("cargo run --release -- ").or_else(|| line.strip_prefix("spiral-atlas "))?;
-        Some(rest.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+        let one = |command: &str| {
+            let rest = command.strip_prefix("cargo run --release -- ").or_else(|| command.strip_prefix("spiral-atlas "))?;
+            Some(rest.split_whitespace().map(str::to_owned).collect())
+        };
+        line.split(" #").next()?.split(" | ").map(|command| one(command.trim())).collect::<Option<Line>>()
     });
-    arguments.filter(|a| ["query", "curve", "path"].contains(&a[0].as_str())).collect()
+    arguments.filter(|line| ["query", "curve", "path"].contains(&line[0][0].as_str())).collect()
+}
+
+/// Runs a line in a folder.
+fn run(line: &Line, folder: &Path) {
+    let mut read = Vec::new();
+    for arguments in line {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_spiral-atlas"));
+        command.current_dir(folder).args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // It need not read.
+        let _ = child.stdin.take().unwrap().write_all(&read);
+        let done = child.wait_with_output().unwrap();
+        assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+        read = done.stdout;
+    }
 }
 
 /// The share of pixels that differ clearly. Libraries of mathematics may differ in a last bit, and so may a pixel of a curve's rim.
@@ -43,16 +64,14 @@ fn commands_work_and_draw_the_figures() {
         std::fs::copy(example.path(), folder.path().join("examples").join(example.file_name())).unwrap();
     }
     std::fs::write(folder.path().join("data.csv"), "phi0,phi1,kappa0,kappa1\n0.7,1.4,0.4,4\n").unwrap();
-    let mut run = 0;
+    let mut lines = 0;
     for page in pages() {
-        for arguments in commands(&std::fs::read_to_string(&page).unwrap()) {
-            let mut command = Command::new(env!("CARGO_BIN_EXE_spiral-atlas"));
-            let done = command.current_dir(folder.path()).args(&arguments).output().unwrap();
-            assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
-            run += 1;
+        for line in commands(&std::fs::read_to_string(&page).unwrap()) {
+            run(&line, folder.path());
+            lines += 1;
         }
     }
-    assert!(run > 15, "{run}");
+    assert!(lines > 15, "{lines}");
     let mut figures = Vec::new();
     for entry in std::fs::read_dir(Path::new(ROOT).join("docs/figures")).unwrap() {
         let committed = entry.unwrap().path();
@@ -85,5 +104,7 @@ fn links_lead_to_files() {
 fn commands_are_found() {
     let text =
         "```sh\ncargo run --release -- query --a 1 \\\n    --b 2  # why\nls\nspiral-atlas generate x\n```\nspiral-atlas query\n";
-    assert_eq!(commands(text), [["query", "--a", "1", "--b", "2"]]);
+    assert_eq!(commands(text), [[["query", "--a", "1", "--b", "2"]]]);
+    let text = "```sh\nspiral-atlas path a | spiral-atlas path b -\nspiral-atlas path a | less\n```\n";
+    assert_eq!(commands(text), [vec![vec!["path", "a"], vec!["path", "b", "-"]]]);
 }

@@ -194,10 +194,19 @@ impl PhQuintic {
         changes(&rising.iter().zip(&falling).map(|(r, f)| r - 2.0 * f).collect::<Vec<_>>())
     }
 
-    /// The largest curvature by size, and where: `(t, |κ|)`. NaN or infinite where the curve stands still.
+    /// The largest curvature by size, and where: `(t, |κ|)`. Infinite for a curve that stands still somewhere and is no straight line.
+    ///
+    /// # Accuracy
+    /// A few roundings over the square root of the least speed's share of the length. A curve that is not [regular](PhQuintic::is_regular)
+    /// counts as standing still, as its pre-image does not tell how near it comes to that.
     pub fn greatest_curvature(&self) -> (f64, f64) {
-        let candidates = [0.0, 1.0].into_iter().chain(self.curvature_extrema());
-        let sizes = candidates.map(|t| (t, self.curvature(t).abs()));
+        if !self.is_regular() {
+            let size = if self.turn_coefficients() == [0.0; 3] { 0.0 } else { f64::INFINITY };
+            return (self.least_speed().0, size);
+        }
+        let mut candidates = vec![0.0];
+        self.scaled().0.bends([0.0, 1.0], &mut candidates);
+        let sizes = candidates.into_iter().map(|t| (t, self.curvature(t).abs()));
         sizes.fold((0.0, 0.0), |best, next| if next.1 > best.1 || next.1.is_nan() { next } else { best })
     }
 
@@ -226,8 +235,9 @@ impl PhQuintic {
     /// `∫|κ| ds`: how far the tangent turns, to either side, radians.
     ///
     /// # Accuracy
-    /// A few roundings: between inflections it is twice the sum of the angles under which the roots of w see the piece. A stationary point,
-    /// a root on the piece itself, turns nothing.
+    /// A few roundings over the square root of the least speed's share of the length: so much does a rounding of the pre-image turn the
+    /// tangent where the curve is slowest. Between inflections it is twice the sum of the angles under which the roots of w see the piece.
+    /// A stationary point, a root on the piece itself, turns nothing.
     pub fn absolute_rotation(&self) -> f64 {
         let roots = self.roots();
         let mut ends = self.inflections();
@@ -289,6 +299,28 @@ impl PhQuintic {
     fn bend(&self) -> Complex64 {
         let [w0, w1, w2] = complex(&self.preimage);
         2.0 * ((w2 - w1) - (w1 - w0))
+    }
+
+    /// Adds where the curvature may be greatest on this piece, between parameters of the whole: the extrema, and the end. Close to where the
+    /// speed is low the roundings of the whole would cover them, so there the pieces are small.
+    fn bends(&self, [from, to]: [f64; 2], all: &mut Vec<f64>) {
+        let speed = self.speed_coefficients();
+        let most = speed.iter().copied().fold(0.0, f64::max);
+        if to - from > 1e-9 && speed.iter().any(|s| *s < 1e-2 * most) {
+            let ([first, second], middle) = (self.halves(), 0.5 * (from + to));
+            first.bends([from, middle], all);
+            return second.bends([middle, to], all);
+        }
+        all.extend(self.curvature_extrema().into_iter().map(|t| from + t * (to - from)));
+        all.push(to);
+    }
+
+    /// Both halves, as far as their pre-images say.
+    fn halves(&self) -> [PhQuintic; 2] {
+        let [w0, w1, w2] = complex(&self.preimage);
+        let (a, b) = (0.5 * (w0 + w1), 0.5 * (w1 + w2));
+        let middle = 0.5 * (a + b);
+        [[w0, a, middle], [middle, b, w2]].map(|w| PhQuintic { preimage: w.map(|z| [z.re, z.im]), ..*self })
     }
 
     /// The same shape with coefficients of w near 1, and the power of two that lengths were divided by.

@@ -116,7 +116,7 @@ fn a_planned_path_is_input_of_separation() {
 #[test]
 fn mistakes_are_named() {
     let cases: &[(&[&str], &str, &[&str])] = &[
-        (&["hermite", "-"], "{", &["standard input", "EOF", "line 1"]),
+        (&["hermite", "-"], "{", &["standard input: EOF", "line 1"]),
         (&["hermite", "-"], r#"{"start": [0, 0]}"#, &["standard input", "missing field `end`"]),
         (
             &["hermite", "-"],
@@ -124,7 +124,14 @@ fn mistakes_are_named() {
             &["standard input", "`start_derivative` is 0"],
         ),
         (&["spline", "-"], r#"{"points": [[0, 0], [1, 0], [1, 0]]}"#, &["points[1] and points[2]", "[1.0, 0.0]"]),
-        (&["spline", "-"], r#"{"points": [[0, 0], [1e999, 0]]}"#, &["out of range"]),
+        (&["spline", "-"], r#"{"points": [[0, 0], [1e999, 0]]}"#, &["standard input: points[1][0]: ", "out of range"]),
+        (&["spline", "-"], r#"{"points": [[0, 0], [1, 0, 0]]}"#, &["standard input: points[1]: "]),
+        (&["spline", "-"], r#"{"points": [[0, 0], [1, 0]]} {}"#, &["standard input: trailing characters"]),
+        (
+            &["spline", "-"],
+            "[[[0, 0], [1, 0]]]",
+            &["standard input: invalid type: sequence, expected an object with points, closed"],
+        ),
         (&["spline", "-"], r#"{"point": []}"#, &["unknown field `point`"]),
         (
             &["equal-length", "-"],
@@ -134,7 +141,27 @@ fn mistakes_are_named() {
         (
             &["equal-length", "-"],
             r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": "4dg", "end_direction": 0}]}"#,
-            &["4dg"],
+            &["standard input: paths[0].start_direction: ", "4dg"],
+        ),
+        (
+            &["equal-length", "-"],
+            r#"{"length": 2, "paths": [[[0, 0], [1, 0], 1, 1]]}"#,
+            &["paths[0]: invalid type: sequence, expected an object with start, end, start_direction, end_direction"],
+        ),
+        (
+            &["separation", "-", "--minimum", "0"],
+            r#"{"paths": [{"spans": [[[0, 0], null, [[1, 0], [1, 0], [1, 0]]]]}]}"#,
+            &["paths[0].spans[0]: invalid type: sequence, expected an object with start, end, preimage"],
+        ),
+        (
+            &["separation", "-", "--minimum", "0"],
+            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
+            &["paths[1]: `spans` is empty"],
+        ),
+        (
+            &["plan", "-"],
+            r#"{"obstacles": [[[0, 1], [1, 2], [3]]]}"#,
+            &["standard input: obstacles[0][2]: ", "array of length 2"],
         ),
         (&["equal-length", "-"], r#"{"length": 2, "paths": []}"#, &["`paths` is empty"]),
         (&["separation", "-", "--minimum", "0"], r#"{"paths": []}"#, &["0 paths"]),
@@ -164,6 +191,42 @@ fn mistakes_are_named() {
     }
 }
 
+#[test]
+fn mistakes_in_toml_are_named() {
+    let folder = Folder::new("");
+    let says = |tool: &str, text: &str, part: &str| {
+        std::fs::write(folder.at("ends.toml"), text).unwrap();
+        let said = run(["path", tool, &folder.text("ends.toml")]);
+        assert!(said.code == Some(1) && said.err.contains(&format!("ends.toml: {part}")), "{}", said.err);
+    };
+    let ends = "end = [1, 0]\nstart_derivative = [1, 1]\nend_derivative = [1, -1]";
+    says("hermite", &format!("start = [0, 0, 1]\n{ends}"), "start: invalid length 3");
+    says("hermite", &format!("start = [0, \"a\"]\n{ends}"), "start[1]: invalid type: string \"a\"");
+    says("hermite", ends, "missing field `start`");
+    says("equal-length", "length = 2\n[[paths]]\nstart = [0, 0]\nend = 1", "paths[0].end: invalid type: integer `1`");
+    says("equal-length", "length = 2\npaths = [[1]]", "paths[0]: invalid type: sequence, expected an object with start, end");
+    std::fs::write(folder.at("ends.toml"), format!("start = [0, 0]\n{ends}")).unwrap();
+    fine(["path", "hermite", &folder.text("ends.toml")]);
+}
+
+/// Some of the curves run along a line and stand still on it.
+#[test]
+fn a_curve_that_stands_still_has_no_greatest_curvature() {
+    let ends = r#"{"start": [0, 0], "end": [1, 0], "start_derivative": [6, 0], "end_derivative": [6, 0]}"#;
+    let found = piped(&["hermite", "-"], ends).json();
+    let path = &found["paths"][0];
+    let told = |c: &Value| (c["regular"].clone(), c["greatest_curvature"].is_number());
+    let told: Vec<_> = path["candidates"].as_array().unwrap().iter().map(told).collect();
+    let [still, moving] = [(json!(false), false), (json!(true), true)];
+    assert_eq!(told, [still.clone(), still, moving.clone(), moving]);
+    assert!(path["best"] == json!(2) && path["greatest_curvature"] == path["candidates"][2]["greatest_curvature"]);
+    let query = ["query", "--family", "ph-hermite", "--theta0", "0", "--theta1", "0", "--l0", "6", "--l1", "6", "--json"];
+    let answer = fine(query).json();
+    let told = |s: &Value| (s["regular"].clone(), s.get("kappa_max").is_some());
+    let told: Vec<_> = answer["solutions"].as_array().unwrap().iter().map(told).collect();
+    assert_eq!(told, [(json!(false), false), (json!(false), false), (json!(true), true), (json!(true), true)]);
+}
+
 fn run_or_pipe(args: &[&str], input: &str) -> Said {
     if input.is_empty() { run(["path"].iter().chain(args)) } else { piped(args, input) }
 }
@@ -183,6 +246,16 @@ fn least_curvature() {
         r#"{"start": [0, 0], "end": [1, 0], "start_direction": 1, "end_direction": 1, "free": "width"}"#,
         &["width", "derivatives"],
     );
+    for end in ["[1e308, 0]", "[5e-324, 0]", "[0, 1.1e150]", "[0, 0.9e-150]"] {
+        let ends = format!(r#""end": {end}, "start_direction": 1, "end_direction": 1, "free": "length""#);
+        says(&format!(r#"{{"start": [0, 0], {ends}}}"#), &["`start` [0.0, 0.0] and `end` [", "unit of length"]);
+        says(&format!(r#"{{"start": [-1e308, 0], {ends}}}"#), &["`start` [-1e308, 0.0] and `end` [", "unit of length"]);
+    }
+    for end in ["0.9e150", "1.1e-150"] {
+        let ends = r#""start_direction": 1, "end_direction": 1, "free": "length""#;
+        let found = piped(&["least-curvature", "-"], &format!(r#"{{"start": [0, 0], "end": [{end}, 0], {ends}}}"#)).json();
+        assert!(number(&found["at_least"]) > 0.0 && number(&found["paths"][0]["greatest_curvature"]) > 0.0, "{found}");
+    }
     says(
         r#"{"start": [2, 1], "end": [2, 1], "start_direction": 1, "end_direction": 1, "free": "length"}"#,
         &["`start` and `end`", "apart"],

@@ -106,6 +106,7 @@ fn curves_that_stand_still_or_run_straight() {
     // (t - 1/2)(1 + i t): bent while it stands still.
     let cusp = PhQuintic::new([0.0, 0.0], [[-0.5, 0.0], [0.0, -0.25], [0.5, 0.5]]);
     assert!(cusp.bending_energy().is_infinite() && !cusp.is_regular() && cusp.curvature_bound(6).is_infinite());
+    assert_eq!((cusp.greatest_curvature(), pause.greatest_curvature()), ((0.5, f64::INFINITY), (0.5, 0.0)));
     // Beside the cusp: a tiny loop of one more turn, and a bound that is still one.
     let near = PhQuintic::new([0.0, 0.0], [[-0.5, 1e-3], [0.0, -0.25], [0.5, 0.5]]);
     assert!(near.bending_energy().is_finite() && (near.rotation().abs() > PI || near.absolute_rotation() < PI));
@@ -129,4 +130,61 @@ fn any_unit_of_length() {
         assert_near("measures", &got, &want, 1e-8);
         assert_near("rotation", &[d.absolute_rotation()], &[c.absolute_rotation()], 1e-14);
     }
+}
+
+/// `(t - 1/2 - a)(t - 1/2 - b)`.
+fn of_roots(a: [f64; 2], b: [f64; 2]) -> PhQuintic {
+    let [a, b] = [a, b].map(|[re, im]| num_complex::Complex64::new(0.5 + re, im));
+    let w = [a * b, a * b - 0.5 * (a + b), (1.0 - a) * (1.0 - b)];
+    PhQuintic::new([0.0, 0.0], w.map(|z| [z.re, z.im]))
+}
+
+/// Absolute rotation and greatest curvature, reckoned from the roots without cancellation near t = 1/2: the argument of w is monotone between
+/// the roots of a quadratic polynomial, and the curvature is sampled at distances from there that grow by the hundredth.
+fn told_by_roots(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    let [a, b] = [a, b].map(|[re, im]| num_complex::Complex64::new(re, im));
+    // The slope of the argument is Im a / |s - a|² + Im b / |s - b|².
+    let (p, q) = (a.im + b.im, a.im * b.re + b.im * a.re);
+    let r = a.im * b.norm_sqr() + b.im * a.norm_sqr();
+    let root = (q * q - p * r).sqrt();
+    let mut ends = vec![-0.5, (q - root) / p, (q + root) / p, 0.5];
+    ends.retain(|s| s.abs() <= 0.5);
+    ends.sort_by(f64::total_cmp);
+    let turn = |w: &[f64]| [a, b].map(|z| ((w[1] - z) / (w[0] - z)).arg()).iter().sum::<f64>().abs();
+    let rotation = 2.0 * ends.windows(2).map(turn).sum::<f64>();
+    let curvature = |s: f64| {
+        let (w, slope) = ((s - a) * (s - b), 2.0 * s - a - b);
+        2.0 * (w.conj() * slope).im.abs() / w.norm_sqr().powi(2)
+    };
+    let steps = (0..3000).map(|i| 0.5 * 0.99f64.powi(i));
+    let samples = steps.flat_map(|s| [s, -s]).flat_map(|s| [s, a.re + s, b.re + s]).filter(|s| s.abs() <= 0.5);
+    [rotation, samples.map(curvature).fold(0.0, f64::max)]
+}
+
+/// The slower a curve is somewhere, the less its pre-image tells of how it turns there.
+#[test]
+fn curves_that_nearly_stand_still() {
+    let mut least = f64::INFINITY;
+    for i in 0..240 {
+        let d = 0.3 * 0.95f64.powi(i);
+        for (a, b) in [
+            ([0.0, d], [0.7, 0.4]),
+            ([0.0, d], [0.0, 0.7 * d]),
+            ([0.2 * d, d], [-0.3 * d, -0.6 * d]),
+            ([0.0, d * d], [0.3 * d, -0.9 * d * d]),
+        ] {
+            let c = of_roots(a, b);
+            let share = c.least_speed().1 / c.length();
+            if !c.is_regular() {
+                continue;
+            }
+            least = least.min(share);
+            let [rotation, greatest] = told_by_roots(a, b);
+            let (turned, (_, most)) = (c.absolute_rotation(), c.greatest_curvature());
+            let told = 40.0 * f64::EPSILON / share.sqrt();
+            assert!((turned - rotation).abs() <= told, "{i} {share:e}: turns {turned:?}, not {rotation:?}");
+            assert!((most / greatest - 1.0).abs() <= 1e-5, "{i} {share:e}: bends {most:?}, not {greatest:?}");
+        }
+    }
+    assert!(least < 2e-12, "{least}");
 }

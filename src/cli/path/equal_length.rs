@@ -1,6 +1,7 @@
 //! `path equal-length`.
 
-use super::{Files, Found, Outcome, Paths, angle, figure};
+use super::input::{angle, objects};
+use super::{Files, Found, Outcome, Paths, figure};
 use serde::Deserialize;
 use spiral_atlas::path::{EqualLength, equal_length};
 use spiral_atlas::{Error, Result};
@@ -24,6 +25,7 @@ pub struct Args {
 #[serde(deny_unknown_fields)]
 struct Input {
     length: f64,
+    #[serde(deserialize_with = "objects")]
     paths: Vec<Ends>,
 }
 

@@ -1,7 +1,7 @@
 //! What the path tools draw.
 
 use spiral_atlas::curve::PhQuintic;
-use spiral_atlas::path::{Motion, Plan, Scene};
+use spiral_atlas::path::{Choice, Motion, Plan, Scene};
 use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
 use spiral_atlas::{Error, Result};
 
@@ -33,14 +33,28 @@ fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2
 
 /// Paths and their curvatures.
 pub fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
+    beside_others(paths, &[], title, "dots: starts")
+}
+
+/// The curve taken, its curvature, and the others there are.
+pub fn choice(choice: &Choice) -> Result<Vec<u8>> {
+    let others = choice.candidates.iter().enumerate().filter(|(i, _)| *i != choice.best);
+    let others: Vec<_> = others.map(|(_, c)| vec![c.curve]).collect();
+    let title = format!("{} curves between two ends", choice.candidates.len());
+    let note = "dot: start; blue: the one of least absolute rotation, and its curvature";
+    beside_others(&[vec![*choice.best()]], &others, &title, note)
+}
+
+/// Paths and their curvatures, and paths without.
+fn beside_others(paths: &[Vec<PhQuintic>], others: &[Vec<PhQuintic>], title: &str, note: &str) -> Result<Vec<u8>> {
     let lines: Vec<_> = paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect();
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
         return Err(Error::Domain("a path stands still somewhere, where it has no curvature".into()));
     }
     let figure = PathsFigure {
         title: title.into(),
-        note: "dots: starts".into(),
-        paths: paths.iter().map(|spans| points(spans)).collect(),
+        note: note.into(),
+        paths: paths.iter().chain(others).map(|spans| points(spans)).collect(),
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
         level: None,
         backdrop: None,
@@ -67,7 +81,7 @@ fn length(spans: &[PhQuintic]) -> f64 {
 }
 
 /// The paths of several motions and the separation of each pair over time.
-pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<u8>> {
+pub fn separations(motions: &[Motion], minimum: f64, title: String) -> Result<Vec<u8>> {
     let mut lines = Vec::new();
     for (i, a) in motions.iter().enumerate() {
         for b in &motions[i + 1..] {
@@ -82,8 +96,8 @@ pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<u8>> {
         }
     }
     let figure = PathsFigure {
-        title: format!("{} vehicles, {} pairs", motions.len(), lines.len()),
-        note: format!("dots: starts; red: the minimum {minimum}"),
+        title,
+        note: format!("dots: starts; on the right a line for each pair; red: the minimum {minimum}"),
         paths: motions.iter().map(|m| points(m.spans())).collect(),
         graph: Lines { across: "time".into(), up: "separation".into(), lines },
         level: Some(minimum),

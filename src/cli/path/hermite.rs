@@ -21,5 +21,5 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let ends: Hermite = args.files.read()?;
     let choice = hermite(&ends).map_err(|e| args.files.blame(e))?;
     let paths = vec![Found::chosen(&choice, choice.best, None)];
-    args.files.finish(&Paths { paths }, || figure::curves(&[vec![*choice.best()]], "Hermite interpolant"))
+    args.files.finish(&Paths { paths }, || figure::choice(&choice))
 }

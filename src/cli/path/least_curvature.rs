@@ -1,9 +1,10 @@
 //! `path least-curvature`.
 
-use super::{Files, Found, Outcome, angle, figure};
+use super::input::angle;
+use super::{Files, Found, Outcome, figure};
 use serde::{Deserialize, Serialize};
-use spiral_atlas::Result;
 use spiral_atlas::path::{Directions, Free, least_curvature};
+use spiral_atlas::{Error, Result};
 
 /// Join two points with given directions by the path whose greatest curvature is least.
 ///
@@ -44,6 +45,13 @@ struct Output {
 pub fn run(args: &Args) -> Result<Outcome> {
     let Input { start, end, start_direction, end_direction, free, greatest_length } = args.files.read()?;
     let distance = (end[0] - start[0]).hypot(end[1] - start[1]);
+    // Curvatures would leave the range of doubles, and the length allowed would be no number that the user gave.
+    let reckoned = distance == 0.0 || (1e-150..=1e150).contains(&distance);
+    if !reckoned && start.iter().chain(&end).all(|x| x.is_finite()) {
+        let what =
+            format!("`start` {start:?} and `end` {end:?} are not between 1e-150 and 1e150 apart; change the unit of length");
+        return Err(args.files.blame(Error::Domain(what)));
+    }
     let greatest_length = greatest_length.unwrap_or(2.0 * distance);
     let ends = Directions { start, end, start_direction, end_direction, greatest_length, free };
     let found = least_curvature(&ends).map_err(|e| args.files.blame(e))?;

@@ -3,17 +3,17 @@
 mod equal_length;
 mod figure;
 mod hermite;
+mod input;
 mod least_curvature;
 mod plan;
 mod separation;
 mod spline;
 
 use super::{Outcome, output};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Deserializer, Serialize};
 use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::Choice;
-use spiral_atlas::recipe::parse_angle;
 use spiral_atlas::{Error, Result};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -77,11 +77,7 @@ impl Files {
         } else {
             text = std::fs::read_to_string(&self.input).map_err(io)?;
         }
-        let read = match has_extension(&self.input, "toml") {
-            true => toml::from_str(&text).map_err(|e| e.to_string()),
-            false => serde_json::from_str(&text).map_err(|e| e.to_string()),
-        };
-        read.map_err(|e| self.blame(Error::Domain(e)))
+        input::parse(&text, has_extension(&self.input, "toml")).map_err(|e| self.blame(Error::Domain(e)))
     }
 
     /// An error of what was read here.
@@ -120,6 +116,7 @@ struct Found {
     /// Null where the path stands still.
     bending_energy: f64,
     absolute_rotation: f64,
+    /// As of a [`Candidate`].
     greatest_curvature: f64,
     spans: Vec<Span>,
     #[serde(flatten)]
@@ -140,8 +137,14 @@ struct Candidate {
     absolute_rotation: f64,
     regular: bool,
     length: f64,
+    /// Null where it is not regular.
     greatest_curvature: f64,
     preimage: [[f64; 2]; 3],
+}
+
+/// None, which is written null, where the curve stands still: there it is unbounded, or on a straight line there is none.
+fn greatest_curvature(curve: &PhQuintic) -> f64 {
+    if curve.is_regular() { curve.greatest_curvature().1 } else { f64::NAN }
 }
 
 impl Found {
@@ -152,7 +155,7 @@ impl Found {
             length: sum(PhQuintic::length),
             bending_energy: sum(PhQuintic::bending_energy),
             absolute_rotation: sum(PhQuintic::absolute_rotation),
-            greatest_curvature: spans.iter().map(|s| s.greatest_curvature().1).fold(0.0, most),
+            greatest_curvature: spans.iter().map(greatest_curvature).fold(0.0, most),
             spans: spans.iter().map(|c| Span { curve: *c, control_points: c.control_points() }).collect(),
             choice: None,
         }
@@ -164,7 +167,7 @@ impl Found {
             absolute_rotation: c.absolute_rotation,
             regular: c.regular,
             length: c.curve.length(),
-            greatest_curvature: c.curve.greatest_curvature().1,
+            greatest_curvature: greatest_curvature(&c.curve),
             preimage: c.curve.preimage,
         };
         let candidates = choice.candidates.iter().map(candidate).collect();
@@ -180,18 +183,4 @@ impl Found {
 #[derive(Serialize)]
 struct Paths {
     paths: Vec<Found>,
-}
-
-/// An angle: a number, or text like `40deg`.
-fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
-    #[derive(Deserialize)]
-    #[serde(untagged, expecting = "expected an angle: a number of radians, or text like \"40deg\"")]
-    enum Angle {
-        Number(f64),
-        Text(String),
-    }
-    match Angle::deserialize(from)? {
-        Angle::Number(x) => Ok(x),
-        Angle::Text(text) => parse_angle(&text).map_err(serde::de::Error::custom),
-    }
 }

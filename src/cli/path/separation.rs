@@ -1,5 +1,6 @@
 //! `path separation`.
 
+use super::input::objects;
 use super::{Files, Outcome, figure};
 use serde::{Deserialize, Serialize};
 use spiral_atlas::curve::PhQuintic;
@@ -26,11 +27,13 @@ pub struct Args {
 
 #[derive(Deserialize)]
 struct Input {
+    #[serde(deserialize_with = "objects")]
     paths: Vec<Path>,
 }
 
 #[derive(Deserialize)]
 struct Path {
+    #[serde(deserialize_with = "objects")]
     spans: Vec<Span>,
     #[serde(default = "one")]
     speed: f64,
@@ -78,6 +81,9 @@ fn curve(span: &Span) -> Result<PhQuintic> {
 }
 
 fn motion(path: &Path) -> Result<Motion> {
+    if path.spans.is_empty() {
+        return Err(Error::Domain("`spans` is empty; a path has one at least".into()));
+    }
     let curve = |(i, span): (usize, &Span)| curve(span).map_err(|e| Error::Domain(format!("spans[{i}]: {e}")));
     let spans = path.spans.iter().enumerate().map(curve).collect::<Result<Vec<_>>>()?;
     Motion::new(spans, path.speed, path.start_time)
@@ -96,6 +102,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);
     let pairs = found.iter().map(|(first, second, found)| Pair { first: *first, second: *second, found: *found }).collect();
     let output = Output { minimum: args.minimum, verdict, pairs };
-    let done = args.files.finish(&output, || figure::separations(&motions, args.minimum))?;
+    let least = found.iter().map(|(_, _, f)| f.closest.at_most).fold(f64::INFINITY, f64::min);
+    let title = format!("{} vehicles, {} pairs, least separation {least:.6}", motions.len(), found.len());
+    let done = args.files.finish(&output, || figure::separations(&motions, args.minimum, title))?;
     Ok(if verdict == Verdict::Kept { done } else { Outcome::Bad })
 }

@@ -22,7 +22,7 @@ pub(super) fn answer(kind: Kind, point: &[f64]) -> Result<Answer> {
     }
     let choice = solutions(&datum)?;
     let sizes: Vec<f64> = choice.candidates.iter().map(|c| c.curve.greatest_curvature().1).collect();
-    let regular = |i: &usize| choice.candidates[*i].regular && !sizes[*i].is_nan();
+    let regular = |i: &usize| choice.candidates[*i].regular;
     let chosen = (0..sizes.len()).filter(regular).min_by(|i, j| sizes[*i].total_cmp(&sizes[*j]));
     Ok(Answer { code, derived, solutions: choice.candidates.iter().zip(sizes).map(told).collect(), chosen })
 }
@@ -53,8 +53,8 @@ fn solutions(datum: &Datum) -> Result<Choice> {
 
 fn told((candidate, kappa_max): (&Candidate, f64)) -> Values {
     let mut values: Values = vec![("regular", candidate.regular.into())];
-    // Where it stands still, the curvature may be infinite or nothing at all.
-    if kappa_max.is_finite() {
+    // Where it stands still, the curvature is infinite or nothing at all.
+    if candidate.regular {
         values.push(("kappa_max", kappa_max.into()));
     }
     let points: Value = candidate.curve.control_points().into();

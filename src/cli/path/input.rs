@@ -1,0 +1,98 @@
+//! Reads input by the names of its fields, and tells mistakes by their paths.
+
+use serde::de::value::{Error as Unread, MapAccessDeserializer};
+use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
+use spiral_atlas::recipe::parse_angle;
+use std::fmt;
+use std::marker::PhantomData;
+
+/// What a text says, in TOML or else in JSON.
+///
+/// # Errors
+/// What is wrong, after the path of where: `paths[1].start: ...`.
+pub fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> Result<T, String> {
+    if toml {
+        // As a table first: read from the text, `[0, 0, 1]` would be taken for a point.
+        return at_path(toml::from_str::<toml::Table>(text).map_err(|e| e.to_string())?);
+    }
+    let mut json = serde_json::Deserializer::from_str(text);
+    let value = at_path(&mut json)?;
+    json.end().map_err(|e| e.to_string())?;
+    Ok(value)
+}
+
+fn at_path<'de, T: Deserialize<'de>, D: Deserializer<'de, Error: fmt::Display>>(from: D) -> Result<T, String> {
+    let read: Result<Named<T>, _> = serde_path_to_error::deserialize(from);
+    read.map(|named| named.0).map_err(|e| {
+        let (path, what) = (e.path().to_string(), e.inner().to_string());
+        // It ends with `?` where there is no key yet.
+        match path.trim_end_matches(['.', '?']) {
+            "" => what,
+            path => format!("{path}: {}", what.trim_end()),
+        }
+    })
+}
+
+/// Objects in a list: [`Named`], each.
+pub fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Vec<T>, D::Error> {
+    Ok(Vec::deserialize(from)?.into_iter().map(|Named(object)| object).collect())
+}
+
+/// A struct that was written as an object. Derived readers take a list of its values too, where nothing shows that two were exchanged.
+struct Named<T>(T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_map(Fields(PhantomData)).map(Named)
+    }
+}
+
+struct Fields<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let names = T::deserialize(Names).err();
+        write!(f, "an object with {}", names.map_or("fields".into(), |names| names.to_string()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map))
+    }
+}
+
+/// Gives a derived reader nothing to read, but an error that lists the fields it asked for.
+struct Names;
+
+impl<'de> Deserializer<'de> for Names {
+    type Error = Unread;
+
+    fn deserialize_struct<V: Visitor<'de>>(self, _: &str, names: &'static [&'static str], _: V) -> Result<V::Value, Unread> {
+        Err(Unread::custom(names.join(", ")))
+    }
+
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Unread> {
+        Err(Unread::custom("fields"))
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct newtype_struct
+        seq tuple tuple_struct map enum identifier ignored_any
+    }
+}
+
+/// An angle: a number, or text like `40deg`.
+pub fn angle<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "expected an angle: a number of radians, or text like \"40deg\"")]
+    enum Angle {
+        Number(f64),
+        Text(String),
+    }
+    match Angle::deserialize(from)? {
+        Angle::Number(x) => Ok(x),
+        Angle::Text(text) => parse_angle(&text).map_err(serde::de::Error::custom),
+    }
+}
