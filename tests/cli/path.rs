@@ -114,9 +114,52 @@ fn a_planned_path_is_input_of_separation() {
 }
 
 #[test]
+fn what_is_measured_of_a_path_agrees_with_the_path() {
+    let spline = piped(&["spline", "-"], r#"{"points": [[0, 0], [1, 1], [2, 0], [3, 1], [4, 0]]}"#).out;
+    let folder = Folder::new("");
+    let figure = folder.text("measured.png");
+    let measured = piped(&["measure", "-", "--samples", "40", "--offset", "-0.25", "--figure", &figure], &spline).json();
+    let path = &measured["paths"][0];
+    let given: Value = serde_json::from_str(&spline).unwrap();
+    assert_eq!((&path["length"], &path["bending_energy"]), (&given["paths"][0]["length"], &given["paths"][0]["bending_energy"]));
+    let list = |name: &str| path[name].as_array().unwrap().clone();
+    let point = |at: &Value| [number(&at["point"][0]), number(&at["point"][1])];
+    let samples = list("samples");
+    assert_eq!(samples.len(), 41);
+    assert_eq!((point(&samples[0]), point(&samples[40])), ([0.0, 0.0], [4.0, 0.0]));
+    let step = number(&path["length"]) / 40.0;
+    for w in samples.windows(2) {
+        let ([p, q], turn) = ([point(&w[0]), point(&w[1])], number(&w[1]["direction"]) - number(&w[0]["direction"]));
+        let chord = (q[0] - p[0]).hypot(q[1] - p[1]);
+        assert!((number(&w[1]["length"]) - number(&w[0]["length"]) - step).abs() < 1e-12 && chord <= step && chord > 0.97 * step);
+        // The mean of the curvatures is about the turn over the length.
+        let mean = 0.5 * (number(&w[0]["curvature"]) + number(&w[1]["curvature"]));
+        assert!((turn / step - mean).abs() < 0.2, "{turn} {step} {mean}");
+    }
+    // Up, down, up, down.
+    let (extrema, inflections) = (list("curvature_extrema"), list("inflections"));
+    assert!(extrema.len() >= 3 && inflections.len() == 2, "{} {}", extrema.len(), inflections.len());
+    assert!(inflections.iter().all(|at| number(&at["curvature"]).abs() < 1e-12));
+    let most = extrema.iter().map(|at| number(&at["curvature"]).abs()).fold(0.0, f64::max);
+    assert!((most / number(&given["paths"][0]["greatest_curvature"]) - 1.0).abs() < 1e-12);
+    // The ends of the offset curve are 0.25 to the right.
+    let offset = &path["offset"].as_array().unwrap()[0];
+    let (first, weight) = (&offset["numerator"][0], number(&offset["weight"][0]));
+    let direction = number(&samples[0]["direction"]);
+    let apart = [number(&first[0]) / weight - 0.25 * direction.sin(), number(&first[1]) / weight + 0.25 * direction.cos()];
+    assert!(apart[0].hypot(apart[1]) < 1e-14 && offset["numerator"].as_array().unwrap().len() == 10, "{apart:?}");
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    let bare = piped(&["measure", "-"], &spline).json();
+    assert!(bare["paths"][0]["samples"] == json!([]) && bare["paths"][0].get("offset").is_none());
+}
+
+#[test]
 fn mistakes_are_named() {
     let cases: &[(&[&str], &str, &[&str])] = &[
         (&["hermite", "-"], "{", &["standard input: EOF", "line 1"]),
+        (&["measure", "-"], r#"{"paths": [{"spans": []}]}"#, &["paths[0]: `spans` is empty"]),
+        (&["measure", "-", "--offset", "inf"], r#"{"paths": []}"#, &["--offset is inf"]),
+        (&["measure", "-", "--samples", "1000001"], r#"{"paths": []}"#, &["--samples is 1000001", "1000000"]),
         (&["hermite", "-"], r#"{"start": [0, 0]}"#, &["standard input", "missing field `end`"]),
         (
             &["hermite", "-"],

@@ -33,20 +33,36 @@ fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2
 
 /// Paths and their curvatures.
 pub fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
-    beside_others(paths, &[], title, "dots: starts")
+    beside_others(paths, vec![], title, "dots: starts")
+}
+
+/// Paths with their curvatures and offset curves.
+pub fn measured(paths: &[Vec<PhQuintic>], offset: Option<f64>) -> Result<Vec<u8>> {
+    let beside = |spans: &Vec<PhQuintic>, d: f64| {
+        let points = |c: &PhQuintic| {
+            let offset = c.offset(d);
+            steps(spans.len()).map(|t| offset.point(t)).collect::<Vec<_>>()
+        };
+        spans.iter().flat_map(points).collect()
+    };
+    let offsets = offset.map_or(vec![], |d| paths.iter().map(|spans| beside(spans, d)).collect());
+    let length: f64 = paths.iter().map(|spans| length(spans)).sum();
+    let title = if let [_] = paths { format!("A path of length {length:.6}") } else { format!("{} paths", paths.len()) };
+    let note = offset.map_or("dots: starts".into(), |d| format!("dots: starts; the other colours: at distance {d}"));
+    beside_others(paths, offsets, &title, &note)
 }
 
 /// The curve taken, its curvature, and the others there are.
 pub fn choice(choice: &Choice) -> Result<Vec<u8>> {
     let others = choice.candidates.iter().enumerate().filter(|(i, _)| *i != choice.best);
-    let others: Vec<_> = others.map(|(_, c)| vec![c.curve]).collect();
+    let others = others.map(|(_, c)| points(&[c.curve])).collect();
     let title = format!("{} curves between two ends", choice.candidates.len());
     let note = "dot: start; blue: the one of least absolute rotation, and its curvature";
-    beside_others(&[vec![*choice.best()]], &others, &title, note)
+    beside_others(&[vec![*choice.best()]], others, &title, note)
 }
 
-/// Paths and their curvatures, and paths without.
-fn beside_others(paths: &[Vec<PhQuintic>], others: &[Vec<PhQuintic>], title: &str, note: &str) -> Result<Vec<u8>> {
+/// Paths and their curvatures, and points of other curves.
+fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &str, note: &str) -> Result<Vec<u8>> {
     let lines: Vec<_> = paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect();
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
         return Err(Error::Domain("a path stands still somewhere, where it has no curvature".into()));
@@ -54,7 +70,7 @@ fn beside_others(paths: &[Vec<PhQuintic>], others: &[Vec<PhQuintic>], title: &st
     let figure = PathsFigure {
         title: title.into(),
         note: note.into(),
-        paths: paths.iter().chain(others).map(|spans| points(spans)).collect(),
+        paths: paths.iter().map(|spans| points(spans)).chain(others).collect(),
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
         level: None,
         backdrop: None,

@@ -3,7 +3,9 @@
 use serde::de::value::{Error as Unread, MapAccessDeserializer};
 use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
+use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::{Error, Result};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -11,7 +13,7 @@ use std::marker::PhantomData;
 ///
 /// # Errors
 /// What is wrong, after the path of where: `paths[1].start: ...`.
-pub fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> Result<T, String> {
+pub fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> std::result::Result<T, String> {
     if toml {
         // As a table first: read from the text, `[0, 0, 1]` would be taken for a point.
         return at_path(toml::from_str::<toml::Table>(text).map_err(|e| e.to_string())?);
@@ -22,8 +24,8 @@ pub fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> Result<T, String> {
     Ok(value)
 }
 
-fn at_path<'de, T: Deserialize<'de>, D: Deserializer<'de, Error: fmt::Display>>(from: D) -> Result<T, String> {
-    let read: Result<Named<T>, _> = serde_path_to_error::deserialize(from);
+fn at_path<'de, T: Deserialize<'de>, D: Deserializer<'de, Error: fmt::Display>>(from: D) -> std::result::Result<T, String> {
+    let read: std::result::Result<Named<T>, _> = serde_path_to_error::deserialize(from);
     read.map(|named| named.0).map_err(|e| {
         let (path, what) = (e.path().to_string(), e.inner().to_string());
         // It ends with `?` where there is no key yet.
@@ -35,7 +37,7 @@ fn at_path<'de, T: Deserialize<'de>, D: Deserializer<'de, Error: fmt::Display>>(
 }
 
 /// Objects in a list: [`Named`], each.
-pub fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Vec<T>, D::Error> {
+pub fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> std::result::Result<Vec<T>, D::Error> {
     Ok(Vec::deserialize(from)?.into_iter().map(|Named(object)| object).collect())
 }
 
@@ -43,7 +45,7 @@ pub fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Resul
 struct Named<T>(T);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Self, D::Error> {
         from.deserialize_map(Fields(PhantomData)).map(Named)
     }
 }
@@ -58,7 +60,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
         write!(f, "an object with {}", names.map_or("fields".into(), |names| names.to_string()))
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> std::result::Result<T, A::Error> {
         T::deserialize(MapAccessDeserializer::new(map))
     }
 }
@@ -69,11 +71,16 @@ struct Names;
 impl<'de> Deserializer<'de> for Names {
     type Error = Unread;
 
-    fn deserialize_struct<V: Visitor<'de>>(self, _: &str, names: &'static [&'static str], _: V) -> Result<V::Value, Unread> {
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &str,
+        names: &'static [&'static str],
+        _: V,
+    ) -> std::result::Result<V::Value, Unread> {
         Err(Unread::custom(names.join(", ")))
     }
 
-    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Unread> {
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> std::result::Result<V::Value, Unread> {
         Err(Unread::custom("fields"))
     }
 
@@ -84,7 +91,7 @@ impl<'de> Deserializer<'de> for Names {
 }
 
 /// An angle: a number, or text like `40deg`.
-pub fn angle<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+pub fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
     #[derive(Deserialize)]
     #[serde(untagged, expecting = "expected an angle: a number of radians, or text like \"40deg\"")]
     enum Angle {
@@ -95,4 +102,35 @@ pub fn angle<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
         Angle::Number(x) => Ok(x),
         Angle::Text(text) => parse_angle(&text).map_err(serde::de::Error::custom),
     }
+}
+
+/// A span of a path as the tools print it.
+#[derive(Deserialize)]
+pub struct Span {
+    start: [f64; 2],
+    end: Option<[f64; 2]>,
+    preimage: [[f64; 2]; 3],
+}
+
+/// The spans of a path, if it has some and their ends are where their pre-images lead.
+pub fn curves(spans: &[Span]) -> Result<Vec<PhQuintic>> {
+    if spans.is_empty() {
+        return Err(Error::Domain("`spans` is empty; a path has one at least".into()));
+    }
+    let named = |(i, span): (usize, &Span)| curve(span).map_err(|e| Error::Domain(format!("spans[{i}]: {e}")));
+    spans.iter().enumerate().map(named).collect()
+}
+
+fn curve(span: &Span) -> Result<PhQuintic> {
+    let curve = PhQuintic::new(span.start, span.preimage);
+    if !curve.is_finite() {
+        return Err(Error::Domain(format!("it is not finite: {curve:?}")));
+    }
+    let Some(end) = span.end else { return Ok(curve) };
+    let size = span.preimage.iter().flatten().map(|x| x * x).sum::<f64>() + span.start.iter().map(|x| x.abs()).sum::<f64>();
+    let off = (curve.end[0] - end[0]).hypot(curve.end[1] - end[1]);
+    if off <= 1e-10 * size {
+        return Ok(PhQuintic::between(span.start, end, span.preimage));
+    }
+    Err(Error::Domain(format!("`end` is {end:?}, but the pre-image leads to {:?}", curve.end)))
 }

@@ -5,6 +5,7 @@ mod figure;
 mod hermite;
 mod input;
 mod least_curvature;
+mod measure;
 mod plan;
 mod separation;
 mod spline;
@@ -22,7 +23,7 @@ use std::path::{Path, PathBuf};
 /// among obstacles, and apart from each other.
 ///
 /// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others print has `paths`,
-/// which `separation` reads. Any unit of length; angles are radians, or degrees when written like "40deg".
+/// which `separation` and `measure` read. Any unit of length; angles are radians, or degrees when written like "40deg".
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
@@ -40,6 +41,7 @@ enum Tool {
     Spline(spline::Args),
     Plan(plan::Args),
     Separation(separation::Args),
+    Measure(measure::Args),
 }
 
 /// Runs the command.
@@ -51,6 +53,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         Tool::Spline(args) => spline::run(args),
         Tool::Plan(args) => plan::run(args),
         Tool::Separation(args) => separation::run(args),
+        Tool::Measure(args) => measure::run(args),
     }
 }
 

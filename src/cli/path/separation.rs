@@ -1,9 +1,8 @@
 //! `path separation`.
 
-use super::input::objects;
+use super::input::{Span, curves, objects};
 use super::{Files, Outcome, figure};
 use serde::{Deserialize, Serialize};
-use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::{Motion, Separation, Verdict, separations};
 use spiral_atlas::{Error, Result};
 
@@ -41,13 +40,6 @@ struct Path {
     start_time: f64,
 }
 
-#[derive(Deserialize)]
-struct Span {
-    start: [f64; 2],
-    end: Option<[f64; 2]>,
-    preimage: [[f64; 2]; 3],
-}
-
 fn one() -> f64 {
     1.0
 }
@@ -68,25 +60,8 @@ struct Pair {
     found: Separation,
 }
 
-/// The span, if its end is where its pre-image leads.
-fn curve(span: &Span) -> Result<PhQuintic> {
-    let curve = PhQuintic::new(span.start, span.preimage);
-    let Some(end) = span.end else { return Ok(curve) };
-    let size = span.preimage.iter().flatten().map(|x| x * x).sum::<f64>() + span.start.iter().map(|x| x.abs()).sum::<f64>();
-    let off = (curve.end[0] - end[0]).hypot(curve.end[1] - end[1]);
-    if off <= 1e-10 * size {
-        return Ok(PhQuintic::between(span.start, end, span.preimage));
-    }
-    Err(Error::Domain(format!("`end` is {end:?}, but the pre-image leads to {:?}", curve.end)))
-}
-
 fn motion(path: &Path) -> Result<Motion> {
-    if path.spans.is_empty() {
-        return Err(Error::Domain("`spans` is empty; a path has one at least".into()));
-    }
-    let curve = |(i, span): (usize, &Span)| curve(span).map_err(|e| Error::Domain(format!("spans[{i}]: {e}")));
-    let spans = path.spans.iter().enumerate().map(curve).collect::<Result<Vec<_>>>()?;
-    Motion::new(spans, path.speed, path.start_time)
+    Motion::new(curves(&path.spans)?, path.speed, path.start_time)
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
