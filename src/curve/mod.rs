@@ -28,6 +28,7 @@ mod figure;
 mod involute;
 mod jet;
 mod length;
+mod offset;
 mod ph;
 mod placement;
 mod quintic;
@@ -45,8 +46,9 @@ pub use involute::{
 };
 pub use jet::Jet;
 pub use length::arc_length;
+pub use offset::Offset;
 pub use ph::{PhAnswer, PhOutcome, PhSolution, ph_spiral};
 pub use placement::{Ends, Placement, direction_of};
-pub use quintic::{Offset, PhQuintic};
+pub use quintic::PhQuintic;
 pub use spiral::{Answer, Outcome, Solution, spiral};
 pub use why::{Turn, Waver, Which, Why};

@@ -23,26 +23,6 @@ pub struct PhQuintic {
     pub preimage: [[f64; 2]; 3],
 }
 
-/// A rational curve of degree 9 in homogeneous coordinates, as Bernstein coefficients.
-///
-/// The point at t is `numerator(t) / weight(t)`. Where all weights are positive, `numerator[i] / weight[i]` are its control points.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Offset {
-    /// X and Y.
-    pub numerator: Vec<[f64; 2]>,
-    /// W.
-    pub weight: Vec<f64>,
-}
-
-impl Offset {
-    /// The point at t; NaN where the weight is 0, which is where the path stands still.
-    pub fn point(&self, t: f64) -> [f64; 2] {
-        let component = |i: usize| self.numerator.iter().map(|p| p[i]).collect::<Vec<_>>();
-        let weight = value(self.weight.clone(), t);
-        [0, 1].map(|i| value(component(i), t) / weight)
-    }
-}
-
 impl PhQuintic {
     /// From where it starts and its pre-image.
     ///
@@ -201,7 +181,7 @@ impl PhQuintic {
     /// counts as standing still, as its pre-image does not tell how near it comes to that.
     pub fn greatest_curvature(&self) -> (f64, f64) {
         if !self.is_regular() {
-            let size = if self.turn_coefficients() == [0.0; 3] { 0.0 } else { f64::INFINITY };
+            let size = if self.scaled().0.turn_coefficients() == [0.0; 3] { 0.0 } else { f64::INFINITY };
             return (self.least_speed().0, size);
         }
         let mut candidates = vec![0.0];
@@ -258,22 +238,6 @@ impl PhQuintic {
         }
         let energy = unit.energy::<Ball>(53).or_else(|| unit.energy::<Interval>(128)).or_else(|| unit.energy::<Interval>(256));
         energy.map_or(f64::INFINITY, |e| e / size)
-    }
-
-    /// The curve at signed distance `d` to the left, `r + d i t`: rational of degree 9, weight σ.
-    pub fn offset(&self, d: f64) -> Offset {
-        let speed = self.speed_coefficients();
-        let [w0, w1, w2] = complex(&self.preimage);
-        let hodograph = [w0 * w0, w0 * w1, (2.0 * w1 * w1 + w0 * w2) / 3.0, w1 * w2, w2 * w2];
-        // i w² is (-Im, Re).
-        let normal = [hodograph.map(|z| -z.im), hodograph.map(|z| z.re)];
-        let points = self.control_points();
-        let component = |i: usize| {
-            let moved = product(&speed, &points.map(|p| p[i]));
-            moved.into_iter().zip(product(&normal[i], &[1.0; 6])).map(|(p, n)| p + d * n).collect::<Vec<_>>()
-        };
-        let (x, y) = (component(0), component(1));
-        Offset { numerator: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(), weight: product(&speed, &[1.0; 6]) }
     }
 
     /// An upper bound of |κ|, infinite where the curve nearly stands still: h and σ in Bernstein form on `2^halvings` pieces.
@@ -369,12 +333,12 @@ impl PhQuintic {
     }
 }
 
-fn complex(w: &[[f64; 2]; 3]) -> [Complex64; 3] {
+pub(super) fn complex(w: &[[f64; 2]; 3]) -> [Complex64; 3] {
     w.map(|[re, im]| Complex64::new(re, im))
 }
 
 /// The value of a Bernstein form (de Casteljau).
-fn value(mut c: impl AsMut<[f64]>, t: f64) -> f64 {
+pub(super) fn value(mut c: impl AsMut<[f64]>, t: f64) -> f64 {
     let c = c.as_mut();
     for last in (1..c.len()).rev() {
         for i in 0..last {
