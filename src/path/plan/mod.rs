@@ -261,7 +261,7 @@ fn bounded(i: usize, span: &PhQuintic, most: f64) -> Result<f64> {
     }
 }
 
-/// The places of the path: beside obstacles as far as turns need, else also further off.
+/// The places of the path: beside obstacles as far as turns need, else also in the open and further off.
 fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Place>> {
     let ends = [scene.start, scene.goal];
     if parted(obstacles, ends, scene.clearance, 32.0 * ROUNDINGS * scene.size()) {

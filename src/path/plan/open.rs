@@ -28,9 +28,10 @@ fn ahead(obstacles: &Obstacles, end: Point, beside: &[Place], limits: &Limits) -
     let seen = beside.iter().filter(|place| clear(place.at)).map(|place| minus(place.at, end));
     let mut angles: Vec<f64> = seen.map(|d| d[1].atan2(d[0])).collect();
     angles.sort_by(f64::total_cmp);
-    let first = angles.first().copied().unwrap_or(0.0);
-    angles.extend(if angles.is_empty() { vec![first] } else { vec![] });
-    angles.push(first + std::f64::consts::TAU);
+    if angles.is_empty() {
+        angles.push(0.0);
+    }
+    angles.push(angles[0] + std::f64::consts::TAU);
     let between = |w: &[f64]| {
         let parts = ((w[1] - w[0]) / APART).ceil().max(2.0);
         let (from, step) = (w[0], (w[1] - w[0]) / parts);
