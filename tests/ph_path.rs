@@ -154,6 +154,12 @@ fn neighbours_of_symmetric_data_are_decided() {
         slow += u32::from(!node(SPEEDS, &[first, second, size, other]).quick);
     }
     assert!(slow > 30, "{slow}");
+    // Directions within rounding of straight back: the peak is next to an end, nearer than doubles tell parameters from 1.
+    for (l0, l1) in [(4.0, 1.0), (2.0, 0.5), (1.0, 4.0), (0.25, 1.0), (4.000000000000001, 1.0)] {
+        for theta in [PI, -PI] {
+            node(SPEEDS, &[theta, theta, l0, l1]);
+        }
+    }
     // From whole degrees by steps of ninety 37ths.
     node(LENGTH, &[1.3962634015954634, -1.3962634015954636, 1.05]);
 }

@@ -138,7 +138,7 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     }
     // Up, down, up, down.
     let (extrema, inflections) = (list("curvature_extrema"), list("inflections"));
-    assert!(extrema.len() >= 3 && inflections.len() == 2, "{} {}", extrema.len(), inflections.len());
+    assert!(extrema.len() == 3 && inflections.len() == 2, "{} {}", extrema.len(), inflections.len());
     assert!(inflections.iter().all(|at| number(&at["curvature"]).abs() < 1e-12));
     let most = extrema.iter().map(|at| number(&at["curvature"]).abs()).fold(0.0, f64::max);
     assert!((most / number(&given["paths"][0]["greatest_curvature"]) - 1.0).abs() < 1e-12);
@@ -149,6 +149,19 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     let apart = [number(&first[0]) / weight - 0.25 * direction.sin(), number(&first[1]) / weight + 0.25 * direction.cos()];
     assert!(apart[0].hypot(apart[1]) < 1e-14 && offset["numerator"].as_array().unwrap().len() == 10, "{apart:?}");
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    // At a joint, where a closed path closes, and across straight lines between corners.
+    let count = |spans: &str| {
+        let path = piped(&["measure", "-"], spans).json()["paths"][0].clone();
+        ["curvature_extrema", "inflections"].map(|name| path[name].as_array().unwrap().len())
+    };
+    let joint = piped(&["spline", "-"], r#"{"points": [[-2, 0], [-1, 1], [0, 0], [1, -1], [2, 0]]}"#).out;
+    assert_eq!(count(&joint)[1], 1);
+    let closed = piped(&["spline", "-"], r#"{"points": [[2, 0], [0, 1], [-2, 0], [0, -1]], "closed": true}"#).out;
+    assert_eq!(count(&closed), [4, 0]);
+    let bends = r#"{"start": [0, 0], "goal": [10, 0], "obstacles": [[[3, -5], [3.5, -5], [3.5, 1], [3, 1]], [[6, -1], [6.5, -1], [6.5, 5], [6, 5]]],
+        "clearance": 0.2, "greatest_curvature": 3}"#;
+    // Two corners to the right, two to the left; each has a peak, and between two alike the curvature falls to 0.
+    assert_eq!(count(&piped(&["plan", "-"], bends).out), [6, 1]);
     let bare = piped(&["measure", "-"], &spline).json();
     assert!(bare["paths"][0]["samples"] == json!([]) && bare["paths"][0].get("offset").is_none());
 }
@@ -158,6 +171,16 @@ fn mistakes_are_named() {
     let cases: &[(&[&str], &str, &[&str])] = &[
         (&["hermite", "-"], "{", &["standard input: EOF", "line 1"]),
         (&["measure", "-"], r#"{"paths": [{"spans": []}]}"#, &["paths[0]: `spans` is empty"]),
+        (
+            &["measure", "-"],
+            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}, {"start": [7, 7], "preimage": [[1, 0], [1, 0], [1, 0]]}]}]}"#,
+            &["paths[0]: spans[0] ends at [1.0, 0.0], spans[1] starts at [7.0, 7.0]"],
+        ),
+        (
+            &["measure", "-", "--offset", "1e308"],
+            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[100, 0], [50, 60], [1, 90]]}]}]}"#,
+            &["paths[0]: spans[0]: its offset at distance 1e308"],
+        ),
         (&["measure", "-", "--offset", "inf"], r#"{"paths": []}"#, &["--offset is inf"]),
         (&["measure", "-", "--samples", "1000001"], r#"{"paths": []}"#, &["--samples is 1000001", "1000000"]),
         (&["hermite", "-"], r#"{"start": [0, 0]}"#, &["standard input", "missing field `end`"]),

@@ -112,13 +112,20 @@ pub struct Span {
     preimage: [[f64; 2]; 3],
 }
 
-/// The spans of a path, if it has some and their ends are where their pre-images lead.
+/// The spans of a path, if it has some, they join, and their ends are where their pre-images lead.
 pub fn curves(spans: &[Span]) -> Result<Vec<PhQuintic>> {
     if spans.is_empty() {
         return Err(Error::Domain("`spans` is empty; a path has one at least".into()));
     }
     let named = |(i, span): (usize, &Span)| curve(span).map_err(|e| Error::Domain(format!("spans[{i}]: {e}")));
-    spans.iter().enumerate().map(named).collect()
+    let curves = spans.iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
+    match curves.windows(2).position(|w| w[0].end != w[1].start) {
+        Some(i) => {
+            let (end, start) = (curves[i].end, curves[i + 1].start);
+            Err(Error::Domain(format!("spans[{i}] ends at {end:?}, spans[{}] starts at {start:?}; they must join", i + 1)))
+        }
+        None => Ok(curves),
+    }
 }
 
 fn curve(span: &Span) -> Result<PhQuintic> {

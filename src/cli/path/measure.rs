@@ -95,6 +95,13 @@ impl Course<'_> {
         Course { spans, before, length }
     }
 
+    /// Whether it ends where it starts, in the same direction.
+    fn closed(&self) -> bool {
+        let (first, last) = (&self.spans[0], &self.spans[self.spans.len() - 1]);
+        let ([a, b], [c, d]) = (first.tangent(0.0), last.tangent(1.0));
+        first.start == last.end && a * c + b * d > 1.0 - 1e-9
+    }
+
     fn station(&self, span: usize, parameter: f64) -> Station {
         let curve = &self.spans[span];
         let tangent = curve.tangent(parameter);
@@ -114,50 +121,72 @@ impl Course<'_> {
         self.station(span, self.spans[span].parameter_at(length - self.before[span]))
     }
 
-    /// Where the curvature ends to rise or to fall, also where spans join.
+    /// Where the curvature ends to rise or to fall.
     fn extrema(&self) -> Vec<Station> {
-        let one = |i: usize| {
-            let mut all = self.spans[i].curvature_extrema();
-            let next = self.spans.get(i + 1).map_or(0.0, |next| rise(next, false));
-            all.extend((rise(&self.spans[i], true) * next < 0.0).then_some(1.0));
-            all.into_iter().map(move |t| self.station(i, t))
+        self.stations(PhQuintic::curvature_extrema, rise)
+    }
+
+    /// Where it changes its sign.
+    fn inflections(&self) -> Vec<Station> {
+        let sides = |span: &PhQuintic| {
+            // Where the curvature is 0 at an end, within rounding, it has the sign of its slope there: none on a line.
+            let [h0, h1, h2] = span.turn_coefficients();
+            let none = 1e-12 * h0.abs().max(h1.abs()).max(h2.abs());
+            [h0, h2].map(|h| if h.abs() <= none { h1 } else { h })
         };
-        (0..self.spans.len()).flat_map(one).collect()
+        self.stations(PhQuintic::inflections, sides)
     }
 
-    fn stations(&self, parameters: fn(&PhQuintic) -> Vec<f64>) -> Vec<Station> {
-        let all = self.spans.iter().enumerate().flat_map(|(i, span)| parameters(span).into_iter().map(move |t| (i, t)));
-        all.map(|(i, t)| self.station(i, t)).collect()
+    /// Parameters inside spans, and joints where the sign that spans have beside them changes. Spans that have none, such as lines, are passed
+    /// over: then it changes at the start of the next one. A path that ends where it starts joins there, too.
+    fn stations(&self, inside: fn(&PhQuintic) -> Vec<f64>, sides: fn(&PhQuintic) -> [f64; 2]) -> Vec<Station> {
+        let sides: Vec<[f64; 2]> = self.spans.iter().map(sides).collect();
+        let mut last = if self.closed() { sides.iter().rev().map(|s| s[1]).find(|s| *s != 0.0).unwrap_or(0.0) } else { 0.0 };
+        let mut all = Vec::new();
+        for (i, [first, end]) in sides.iter().enumerate() {
+            if first * last < 0.0 {
+                all.push(self.station(i, 0.0));
+            }
+            last = [*end, *first, last].into_iter().find(|s| *s != 0.0).unwrap_or(0.0);
+            all.extend(inside(&self.spans[i]).into_iter().map(|t| self.station(i, t)));
+        }
+        // What lies at a joint may be seen from both sides.
+        all.dedup_by(|next, last| next.length - last.length <= 1e-9 * self.length);
+        all
     }
 }
 
-/// A number of the sign of the curvature's slope at an end: `σh' - 2hσ'`.
-fn rise(span: &PhQuintic, last: bool) -> f64 {
+/// Numbers of the sign of the curvature's slope at both ends: `σh' - 2hσ'`.
+fn rise(span: &PhQuintic) -> [f64; 2] {
     let ([s0, s1, _, s3, s4], [h0, h1, h2]) = (span.speed_coefficients(), span.turn_coefficients());
-    if last { s4 * (h2 - h1) - 4.0 * h2 * (s4 - s3) } else { s0 * (h1 - h0) - 4.0 * h0 * (s1 - s0) }
+    [s0 * (h1 - h0) - 4.0 * h0 * (s1 - s0), s4 * (h2 - h1) - 4.0 * h2 * (s4 - s3)]
 }
 
-fn measured(spans: &[PhQuintic], args: &Args) -> Measured {
+fn measured(spans: &[PhQuintic], args: &Args) -> Result<Measured> {
     let course = Course::new(spans);
     let sum = |f: fn(&PhQuintic) -> f64| spans.iter().map(f).sum();
     let part = |i: usize| if i == args.samples { course.length } else { course.length * (i as f64 / args.samples as f64) };
     let samples = if args.samples == 0 { 0..0 } else { 0..args.samples + 1 };
     let offset = |d: f64| {
-        let one = |span: &PhQuintic| {
+        let one = |(i, span): (usize, &PhQuintic)| {
             let spiral_atlas::curve::Offset { numerator, weight } = span.offset(d);
-            Offset { numerator, weight }
+            if numerator.iter().flatten().chain(&weight).all(|x| x.is_finite()) {
+                return Ok(Offset { numerator, weight });
+            }
+            let what = format!("spans[{i}]: its offset at distance {d:?} leaves the range of doubles; change the unit of length");
+            Err(Error::Domain(what))
         };
-        spans.iter().map(one).collect()
+        spans.iter().enumerate().map(one).collect::<Result<_>>()
     };
-    Measured {
+    Ok(Measured {
         length: course.length,
         bending_energy: sum(PhQuintic::bending_energy),
         absolute_rotation: sum(PhQuintic::absolute_rotation),
         curvature_extrema: course.extrema(),
-        inflections: course.stations(PhQuintic::inflections),
+        inflections: course.inflections(),
         samples: samples.map(|i| course.at(part(i))).collect(),
-        offset: args.offset.map(offset),
-    }
+        offset: args.offset.map(offset).transpose()?,
+    })
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
@@ -168,9 +197,10 @@ pub fn run(args: &Args) -> Result<Outcome> {
         return Err(Error::Domain(format!("--offset is {d:?}; it must be a finite number")));
     }
     let input: Input = args.files.read()?;
-    let named =
-        |(i, path): (usize, &Path)| curves(&path.spans).map_err(|e| args.files.blame(Error::Domain(format!("paths[{i}]: {e}"))));
-    let paths = input.paths.iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
-    let output = Output { paths: paths.iter().map(|spans| measured(spans, args)).collect() };
-    args.files.finish(&output, || figure::measured(&paths, args.offset))
+    let blame = |i: usize, e: Error| args.files.blame(Error::Domain(format!("paths[{i}]: {e}")));
+    let named = |(i, path): (usize, &Path)| curves(&path.spans).map_err(|e| blame(i, e));
+    let courses = input.paths.iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
+    let paths = courses.iter().enumerate().map(|(i, spans)| measured(spans, args).map_err(|e| blame(i, e)));
+    let output = Output { paths: paths.collect::<Result<_>>()? };
+    args.files.finish(&output, || figure::measured(&courses, args.offset))
 }

@@ -18,7 +18,7 @@ pub(super) enum Greatest<N> {
     Value(N),
 }
 
-/// A solution with the part that is looked at, and its guessed peak.
+/// A solution with the part that is looked at, from its greater end, and its guessed peak.
 struct Seen<'c, N> {
     curve: &'c Curve<N>,
     part: Arc<N>,
@@ -34,6 +34,17 @@ impl<N: Real> Seen<'_, N> {
     }
 }
 
+/// What is looked at of a curve, the end that bends more first: a peak may be closer to that than doubles tell parameters from 1. It may bend
+/// more by far less than doubles tell, too.
+fn oriented<N: Real>(curve: &Curve<N>) -> Arc<N> {
+    let part = curve.part();
+    let at = |t: f64| part.curvature(&N::of(t, part.turn[0].bits()));
+    match (at(0.0), at(1.0)) {
+        (Some(first), Some(last)) if !curve.folded && last.sub(&first).approx() > 0.0 => part.reversed(),
+        _ => part,
+    }
+}
+
 fn exceeds<N: Real>(value: &N, limit: &N) -> bool {
     value.sub(limit).certain_sign(0.0) == Some(Greater)
 }
@@ -41,7 +52,7 @@ fn exceeds<N: Real>(value: &N, limit: &N) -> bool {
 /// The solutions among which the best is: all others are proved to bend more than the first. None where all stand still.
 fn contenders<N: Real>(curves: &Curves<N>, paper: bool, bits: usize) -> Option<Vec<Seen<'_, N>>> {
     let one = |curve| {
-        let part = Curve::part(curve);
+        let part = oriented(curve);
         let (at, most) = part.guess();
         Seen { curve, part, at, most }
     };
@@ -147,8 +158,8 @@ fn one_way<N: Real>(curve: &Arc<N>) -> Option<bool> {
 
 /// Whether |κ| is greatest strictly inside, and greater there than at both ends.
 fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
-    let bits = seen.part.turn[0].bits();
-    let at = |t: f64| seen.part.curvature(&N::of(t, bits));
+    let part = &seen.part;
+    let at = |t: f64| part.curvature(&N::of(t, part.turn[0].bits()));
     // The end of half a curve is no end.
     let ends: &[f64] = if seen.curve.folded { &[0.0] } else { &[0.0, 1.0] };
     let over_both = |t: f64| {
@@ -158,15 +169,10 @@ fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
     if !ends.contains(&seen.at) && over_both(seen.at)? {
         return Some(true);
     }
-    // The greater end, which may be greater by far less than doubles tell; that it is the greater one is proved with the rest.
-    let turned = !seen.curve.folded && at(1.0)?.sub(&at(0.0)?).approx() > 0.0;
-    let part = if turned { seen.part.clone().reversed() } else { seen.part.clone() };
-    match part.below(&part.curvature(&N::of(0.0, bits))?, true) {
+    // That the start is the greater end is proved with the rest.
+    match part.below(&at(0.0)?, true) {
         Bound::Below => Some(false),
-        Bound::Above(t) => {
-            let (t, _) = part.climbed(t);
-            over_both(if turned { 1.0 - t } else { t })?.then_some(true)
-        }
+        Bound::Above(t) => (over_both(part.climbed(t).0)? || over_both(t)?).then_some(true),
         Bound::Open => None,
     }
 }
