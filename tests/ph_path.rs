@@ -160,6 +160,10 @@ fn neighbours_of_symmetric_data_are_decided() {
             node(SPEEDS, &[theta, theta, l0, l1]);
         }
     }
+    // Along the chord, where the curvature's slope at an end is exactly 0.
+    for (l0, l1) in [(4.0, 16.0), (16.0, 4.0), (3.0, 12.0), (40.0, 10.0), (4.0, 16.000000000000004)] {
+        check(SPEEDS, &[0.0, 0.0, l0, l1]);
+    }
     // From whole degrees by steps of ninety 37ths.
     node(LENGTH, &[1.3962634015954634, -1.3962634015954636, 1.05]);
 }

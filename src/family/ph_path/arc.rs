@@ -46,7 +46,7 @@ enum Compared {
 pub(crate) fn bends_less(preimage: [[f64; 2]; 3], most: f64) -> bool {
     fn proved<N: Real>(preimage: [[f64; 2]; 3], most: f64, bits: usize) -> bool {
         let arc = Arc::new(preimage.map(|z| z.map(|x| N::of(x, bits))));
-        matches!(arc.below(&N::of(most, bits), false), Bound::Below)
+        matches!(arc.below(&N::of(most, bits), 0), Bound::Below)
     }
     proved::<Ball>(preimage, most, 53) || proved::<Interval>(preimage, most, 256)
 }
@@ -161,14 +161,15 @@ impl<N: Real> Arc<N> {
         t
     }
 
-    /// Whether |κ| stays below v. With `touching`, v is the curvature at the start, where it may be equal.
-    pub fn below(&self, v: &N, touching: bool) -> Bound {
+    /// Whether |κ| stays below v. With `touching`, v is the curvature at the start, where it may be equal: so many orders of their difference
+    /// are exactly 0 there.
+    pub fn below(&self, v: &N, touching: usize) -> Bound {
         // No margin needs more halvings.
         let most = if self.bits() <= 53 { 40 } else { 640 };
         let mut waiting = vec![(self.clone(), 0.0, 0)];
         while let Some((piece, from, depth)) = waiting.pop() {
             let width = 2f64.powi(-depth);
-            match piece.compared(v, touching && from == 0.0) {
+            match piece.compared(v, if from == 0.0 { touching } else { 0 }) {
                 Compared::Below => {}
                 Compared::Open if depth < most => {
                     let [first, second] = piece.halves();
@@ -183,7 +184,7 @@ impl<N: Real> Arc<N> {
     }
 
     /// The same as far as the coefficients tell.
-    fn compared(&self, v: &N, touching: bool) -> Compared {
+    fn compared(&self, v: &N, touching: usize) -> Compared {
         let (square, turn) = self.sides();
         let left = turn[0].certain_sign(0.0) == Some(Greater);
         let (mut all, mut some) = (true, false);
@@ -191,7 +192,7 @@ impl<N: Real> Arc<N> {
             let most = v.mul(s);
             for (side, touches) in [(most.sub(h), left), (most.add(h), !left)] {
                 // Exactly 0.
-                if k == 0 && touching && touches {
+                if k < touching && touches {
                     continue;
                 }
                 let sign = side.certain_sign(0.0);
@@ -248,7 +249,7 @@ impl<N: Real> Arc<N> {
         for _ in 0..16 {
             let value = best?;
             let most = value.mul(&margin.plus(1.0));
-            match self.below(&most, false) {
+            match self.below(&most, 0) {
                 Bound::Below => return Some(value.union(&most)),
                 Bound::Above(at) => {
                     let from = [self.polished(self.climbed(at).0), self.polished(at), N::of(at, self.bits())];

@@ -19,6 +19,10 @@ pub(super) struct Curve<N> {
     pub folded: bool,
     /// One of the paper's: `w2` with the positive sign.
     pub paper: bool,
+    /// The slope of the curvature is exactly 0 at the end that bends more.
+    pub flat: bool,
+    /// And that end's curvature, the greatest, is attained once more inside.
+    pub tied: bool,
 }
 
 /// All solutions that bend, and whether a straight line that stands still nowhere is another.
@@ -55,7 +59,8 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
     let half = datum.theta.map(|theta| N::half_turn(theta, bits));
     let size = datum.size.map(|l| N::of(l, bits));
     let given = Given { kind: datum.kind, half, size, symmetry: datum.symmetry() };
-    let equal = datum.size[0] == datum.size[1];
+    let [l0, l1] = datum.size;
+    let equal = l0 == l1;
     let mut all = Curves { bent: Vec::with_capacity(4), straight: false };
     for paper in [true, false] {
         let ends = given.ends(paper)?;
@@ -64,7 +69,12 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
             all.straight |= paper && straight::moves_on(datum.size, bits)?;
             continue;
         }
-        all.bent.extend(solutions(&ends, given.symmetry, equal, paper));
+        // With w0 = a, w2 = -b and w1 = (iv - 3(a - b))/4 the slope at the end of b is in proportion to `a - 2b`.
+        let flat = given.symmetry == Symmetry::Line && !paper && (l0 == 4.0 * l1 || l1 == 4.0 * l0);
+        // With speeds 4 and 16 it is symmetric about t = 1/3: with p = (t - 1/3)² κ is in proportion to `(3p + 2/3) / (90p² - 14p + 40/9)²`, which
+        // rises up to p = 1/9, the start and t = 2/3, and falls from there.
+        let tied = flat && l0.max(l1) == 16.0;
+        all.bent.extend(solutions(&ends, given.symmetry, equal, paper).map(|curve| Curve { flat, tied, ..curve }));
     }
     Some(all)
 }
@@ -102,7 +112,7 @@ fn solutions<N: Real>(ends: &Ends<N>, symmetry: Symmetry, equal: bool, paper: bo
     let signs: &[f64] = if mirrored { &[0.25] } else { &[0.25, -0.25] };
     signs.iter().map(move |sign| {
         let w1 = [0, 1].map(|i| root[i].times(*sign).sub(&w0[i].add(&w2[i]).times(0.75)));
-        Curve { whole: Arc::new([w0.clone(), w1, w2.clone()]), folded, paper }
+        Curve { whole: Arc::new([w0.clone(), w1, w2.clone()]), folded, paper, flat: false, tied: false }
     })
 }
 

@@ -30,7 +30,7 @@ impl<N: Real> Seen<'_, N> {
     /// Whether |κ| certainly exceeds v somewhere: at the guess, or where halving leads.
     fn surpasses(&self, v: &N) -> bool {
         let at = N::of(self.at, v.bits());
-        self.part.curvature(&at).is_some_and(|k| exceeds(&k, v)) || matches!(self.part.below(v, false), Bound::Above(_))
+        self.part.curvature(&at).is_some_and(|k| exceeds(&k, v)) || matches!(self.part.below(v, 0), Bound::Above(_))
     }
 }
 
@@ -67,7 +67,7 @@ fn contenders<N: Real>(curves: &Curves<N>, paper: bool, bits: usize) -> Option<V
         let limit = (first.most * next.min(4.0 * first.most)).sqrt();
         limit.is_finite().then_some(())?;
         let bound = N::of(limit, bits);
-        match first.part.below(&bound, false) {
+        match first.part.below(&bound, 0) {
             Bound::Below => {
                 let rest = all.split_off(close);
                 return rest.iter().all(|seen| seen.surpasses(&bound)).then_some(all);
@@ -158,6 +158,9 @@ fn one_way<N: Real>(curve: &Arc<N>) -> Option<bool> {
 
 /// Whether |κ| is greatest strictly inside, and greater there than at both ends.
 fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
+    if seen.curve.tied {
+        return Some(false);
+    }
     let part = &seen.part;
     let at = |t: f64| part.curvature(&N::of(t, part.turn[0].bits()));
     // The end of half a curve is no end.
@@ -170,7 +173,7 @@ fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
         return Some(true);
     }
     // That the start is the greater end is proved with the rest.
-    match part.below(&at(0.0)?, true) {
+    match part.below(&at(0.0)?, if seen.curve.flat { 2 } else { 1 }) {
         Bound::Below => Some(false),
         Bound::Above(t) => (over_both(part.climbed(t).0)? || over_both(t)?).then_some(true),
         Bound::Open => None,
