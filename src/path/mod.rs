@@ -104,3 +104,15 @@ fn finite(what: &str, name: &str, numbers: &[f64]) -> Result<()> {
         false => Err(Error::Domain(format!("{what}: `{name}` is {numbers:?}; all numbers must be finite"))),
     }
 }
+
+/// Refuses spans that are not finite, or that do not join exactly.
+fn check_joined(what: &str, spans: &[PhQuintic]) -> Result<()> {
+    let fail = |told: String| Err(Error::Domain(format!("{what}: {told}")));
+    if let Some(i) = spans.iter().position(|span| !span.is_finite()) {
+        return fail(format!("span {i} of the path is not finite: {:?}", spans[i]));
+    }
+    match spans.windows(2).position(|w| w[0].end != w[1].start) {
+        Some(i) => fail(format!("span {i} ends at {:?}, the next one starts at {:?}", spans[i].end, spans[i + 1].start)),
+        None => Ok(()),
+    }
+}

@@ -6,7 +6,7 @@
 //! second bound needs far fewer stretches than the first.
 
 use super::queue::Queue;
-use super::{ROUNDINGS, complex, distance, finite, mismatch};
+use super::{ROUNDINGS, check_joined, complex, distance, finite, mismatch};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 
@@ -67,12 +67,7 @@ impl Motion {
         if speed <= 0.0 {
             return fail(format!("`speed` is {speed:?}; it must be above 0"));
         }
-        if let Some(i) = spans.iter().position(|s| !s.is_finite()) {
-            return fail(format!("span {i} of the path is not finite: {:?}", spans[i]));
-        }
-        if let Some(i) = spans.windows(2).position(|w| w[0].end != w[1].start) {
-            return fail(format!("span {i} ends at {:?}, the next one starts at {:?}", spans[i].end, spans[i + 1].start));
-        }
+        check_joined("motion", &spans)?;
         let mut lengths = vec![0.0];
         for span in &spans {
             lengths.push(lengths[lengths.len() - 1] + span.length());

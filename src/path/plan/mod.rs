@@ -10,7 +10,7 @@ mod proof;
 mod round;
 mod search;
 
-use super::{ROUNDINGS, Turn, distance, finite};
+use super::{ROUNDINGS, Turn, check_joined, distance, finite};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::ph_path::bends_less;
@@ -240,13 +240,7 @@ fn check_ends(scene: &Scene, spans: &[PhQuintic]) -> Result<()> {
     if ends != [Some(scene.start), Some(scene.goal)] {
         return fail(format!("the path leads from {:?} to {:?}, not from `start` to `goal`", ends[0], ends[1]));
     }
-    if let Some(i) = spans.iter().position(|span| !span.is_finite()) {
-        return fail(format!("span {i} of the path is not finite: {:?}", spans[i]));
-    }
-    match spans.windows(2).position(|w| w[0].end != w[1].start) {
-        Some(i) => fail(format!("span {i} ends at {:?}, the next one starts at {:?}", spans[i].end, spans[i + 1].start)),
-        None => Ok(()),
-    }
+    check_joined("plan", spans)
 }
 
 /// A bound of the curvature: close to its greatest value, if that can be proved, else the one to keep.
@@ -269,12 +263,13 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
         return fail(format!("every way is blocked: obstacles grown by the clearance {clearance:?} part `start` from `goal`"));
     }
     let beside = |limits: Limits, wide: f64| places(obstacles, limits.keep, limits.most, wide);
-    let search = |limits: Limits, more: Vec<Place>| Search::new(obstacles, limits, ends, [beside(limits, 0.0), more].concat());
+    let near = beside(limits, 0.0);
+    let search = |limits: Limits, places: Vec<Place>| Search::new(obstacles, limits, ends, places);
     // If it could turn on the spot: found at most once, where it is needed.
-    let sharp = || search(limits.sharp(), vec![]).within(f64::INFINITY, WORK).run().0;
+    let sharp = || search(limits.sharp(), beside(limits.sharp(), 0.0)).within(f64::INFINITY, WORK).run().0;
     let (mut best, mut gave_up, mut shortest) = (None, false, None);
     let mut longest = f64::INFINITY;
-    match search(limits, vec![]).run().0 {
+    match search(limits, near.clone()).run().0 {
         Found::Path(path, length) if length <= DETOUR * distance(ends[0], ends[1]) => return Ok(path),
         Found::Path(path, length) => {
             shortest = Some(sharp());
@@ -288,12 +283,12 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
         Found::None => {}
         Found::GaveUp => gave_up = true,
     }
-    let open = || open(obstacles, ends, &beside(limits, 0.0), &limits);
+    let open = || open(obstacles, ends, &near, &limits);
     let wide = |all: &[f64]| all.iter().flat_map(|wide| beside(limits, *wide)).collect();
     let wider = WIDE.chunks(1).chain([&SEVERAL[..]]).map(wide);
     let mut left = WORK;
     for more in std::iter::once_with(open).chain(wider) {
-        let (found, rest) = search(limits, more).within(longest, left).run();
+        let (found, rest) = search(limits, [&near[..], &more].concat()).within(longest, left).run();
         left = rest;
         match found {
             Found::Path(path, length) => {
