@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::num::trig::sum_below_pi;
+use crate::num::sines::sum_below_pi;
 use std::f64::consts::PI;
 
 /// An angle for an error message, which may have been given in degrees.

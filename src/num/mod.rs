@@ -2,18 +2,18 @@
 
 mod ball;
 pub mod bernstein;
-mod climb;
 mod interval;
 mod number;
-mod quadratic;
-pub mod root;
-pub mod trig;
+pub mod roots;
+pub mod sines;
+mod taylor;
+mod ziv;
 
 pub use ball::Ball;
-pub use climb::climb;
 pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
-pub use quadratic::Quadratic;
+pub use taylor::Quadratic;
+pub use ziv::climb;
 
 /// `lo (hi / lo)^(i / (count - 1))`, the ends exact; the same doubles on every machine.
 pub(crate) fn log_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {

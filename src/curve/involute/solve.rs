@@ -6,7 +6,7 @@ use super::{Chord, Outcome, Spiral, WhyNone};
 use crate::curve::arc_length;
 use crate::error::{Error, Result};
 use crate::family::any_spiral::{Arc, Datum, Equation};
-use crate::num::root::find;
+use crate::num::roots::find;
 use crate::num::{Interval, climb};
 use serde::Serialize;
 use std::cmp::Ordering::{Equal, Greater, Less};

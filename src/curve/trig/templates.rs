@@ -5,7 +5,7 @@ use crate::curve::vector::{add, turn};
 use crate::curve::{EndCircle, Jet, Sample, Turn};
 use crate::error::{Error, Result};
 use crate::family::trig_quintic::{SPIRAL, Shape, flags, least_ratio};
-use crate::num::root::find;
+use crate::num::roots::find;
 use serde::Serialize;
 
 /// One spiral of a template: its shape and the radius of its circle.

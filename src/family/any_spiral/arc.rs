@@ -6,7 +6,7 @@
 
 use super::shape::Shape;
 use crate::num::Interval;
-use crate::num::root::{Curve, bracketed, enclose};
+use crate::num::roots::{Curve, bracketed, enclose};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The equation for θ.

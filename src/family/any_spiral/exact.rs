@@ -6,7 +6,7 @@ use super::pair::{Pair, side};
 use super::{Code, EXISTS, INFLECTION, RISING};
 use crate::error::Result;
 use crate::family::{NO_VALUE, outer};
-use crate::num::trig::two_sum;
+use crate::num::sines::two_sum;
 use crate::num::{Interval, climb};
 
 /// Angles against the chord and curvatures times half the chord, taken as exact.

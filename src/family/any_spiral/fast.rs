@@ -4,8 +4,8 @@ use super::arc::bracket;
 use super::exact::Datum;
 use super::pair::Pair;
 use super::shape::Shape;
-use crate::num::root::find;
-use crate::num::trig::{cos, sin};
+use crate::num::roots::find;
+use crate::num::sines::{cos, sin};
 use std::cell::OnceCell;
 
 /// 2^-53.

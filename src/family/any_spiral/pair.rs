@@ -1,7 +1,7 @@
 //! What depends on the two angles alone, in doubles.
 
 use crate::family::outer::Sines;
-use crate::num::trig::{sin, sin_of_sum, two_sum};
+use crate::num::sines::{sin, sin_of_sum, two_sum};
 
 /// Relative error of [`Pair::sines`], in units of 2^-53, and four more for [`crate::family::outer`]: a sine of 10 units, its
 /// square of 21.

@@ -49,7 +49,7 @@ mod tests {
         for i in 0..400 {
             let x = if i < 40 { 0.7f64.powi(i) } else { f64::from(i) * 0.0117 };
             let (sin, cos) = Interval::sin_cos(x, 400);
-            let shape = Shape::new(x, crate::num::trig::sin(x), crate::num::trig::cos(x));
+            let shape = Shape::new(x, crate::num::sines::sin(x), crate::num::sines::cos(x));
             let n = Interval::new(x, 400);
             let truths = [&sin - &(&n * &cos), &n.square() - &sin.square(), &n - &sin];
             let scale = if x < 1.0 { truths[0].approx() } else { sin.approx().abs() + x * cos.approx().abs() };

@@ -5,7 +5,7 @@ use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::error::Result;
 use crate::family::outer::{self, Sines};
 use crate::num::bernstein::{MOST_HALVINGS, Quintic, positive};
-use crate::num::root::{Curve, bracketed, enclose};
+use crate::num::roots::{Curve, bracketed, enclose};
 use crate::num::{Interval, Number, climb};
 use std::cell::RefCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};

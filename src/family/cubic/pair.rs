@@ -1,7 +1,7 @@
 //! What depends on the two tangent angles alone.
 
 use super::exact::Angles;
-use crate::num::trig::{cos, sin, sin_of_sum};
+use crate::num::sines::{cos, sin, sin_of_sum};
 use std::f64::consts::PI;
 
 /// Relative error of every constant of a [`Pair`], in units of 2^-53.

@@ -2,7 +2,7 @@
 
 use super::Kind;
 use crate::error::{Error, Result};
-use crate::num::trig::{SIN_ERROR, cos, sin};
+use crate::num::sines::{SIN_ERROR, cos, sin};
 use crate::num::{Ball, Interval, Real};
 use std::f64::consts::PI;
 

@@ -4,7 +4,7 @@ use super::{Kind, ONE_WAY, PAPER, PEAK_INSIDE, REGULAR};
 use crate::family::rows::{constants, tables};
 use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
-use crate::num::trig::{cos, sin};
+use crate::num::sines::{cos, sin};
 
 /// Unit roundoff of f32.
 const UNIT: f64 = 1.0 / (1u32 << 24) as f64;

@@ -1,7 +1,7 @@
 //! What depends on the two tangent angles alone.
 
 use crate::family::outer::Sines;
-use crate::num::trig::{SIN_ERROR, sin, sin_of_sum};
+use crate::num::sines::{SIN_ERROR, sin, sin_of_sum};
 use crate::num::{Ball, Interval, Number, Real};
 use std::cell::RefCell;
 use std::f64::consts::PI;

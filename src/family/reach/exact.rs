@@ -5,7 +5,7 @@ use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::num::Interval;
 use crate::num::bernstein::{MOST_HALVINGS, positive};
-use crate::num::root::{Curve, bracketed, enclose};
+use crate::num::roots::{Curve, bracketed, enclose};
 use std::cmp::Ordering::{Greater, Less};
 
 /// The segment of a case: `u`, `m > 0`.

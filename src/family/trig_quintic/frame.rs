@@ -4,7 +4,7 @@ use super::poly::Frame;
 use crate::error::{Error, Result};
 use crate::family::hermite::told;
 use crate::num::Interval;
-use crate::num::trig::{cos, sin};
+use crate::num::sines::{cos, sin};
 use std::f64::consts::FRAC_PI_2;
 
 /// Names of the coordinates, in order.

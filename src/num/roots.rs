@@ -13,7 +13,7 @@ use std::cmp::Ordering::{self, Equal, Greater, Less};
 /// The sign changes within `tolerance` of the result.
 ///
 /// ```
-/// let root = spiral_atlas::num::root::find(|x| x * x - 2.0, 0.0, 2.0, 1e-15);
+/// let root = spiral_atlas::num::roots::find(|x| x * x - 2.0, 0.0, 2.0, 1e-15);
 /// assert!((root - 2f64.sqrt()).abs() < 2e-15);
 /// ```
 pub fn find(f: impl Fn(f64) -> f64, low: f64, high: f64, tolerance: f64) -> f64 {
