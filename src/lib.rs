@@ -16,6 +16,7 @@ pub mod path;
 pub mod plot;
 #[cfg(feature = "recipe")]
 pub mod recipe;
+pub mod transition;
 
 pub use error::{Error, Result};
 

@@ -1,8 +1,8 @@
 //! Segments added to lines and circles: their end data, measured on the control points alone, and the property claimed.
 
-use spiral_atlas::curve::Turn;
-use spiral_atlas::curve::reach::{Added, Base, Outcome, Request, Target, add_segment};
 use spiral_atlas::family::reach::{Kind, Level};
+use spiral_atlas::transition::Turn;
+use spiral_atlas::transition::segment::{Added, Base, Outcome, Request, Target, add_segment};
 use std::f64::consts::PI;
 
 type Point = [f64; 2];

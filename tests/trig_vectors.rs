@@ -2,9 +2,11 @@
 //! five templates, and the paper's own parameters.
 
 use serde_json::Value;
-use spiral_atlas::curve::trig::{Outcome, Part, Request, Scaling, Segment, Template, TrigBezier, path};
-use spiral_atlas::curve::{EndCircle, Turn};
+use spiral_atlas::curve::TrigBezier;
+use spiral_atlas::family::trig_quintic::Scaling;
 use spiral_atlas::family::trig_quintic::{SPIRAL, Shape, flags, least_ratio};
+use spiral_atlas::transition::templates::{Outcome, Part, Request, Segment, Template, path};
+use spiral_atlas::transition::{EndCircle, Turn};
 
 fn vectors() -> Value {
     serde_json::from_str(include_str!("fixtures/trig.json")).unwrap()

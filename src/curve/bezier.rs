@@ -4,7 +4,6 @@ use super::extrema;
 use super::jet::Jet;
 use super::length::arc_length;
 use super::vector::{add, lerp, scale, sub};
-use crate::family::cubic::Datum;
 use serde::Serialize;
 
 /// A cubic Bézier curve, `P(t) = Σ C(3,i) t^i (1-t)^(3-i) p_i` for t in [0, 1]: Habib & Sakai, (3.1).
@@ -38,7 +37,8 @@ impl CubicBezier {
         }
     }
 
-    /// The sides of the control polygon of [`CubicBezier::from_ratios`] for a datum and one of its roots.
+    /// The sides of the control polygon of [`CubicBezier::from_ratios`] for the same numbers and the end
+    /// curvatures of the normalised frame, which (f0, f1) must meet.
     ///
     /// # Accuracy
     /// A few ulp of each. The middle one is made from the end curvatures, so that the sides meet those and the end directions to a few ulp
@@ -47,8 +47,7 @@ impl CubicBezier {
     ///
     /// # Source
     /// Habib & Sakai, (3.3), (3.4).
-    pub fn legs(datum: &Datum, f0: f64, f1: f64) -> [[f64; 2]; 3] {
-        let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
+    pub fn legs([phi0, phi1]: [f64; 2], [kappa0, kappa1]: [f64; 2], [f0, f1]: [f64; 2]) -> [[f64; 2]; 3] {
         let [h0, h1] = outer_legs(phi0, phi1, f0, f1);
         // κ0 = 2/3 (p1 - p0) × (p2 - p1) / |p1 - p0|³.
         let [g0, g1] = [kappa1 * h1 * h1, kappa0 * h0 * h0].map(|x| 1.5 * x / (phi0 + phi1).sin());

@@ -1,54 +1,26 @@
-//! The curves themselves: points, curvature and arc length, placement in the user's plane, and the transition spiral
-//! between two given ends: cubic (Habib & Sakai, section 3.2), or an involute's image (Kurnosenko).
-//!
-//! ```
-//! use spiral_atlas::curve::{Ends, Placement};
-//!
-//! // A right turn whose curvature falls: normalised by reversal alone.
-//! let ends = Ends {
-//!     start: [500_000.0, 5_200_000.0],
-//!     end: [500_200.0, 5_200_000.0],
-//!     start_direction: 1.4,
-//!     end_direction: -0.7,
-//!     start_curvature: -0.04,
-//!     end_curvature: -0.004,
-//! };
-//! let (datum, placement) = Placement::normalise(&ends)?;
-//! assert_eq!((datum.phi0, datum.kappa0, datum.kappa1), (0.7, 0.4, 4.0));
-//! assert!(placement.reversed && !placement.mirrored);
-//! let curve = placement.place(&datum, 1.66010274767, 0.76985066613);
-//! assert_eq!((curve.p[0], curve.p[3]), (ends.start, ends.end));
-//! # Ok::<(), spiral_atlas::Error>(())
-//! ```
+//! Geometry alone: points, vectors and derivatives, Bézier curves, Pythagorean-hodograph quintics and trigonometric quintics, their length,
+//! extrema, offsets and bending energy. Nothing here asks whether a curve is a spiral.
 
 mod bezier;
-mod bound;
+mod choice;
+mod energy;
+mod equal_length;
 mod extrema;
-mod figure;
-mod involute;
+mod hermite;
 mod jet;
 mod length;
 mod offset;
-mod ph;
-mod placement;
 mod quintic;
-pub mod reach;
-mod spiral;
-pub mod trig;
-mod vector;
-mod why;
+mod trig_bezier;
+pub(crate) mod vector;
 
 pub use bezier::CubicBezier;
-pub use bound::least_end_curvature;
-pub use figure::{EndCircle, Figure, Sample};
-pub use involute::{
-    Chord, Frame, Involute, InvolutePoint, Outcome as InvoluteOutcome, Spiral, Split, WhyNone, involute, involute_between,
-};
+pub use choice::{Candidate, Choice};
+pub(crate) use energy::energy;
+pub use equal_length::{EqualLength, equal_length};
+pub use hermite::{Hermite, hermite};
 pub use jet::Jet;
 pub use length::arc_length;
 pub use offset::Offset;
-pub use ph::{PhAnswer, PhOutcome, PhSolution, ph_spiral};
-pub use placement::{Ends, Placement, direction_of};
 pub use quintic::PhQuintic;
-pub use spiral::{Answer, Outcome, Solution, spiral};
-pub use why::{Turn, Waver, Which, Why};
+pub use trig_bezier::TrigBezier;

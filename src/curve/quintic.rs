@@ -3,9 +3,9 @@
 //! With the pre-image `w = w0 (1-t)² + 2 w1 t(1-t) + w2 t²` of complex numbers the curve's derivative is `w²`, so its speed `σ = |w|²`, its
 //! arc length, unit tangent, curvature and offsets are polynomials or quotients of them (Farouki et al., (2)-(9)).
 
+use super::energy::energy;
 use super::extrema::{self, product, sign_changes};
 use super::jet::{Jet, casteljau};
-use crate::family::ph_quintic::energy_integral;
 use crate::num::{Ball, Interval, Real};
 use num_complex::Complex64;
 use serde::Serialize;
@@ -326,7 +326,7 @@ impl PhQuintic {
         let most = turn.iter().fold(f64::MIN_POSITIVE, |most, h| h.most().max(most));
         let half = most.log2().floor() * 0.5;
         let (first, last) = (half.floor().exp2(), half.ceil().exp2());
-        let energy = energy_integral(speed, turn.map(|h| h.times(1.0 / first).times(1.0 / last)))?;
+        let energy = energy(&speed, &turn.map(|h| h.times(1.0 / first).times(1.0 / last)))?;
         let value = energy.approx();
         let known = value.is_finite() && energy.sub(&energy.middle()).most() <= 2f64.powi(-40) * value;
         known.then_some(value * first * last * first * last)

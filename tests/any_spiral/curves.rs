@@ -2,9 +2,8 @@
 
 use super::Random;
 use serde::Deserialize;
-use spiral_atlas::curve::{
-    Chord, Ends, Involute, InvoluteOutcome as Outcome, InvolutePoint, Split, WhyNone, involute, involute_between,
-};
+use spiral_atlas::family::any_spiral::{Chord, Involute, InvoluteOutcome as Outcome, InvolutePoint, Split, WhyNone, involute};
+use spiral_atlas::transition::{Ends, involute_between};
 use std::f64::consts::{PI, TAU};
 
 #[derive(Deserialize)]

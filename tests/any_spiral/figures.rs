@@ -1,6 +1,6 @@
 //! The numbers of the paper's figures.
 
-use spiral_atlas::curve::{Chord, Involute, involute};
+use spiral_atlas::family::any_spiral::{Chord, Involute, involute};
 use std::f64::consts::PI;
 
 fn degrees(x: f64) -> f64 {

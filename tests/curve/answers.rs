@@ -2,8 +2,10 @@
 
 use super::{EPS, answer, length, minus, roots};
 use serde::Deserialize;
-use spiral_atlas::curve::{Answer, CubicBezier, Ends, Figure, Outcome, Placement, Turn, Which, Why, least_end_curvature, spiral};
+use spiral_atlas::curve::CubicBezier;
+use spiral_atlas::family::any_spiral::least_end_curvature;
 use spiral_atlas::family::cubic::Root;
+use spiral_atlas::transition::{Answer, Ends, Figure, Outcome, Placement, Turn, Which, Why, spiral};
 use std::f64::consts::{PI, TAU};
 
 /// Section 4 of the paper: φ0, φ1, κ0, κ1, and the root, found with 40 digits.

@@ -6,8 +6,9 @@ mod pieces;
 mod placement;
 mod sides;
 
-use spiral_atlas::curve::{Answer, CubicBezier, Ends, Placement};
+use spiral_atlas::curve::CubicBezier;
 use spiral_atlas::family::cubic::{Datum, Root};
+use spiral_atlas::transition::{Answer, Ends, Placement};
 
 const EPS: f64 = f64::EPSILON;
 

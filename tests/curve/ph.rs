@@ -3,7 +3,8 @@
 use super::EPS;
 use super::sides::{check, ends};
 use proptest::prelude::*;
-use spiral_atlas::curve::{Ends, Jet, PhOutcome, arc_length, ph_spiral};
+use spiral_atlas::curve::{Jet, arc_length};
+use spiral_atlas::transition::{Ends, PhOutcome, ph_spiral};
 
 #[test]
 fn meets_its_ends_in_every_orientation() {

@@ -2,7 +2,9 @@
 
 use super::{EPS, length, minus};
 use proptest::prelude::*;
-use spiral_atlas::curve::{CubicBezier, EndCircle, Ends, Jet, arc_length, direction_of, least_end_curvature};
+use spiral_atlas::curve::{CubicBezier, Jet, arc_length};
+use spiral_atlas::family::any_spiral::least_end_curvature;
+use spiral_atlas::transition::{EndCircle, Ends, direction_of};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 proptest! {

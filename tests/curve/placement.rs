@@ -2,8 +2,9 @@
 
 use super::{EPS, answer, length, minus};
 use proptest::prelude::*;
-use spiral_atlas::curve::{CubicBezier, Ends, Placement};
+use spiral_atlas::curve::CubicBezier;
 use spiral_atlas::family::cubic::Datum;
+use spiral_atlas::transition::{Ends, Placement};
 use std::f64::consts::PI;
 
 /// `a - b` as an angle in [-π, π].

@@ -2,7 +2,8 @@
 
 use super::EPS;
 use proptest::prelude::*;
-use spiral_atlas::curve::{Ends, Jet, spiral};
+use spiral_atlas::curve::Jet;
+use spiral_atlas::transition::{Ends, spiral};
 use std::f64::consts::PI;
 
 /// A spiral's ends in some position: turned, scaled and moved, mirrored and travelled backwards or not.

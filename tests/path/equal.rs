@@ -1,7 +1,7 @@
 //! Paths of equal length.
 
 use super::*;
-use spiral_atlas::path::{EqualLength, equal_length};
+use spiral_atlas::curve::{EqualLength, equal_length};
 use std::f64::consts::PI;
 
 fn ends(row: &Value) -> EqualLength {

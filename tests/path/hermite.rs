@@ -1,7 +1,7 @@
 //! Hermite interpolation.
 
 use super::*;
-use spiral_atlas::path::{Choice, Hermite, hermite};
+use spiral_atlas::curve::{Choice, Hermite, hermite};
 
 fn rotations(choice: &Choice) -> Vec<f64> {
     let mut all: Vec<f64> = choice.candidates.iter().map(|c| c.absolute_rotation).collect();

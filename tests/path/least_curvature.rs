@@ -1,7 +1,8 @@
 //! Least greatest curvature.
 
 use super::*;
-use spiral_atlas::path::{Directions, EqualLength, Free, Hermite, LeastCurvature, equal_length, hermite, least_curvature};
+use spiral_atlas::curve::{EqualLength, Hermite, equal_length, hermite};
+use spiral_atlas::path::{Directions, Free, LeastCurvature, least_curvature};
 use std::f64::consts::PI;
 
 fn ends(start_direction: f64, end_direction: f64, greatest_length: f64, free: Free) -> Directions {

@@ -1,7 +1,8 @@
 //! Separation of two motions.
 
 use super::*;
-use spiral_atlas::path::{EqualLength, Motion, Separation, Verdict, equal_length, separation, separations, spline};
+use spiral_atlas::curve::{EqualLength, equal_length};
+use spiral_atlas::path::{Motion, Separation, Verdict, separation, separations, spline};
 
 fn line(from: [f64; 2], to: [f64; 2]) -> Vec<PhQuintic> {
     spline(&[from, to], false).unwrap().spans

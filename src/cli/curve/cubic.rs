@@ -1,8 +1,8 @@
 //! `curve --family cubic`: Habib & Sakai, section 3.2.
 
 use super::{Found, SAMPLES, end_circles};
-use spiral_atlas::curve::{Answer, Figure};
 use spiral_atlas::plot::{CurveFigure, Graph};
+use spiral_atlas::transition::{Answer, Figure};
 use spiral_atlas::{Error, Result};
 
 impl Found for Answer {

@@ -2,8 +2,9 @@
 
 use super::{Found, SAMPLES, end_circles};
 use serde::Serialize;
-use spiral_atlas::curve::{Ends, Frame, Involute, InvoluteOutcome, InvolutePoint, Spiral, Split, involute_between};
+use spiral_atlas::family::any_spiral::{Involute, InvoluteOutcome, InvolutePoint, Spiral, Split};
 use spiral_atlas::plot::{CurveFigure, Graph};
+use spiral_atlas::transition::{Ends, Frame, involute_between};
 use spiral_atlas::{Error, Result};
 use std::f64::consts::TAU;
 

@@ -8,10 +8,12 @@ mod trig;
 
 use super::{Outcome, output};
 use serde::Serialize;
-use spiral_atlas::curve::{Ends, Jet, Turn, direction_of, ph_spiral, reach::Base, spiral};
+use spiral_atlas::curve::Jet;
 use spiral_atlas::family::reach::Kind;
 use spiral_atlas::plot::{self, CurveFigure, EndCircle, Graph};
 use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::transition::segment::Base;
+use spiral_atlas::transition::{Ends, Turn, direction_of, ph_spiral, spiral};
 use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
 
@@ -232,7 +234,7 @@ impl Args {
 
     /// The segment to add.
     fn segment(&self) -> reach::Request {
-        use spiral_atlas::curve::reach::Target;
+        use spiral_atlas::transition::segment::Target;
         let needed = ["--from", "--start-direction", "--base", "--turn", "--radius", "--angle"];
         let target = match (self.to, self.m, self.q) {
             (Some(point), None, None) => Target::Point(point),
@@ -253,8 +255,9 @@ impl Args {
 
     /// The template and where it lies.
     fn template(&self) -> trig::Request {
-        use spiral_atlas::curve::trig::{Scaling, Segment, Template};
+        use spiral_atlas::family::trig_quintic::Scaling;
         use spiral_atlas::family::trig_quintic::Shape;
+        use spiral_atlas::transition::templates::{Segment, Template};
         let name = self.template.as_deref().unwrap_or_default();
         let mut needed = vec!["--template", "--from", "--start-direction", "--turn", "--radius", "--angle", "--m"];
         let mut allowed = vec!["--ratio", "--p", "--q", "--as-printed"];

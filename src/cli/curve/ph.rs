@@ -1,8 +1,8 @@
 //! `curve --family ph-quintic`: the Pythagorean-hodograph quintic spiral of least bending energy.
 
 use super::{Found, drawn, end_circles};
-use spiral_atlas::curve::PhAnswer;
 use spiral_atlas::plot::CurveFigure;
+use spiral_atlas::transition::PhAnswer;
 use spiral_atlas::{Error, Result};
 
 impl Found for PhAnswer {

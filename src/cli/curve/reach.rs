@@ -3,11 +3,11 @@
 use super::super::output;
 use super::{Found, circle, drawn};
 use serde::Serialize;
-use spiral_atlas::curve::Turn;
-pub use spiral_atlas::curve::reach::Request;
-use spiral_atlas::curve::reach::{Added, Base, Outcome, add_segment};
 use spiral_atlas::family::reach::{Kind, Level};
 use spiral_atlas::plot::CurveFigure;
+use spiral_atlas::transition::Turn;
+pub use spiral_atlas::transition::segment::Request;
+use spiral_atlas::transition::segment::{Added, Base, Outcome, add_segment};
 use spiral_atlas::{Error, Result};
 
 /// What was asked and what was found.

@@ -3,10 +3,11 @@
 use super::{Found, SAMPLES};
 use serde::Serialize;
 use spiral_atlas::Result;
-pub use spiral_atlas::curve::trig::Request;
-use spiral_atlas::curve::trig::{Outcome, Path, Template, path};
-use spiral_atlas::curve::{EndCircle, Jet, Sample};
+use spiral_atlas::curve::Jet;
 use spiral_atlas::plot::{self, CurveFigure, Graph};
+pub use spiral_atlas::transition::templates::Request;
+use spiral_atlas::transition::templates::{Outcome, Path, Template, path};
+use spiral_atlas::transition::{EndCircle, Sample};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]

@@ -3,7 +3,7 @@
 use super::input::{angle, objects};
 use super::{Files, Found, Outcome, Paths, figure};
 use serde::Deserialize;
-use spiral_atlas::path::{EqualLength, equal_length};
+use spiral_atlas::curve::{EqualLength, equal_length};
 use spiral_atlas::{Error, Result};
 
 /// Join points and directions by paths of one given length, so that vehicles of one speed arrive at the same time.

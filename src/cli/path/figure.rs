@@ -1,7 +1,8 @@
 //! What the path tools draw.
 
+use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
-use spiral_atlas::path::{Choice, Motion, Plan, Scene};
+use spiral_atlas::path::{Motion, Plan, Scene};
 use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
 use spiral_atlas::{Error, Result};
 

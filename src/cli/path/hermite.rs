@@ -2,7 +2,7 @@
 
 use super::{Files, Found, Outcome, Paths, figure};
 use spiral_atlas::Result;
-use spiral_atlas::path::{Hermite, hermite};
+use spiral_atlas::curve::{Hermite, hermite};
 
 /// Join two points with given derivatives: the curve of least absolute rotation of the four there are.
 ///

@@ -13,8 +13,8 @@ mod spline;
 use super::{Outcome, output};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
-use spiral_atlas::path::Choice;
 use spiral_atlas::{Error, Result};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -166,7 +166,7 @@ impl Found {
 
     /// One of several.
     fn chosen(choice: &Choice, taken: usize, paper: Option<usize>) -> Found {
-        let candidate = |c: &spiral_atlas::path::Candidate| Candidate {
+        let candidate = |c: &spiral_atlas::curve::Candidate| Candidate {
             absolute_rotation: c.absolute_rotation,
             regular: c.regular,
             length: c.curve.length(),

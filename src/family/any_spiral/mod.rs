@@ -1,20 +1,20 @@
 //! Any spiral at all: whether some curve of monotone curvature joins two ends, and the involute that does (Kurnosenko 2026).
 
 mod arc;
+mod bound;
 mod exact;
 mod fast;
+mod involute;
 mod pair;
 #[cfg(feature = "gpu")]
 mod shader;
 mod shape;
 mod table;
 
-pub(crate) use arc::{Arc, Equation};
-pub(crate) use exact::Datum;
-pub(crate) use shape::Shape;
+pub use bound::least_end_curvature;
+pub use involute::{Chord, Involute, InvolutePoint, Outcome as InvoluteOutcome, Spiral, Split, WhyNone, involute};
 
 use super::{Answer, Chart, Code, Count, Family, Flag, Scalar, Table, coordinates, verdict};
-use crate::curve::{Chord, Involute, involute};
 use crate::error::Result;
 use crate::grid::Grid;
 

@@ -3,10 +3,10 @@
 use super::datum::{Datum, check};
 use super::truth::{Greatest, least};
 use super::{Kind, PhPath};
+use crate::curve::{Candidate, Choice, EqualLength, Hermite, equal_length, hermite};
 use crate::error::Result;
 use crate::family::{Answer, Value, Values, verdict};
 use crate::num::{Interval, climb};
-use crate::path::{Candidate, Choice, EqualLength, Hermite, equal_length, hermite};
 
 pub(super) fn answer(kind: Kind, point: &[f64]) -> Result<Answer> {
     let code = verdict(&PhPath(kind), 0, point)?;

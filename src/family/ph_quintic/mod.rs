@@ -1,7 +1,6 @@
 //! Pythagorean-hodograph quintic spirals matching G² Hermite data: all of them, counted with proof.
 
 mod curves;
-mod energy;
 mod fork;
 mod march;
 mod narrow;
@@ -19,16 +18,10 @@ pub use solve::{Quintic, Solutions, solve};
 use super::{Answer, Chart, Count, Family, Flag, Scalar, Table, coordinates};
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::num::Real;
 
 /// The family of PH quintics with G² Hermite ends.
 #[derive(Debug, Clone, Copy)]
 pub struct PhQuintic;
-
-/// `∫ h²/σ³` over [0, 1] for σ and h with these Bernstein coefficients; `None` when the precision does not suffice.
-pub(crate) fn energy_integral<N: Real>(speed: [N; 5], turn: [N; 3]) -> Option<N> {
-    energy::energy(&shape::Shape { speed, turn })
-}
 
 /// Bit of SOLVABLE.
 pub const SOLVABLE: u8 = 1;

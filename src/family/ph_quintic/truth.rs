@@ -1,11 +1,11 @@
 //! The verdicts of a datum: doubles with error bounds and intervals of growing precision run the same steps.
 
 use super::curves::Curves;
-use super::energy::energy;
 use super::march::{March, Root};
 use super::pair::Pair;
 use super::shape::Shape;
 use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
+use crate::curve::energy;
 use crate::family::{Code, outer};
 use crate::num::bernstein::{MOST_HALVINGS, exact_margin, margin, positive};
 use crate::num::{Ball, Interval, Real};
@@ -108,7 +108,7 @@ impl Margin for Interval {
 
 /// The energy alone.
 pub(super) fn energy_of<N: Real>(pair: &Pair<N>, solution: &Solution<N>) -> Option<N> {
-    energy(&solution.shape)?.mul(&pair.sin).mul(&pair.sin).times(4.0).over(&solution.root.z)
+    energy(&solution.shape.speed, &solution.shape.turn)?.mul(&pair.sin).mul(&pair.sin).times(4.0).over(&solution.root.z)
 }
 
 /// A, B, energy, length, margin.

@@ -1,5 +1,6 @@
 //! Spirals among the quintic trigonometric Bézier curves of Misro, Ramli and Ali, from a straight line to a circle.
 
+mod curve;
 mod exact;
 mod filter;
 mod frame;
@@ -10,10 +11,10 @@ mod shader;
 mod table;
 mod threshold;
 
+pub use curve::Scaling;
 pub use exact::Shape;
 
 use super::{Answer, Chart, Count, Family, Flag, NO_VALUE, Scalar, Table, coordinates, verdict};
-use crate::curve::trig::Scaling;
 use crate::error::Result;
 use crate::grid::Grid;
 

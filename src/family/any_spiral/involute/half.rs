@@ -7,8 +7,8 @@
 //!
 //! `t k = T k(0) + σ qr h - qi sin v + r|q|²/4 (v² - 2h + 2σT(v - sin v))`, `q = p e^(iγ)`, `h = 1 - cos v`.
 
-use super::super::vector::{Vector, add, cross, dot, length, turn};
-use crate::family::any_spiral::Shape;
+use super::super::shape::Shape;
+use crate::curve::vector::{Vector, add, cross, dot, length, turn};
 
 /// The curve from one end to the middle of the parameter's range.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

@@ -1,8 +1,8 @@
 //! The transition spiral between two given ends: Habib & Sakai, section 3.2, for data anywhere in the plane.
 
-use super::CubicBezier;
 use super::placement::{Ends, Placement};
 use super::why::Why;
+use crate::curve::CubicBezier;
 use crate::error::{Error, Result};
 use crate::family::cubic::{Datum, Root, solve};
 use serde::{Serialize, Serializer};
@@ -118,7 +118,7 @@ impl Solution {
         let Root { f0, f1, theorem31, spiral, margin } = *root;
         let control_points = placement.place(datum, f0, f1);
         let local_control_points = placement.place_local(datum, f0, f1);
-        let legs = placement.to_user_legs(&CubicBezier::legs(datum, f0, f1));
+        let legs = placement.to_user_legs(&CubicBezier::legs([datum.phi0, datum.phi1], [datum.kappa0, datum.kappa1], [f0, f1]));
         let mut all = control_points.p.iter().chain(&local_control_points.p).chain(&legs);
         if let Some([x, y]) = all.find(|p| !(p[0].is_finite() && p[1].is_finite())) {
             return Err(Error::Domain(format!(

@@ -1,8 +1,8 @@
 //! The numbers of a picture like Habib & Sakai's Fig. 3: curve, control polygon, end circles, curvature and its derivative.
 
+use super::Solution;
 use super::placement::Ends;
-use super::spiral::Solution;
-use super::vector::add;
+use crate::curve::vector::add;
 use crate::error::{Error, Result};
 use serde::Serialize;
 
@@ -81,7 +81,7 @@ impl Figure {
     /// Samples one of the curves that match `ends`.
     ///
     /// # Accuracy
-    /// Arc lengths 1e-14 relative; curvatures as [`super::Jet::curvature`].
+    /// Arc lengths 1e-14 relative; curvatures as [`crate::curve::Jet::curvature`].
     ///
     /// # Errors
     /// [`Error::Domain`] for fewer than 2 samples.

@@ -1,7 +1,8 @@
 //! Paths of a given arc length between given points and directions: (10)-(13).
 
-use super::{Choice, best, complex, finite, pair};
-use crate::curve::PhQuintic;
+use super::PhQuintic;
+use super::choice::{Choice, best};
+use super::vector::{complex, finite, pair};
 use crate::error::{Error, Result};
 use num_complex::Complex64;
 

@@ -1,7 +1,8 @@
 //! First-order Hermite interpolation: end points and derivatives.
 
-use super::{Choice, complex, finite, pair};
-use crate::curve::PhQuintic;
+use super::PhQuintic;
+use super::choice::Choice;
+use super::vector::{complex, finite, pair};
 use crate::error::{Error, Result};
 use num_complex::Complex64;
 

@@ -1,9 +1,10 @@
 //! From user data anywhere in the plane to the normalised frame, and back.
 
-use super::vector::{Vector, add, length, scale, sub, turn};
 use super::why::Turn;
-use super::{Chord, CubicBezier};
+use crate::curve::CubicBezier;
+use crate::curve::vector::{Vector, add, length, scale, sub, turn};
 use crate::error::{Error, Result};
+use crate::family::any_spiral::Chord;
 use crate::family::cubic::Datum;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
@@ -122,7 +123,7 @@ impl Placement {
     ///
     /// (Running a curve backwards swaps its ends, turns directions and chord by π and negates curvatures.) The side is read off
     /// the directions; where they lie on one side of the chord, off the curvatures. Data of no C-shaped curve
-    /// get a datum too, with a negative angle or curvature: what is wrong with it is [`super::Why`].
+    /// get a datum too, with a negative angle or curvature: what is wrong with it is [`crate::transition::Why`].
     ///
     /// # Accuracy
     /// Angles within 2e-15 radians absolutely, curvatures 3 ulp, beyond the rounding of the data themselves.

@@ -1,9 +1,11 @@
 //! The five templates of transition curves, placed in the plane.
 
-use super::{Scaling, TrigBezier};
+use super::{EndCircle, Sample, Turn};
+use crate::curve::Jet;
+use crate::curve::TrigBezier;
 use crate::curve::vector::{add, turn};
-use crate::curve::{EndCircle, Jet, Sample, Turn};
 use crate::error::{Error, Result};
+use crate::family::trig_quintic::Scaling;
 use crate::family::trig_quintic::{SPIRAL, Shape, flags, least_ratio};
 use crate::num::roots::find;
 use serde::Serialize;

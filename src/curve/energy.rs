@@ -5,16 +5,15 @@
 //! coefficients at most `64 · 2^-m` (Cauchy). They follow from `σ y' = -3 σ' y`:
 //! `(m + 1) y_{m+1} = -Σ c_j (m + 1 + 2j) y_{m+1-j}`. Other pieces are halved.
 
-use super::shape::Shape;
 use crate::num::bernstein::halve;
 use crate::num::{Number, Real};
 
-/// The energy times `Z / (4 sin² Φ)`; `None` when the precision does not suffice.
-pub(super) fn energy<N: Real>(shape: &Shape<N>) -> Option<N> {
+/// `∫ h²/σ³` over [0, 1] for σ and h with these Bernstein coefficients; `None` when the precision does not suffice.
+pub(crate) fn energy<N: Real>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
     // One halving more for each halving of the distance to a zero of σ, as close as doubles can put it.
-    let most = if shape.speed[0].bits() <= 53 { 64 } else { 1000 };
-    let mut sum = N::of(0.0, shape.speed[0].bits());
-    let mut waiting = vec![(shape.speed.clone(), shape.turn.clone(), 0)];
+    let most = if speed[0].bits() <= 53 { 64 } else { 1000 };
+    let mut sum = N::of(0.0, speed[0].bits());
+    let mut waiting = vec![(speed.clone(), turn.clone(), 0)];
     while let Some((speed, turn, depth)) = waiting.pop() {
         if let Some(c) = centred(&speed)? {
             sum = sum.add(&series(&speed, &c, &turn)?.times(2f64.powi(-depth)));
@@ -109,11 +108,11 @@ mod tests {
         let plain = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n));
         let plain: f64 = plain.map(|x| value(&turn, x).powi(2) / value(&speed, x).powi(3)).sum::<f64>() / f64::from(n);
         let ball = |x| Ball::of(x, 53);
-        let near = energy(&Shape { speed: speed.map(ball), turn: turn.map(ball) }).expect("enough bits");
+        let near = energy(&speed.map(ball), &turn.map(ball)).expect("enough bits");
         assert!((near.value - plain).abs() < 1e-8 * plain && near.error < 1e-11 * plain, "{near:?} is not {plain}");
         for bits in [128, 600] {
             let number = |x| Interval::new(x, bits);
-            let exact = energy(&Shape { speed: speed.map(number), turn: turn.map(number) }).expect("enough bits");
+            let exact = energy(&speed.map(number), &turn.map(number)).expect("enough bits");
             assert!(exact.plus(-near.value).approx().abs() <= near.error);
             let width = (&exact.upper() - &exact.lower()).approx() / plain;
             assert!(width < 2f64.powi(20 - bits as i32), "{width}");

@@ -1,7 +1,7 @@
 //! Adding a spiral segment to the end of a line or of a circle.
 
 use super::Turn;
-use super::vector::{Vector, add, scale, sub, turn};
+use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::error::{Error, Result};
 use crate::family::reach::{Datum, Kind, Level, level_of_shape, solve};
 use serde::Serialize;

@@ -1,12 +1,7 @@
-//! Quintic trigonometric spirals: from a line to a circle, and the five templates of transition curves made of them.
+//! The curve of a shape.
 
-mod bezier;
-mod templates;
-
-pub use bezier::TrigBezier;
-pub use templates::{Outcome, Part, Path, Request, Segment, Template, path};
-
-use super::vector::scale;
+use crate::curve::TrigBezier;
+use crate::curve::vector::scale;
 use crate::family::trig_quintic::Shape;
 use serde::Serialize;
 

@@ -62,7 +62,7 @@ pub struct PhSolution {
 /// welcome.
 ///
 /// # Accuracy
-/// As [`super::spiral`]: existence is proved for the normalised doubles in [`PhAnswer::datum`]. End points are the user's, exactly; end
+/// As [`crate::transition::spiral`]: existence is proved for the normalised doubles in [`PhAnswer::datum`]. End points are the user's, exactly; end
 /// directions and curvatures of a spiral's [`PhSolution::legs`] are the user's to 1e-12, relative. Control points are rounded at the size of the
 /// chord: what is computed from them is known to 1e-15 over the end's leg in half chords (directions), or over its square (curvatures).
 /// Length and energy to 2^-36 relative, usually a few ulp.

@@ -1,11 +1,12 @@
 //! From two ends to the curve.
 
+use super::super::arc::{Arc, Equation};
+use super::super::exact::Datum;
 use super::half::Half;
 use super::turns::{Split, range};
 use super::{Chord, Outcome, Spiral, WhyNone};
 use crate::curve::arc_length;
 use crate::error::{Error, Result};
-use crate::family::any_spiral::{Arc, Datum, Equation};
 use crate::num::roots::find;
 use crate::num::{Interval, climb};
 use serde::Serialize;

@@ -21,10 +21,8 @@ mod turns;
 pub use solve::{Involute, InvolutePoint};
 pub use turns::Split;
 
-use super::placement::Ends;
-use super::vector::{Vector, add, turn};
+use super::exact::Datum;
 use crate::error::{Error, Result};
-use crate::family::any_spiral::Datum;
 use serde::Serialize;
 use std::f64::consts::PI;
 use std::fmt;
@@ -138,34 +136,6 @@ impl Chord {
     fn datum(&self) -> Datum {
         let Chord { alpha, beta, k1, k2 } = *self;
         Datum { alpha, beta, k1, k2 }
-    }
-}
-
-/// [`involute`] for ends anywhere in the plane, with what places the result there.
-///
-/// # Errors
-/// Those of [`involute`], and [`Error::Domain`] for coincident ends or lengths outside the range of doubles.
-pub fn involute_between(ends: &Ends, turns: [u32; 2]) -> Result<(Spiral, Frame)> {
-    let (chord, half_chord) = ends.chord()?;
-    Ok((involute(&chord, turns)?, Frame { start: ends.start, end: ends.end, half_chord }))
-}
-
-/// How the chord's frame lies in the user's.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Frame {
-    /// Image of (-1, 0).
-    pub start: [f64; 2],
-    /// Image of (1, 0).
-    pub end: [f64; 2],
-    /// Half the chord as a vector.
-    pub half_chord: [f64; 2],
-}
-
-impl Frame {
-    /// A point of the chord's frame in the user's; the ends are met exactly, and others seen from the nearer one.
-    pub fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let (near, origin): (Vector, f64) = if x <= 0.0 { (self.start, -1.0) } else { (self.end, 1.0) };
-        add(near, turn(self.half_chord, [x - origin, y]))
     }
 }
 

@@ -1,8 +1,8 @@
 //! Why two ends have no spiral, with numbers.
 
-use super::bound::least_end_curvature;
+use super::Solution;
 use super::placement::{Ends, Placement};
-use super::spiral::Solution;
+use crate::family::any_spiral::least_end_curvature;
 use crate::family::cubic::Datum;
 use serde::Serialize;
 use std::f64::consts::PI;
