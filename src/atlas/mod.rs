@@ -29,17 +29,15 @@
 mod about;
 mod fault;
 mod header;
-mod lookup;
 mod write;
 
 pub use about::{About, FORMAT_VERSION, Named, Packed};
 pub use header::MAX_HEADER;
-pub(crate) use lookup::Lookup;
 pub use write::{Writer, Written};
 
 use crate::error::{Error, Result};
 use crate::family::Family;
-use crate::grid::Grid;
+use crate::grid::{Grid, Lookup};
 use blake3::Hash;
 use header::{FLAGS, Header, SOLUTIONS};
 use memmap2::{Mmap, MmapMut};

@@ -3,10 +3,12 @@
 pub mod agree;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod job;
 mod pipeline;
 mod report;
 
-pub use pipeline::{Backend, Job, evaluate};
+pub use job::{Backend, Job};
+pub use pipeline::evaluate;
 pub use report::{DeviceReport, Report};
 
 /// The fields of a run of nodes, in flat order.

@@ -3,9 +3,10 @@
 //! Memory is bounded whatever the grid: at most `2 threads + 2` pieces of [`PIECE`] nodes exist at once, each with two bytes
 //! of codes, two bytes of fields and four bytes a scalar a node (and, on a GPU, the engine's own buffers).
 
-use super::{Chunk, Report};
+use super::report::Tally;
+use super::{Backend, Chunk, Job, Report};
 use crate::error::{Error, Result};
-use crate::family::{Code, Family, Table};
+use crate::family::{Code, Table};
 use crate::grid::Grid;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,27 +17,6 @@ use std::time::Instant;
 /// Nodes a worker takes at a time.
 const PIECE: u64 = 1 << 17;
 
-/// What to evaluate.
-#[derive(Clone, Copy)]
-pub struct Job<'a> {
-    /// The family.
-    pub family: &'static dyn Family,
-    /// The grid.
-    pub grid: &'a Grid,
-    /// Which of the family's scalars, by index.
-    pub scalars: &'a [usize],
-}
-
-/// Who takes the first step.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Backend {
-    /// SIMD on the processor, f64 first.
-    Cpu,
-    /// A GPU, f32 first: the adapter whose label contains the text, or the best hardware adapter.
-    #[cfg(feature = "gpu")]
-    Gpu(Option<String>),
-}
-
 /// Evaluates all nodes of a job; `sink` gets every chunk in flat order.
 ///
 /// # Arguments
@@ -44,7 +24,7 @@ pub enum Backend {
 /// - `stop`: when set, the run ends soon with [`Error::Interrupted`].
 ///
 /// # Errors
-/// What the family's [`Family::table`] says of the grid, [`Error::Undecided`] naming a node, [`Error::Gpu`],
+/// What the family's [`crate::family::Family::table`] says of the grid, [`Error::Undecided`] naming a node, [`Error::Gpu`],
 /// [`Error::Interrupted`], and whatever `sink` returns.
 pub fn evaluate(
     job: &Job,
@@ -103,15 +83,6 @@ struct Task {
     start: u64,
     len: usize,
     codes: Option<Vec<Code>>,
-}
-
-/// What happened in a chunk.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct Tally {
-    pub undecided_f32: u64,
-    pub undecided_f64: u64,
-    pub most_bits: usize,
-    pub flags: [u64; 8],
 }
 
 struct Halt<'s> {

@@ -1,6 +1,5 @@
 //! What a run tells about itself: everything that may differ between machines, kept out of the atlas.
 
-use super::pipeline::Tally;
 use super::{Backend, Chunk, Job};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -79,4 +78,13 @@ impl Report {
             *self.yes.entry(name).or_default() += count;
         }
     }
+}
+
+/// What happened in a chunk.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct Tally {
+    pub undecided_f32: u64,
+    pub undecided_f64: u64,
+    pub most_bits: usize,
+    pub flags: [u64; 8],
 }

@@ -1,5 +1,9 @@
 //! Axes, grids and the flat index: defined once, here.
 
+mod lookup;
+
+pub(crate) use lookup::Lookup;
+
 use crate::error::{Error, Result};
 use crate::num::log_space;
 use serde::{Deserialize, Serialize};

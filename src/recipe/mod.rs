@@ -49,9 +49,9 @@ mod raw;
 pub use levels::Levels;
 pub use raw::{is_angle, parse_angle, parse_coordinate};
 
-use crate::atlas::Lookup;
 use crate::error::{Error, Result};
 use crate::family::{self, Chart, Family};
+use crate::grid::Lookup;
 use crate::grid::{Axis, Grid, Spacing};
 use raw::{Fault, Number, Numbers, RawAtlas, RawAxis, RawPicture, unknown};
 use std::collections::BTreeMap;

@@ -1,15 +1,14 @@
 //! The top of the ladder: the truth of one datum in intervals of growing precision.
 
+use super::angles::Angles;
 use super::poly::side;
 use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::error::Result;
-use crate::family::outer::{self, Sines};
+use crate::family::outer;
 use crate::num::bernstein::{MOST_HALVINGS, Quintic, positive};
 use crate::num::roots::{Curve, bracketed, enclose};
 use crate::num::{Interval, Number, climb};
-use std::cell::RefCell;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
-use std::rc::Rc;
 
 /// A datum in one of the two charts, its numbers taken as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,47 +28,6 @@ pub enum Ends {
     Curvature(f64, f64),
     /// a, k.
     Normalised(f64, f64),
-}
-
-/// The constants of a pair of angles, as in [`super::pair::Pair`].
-pub(super) struct Angles {
-    pub p: Interval,
-    pub r: Interval,
-    pub g0: Interval,
-    pub g1: Interval,
-    pub outer: Sines<Interval>,
-}
-
-impl Angles {
-    /// [`Angles::new`], kept for the next call: neighbouring nodes share their angles, and the sines cost more than all else.
-    pub fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
-        type Last = Option<([u64; 2], usize, Rc<Angles>)>;
-        thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });
-        let key = [phi0.to_bits(), phi1.to_bits()];
-        LAST.with_borrow_mut(|last| match last {
-            Some((k, b, angles)) if *k == key && *b == bits => Some(angles.clone()),
-            _ => {
-                let angles = Rc::new(Angles::new(phi0, phi1, bits)?);
-                *last = Some((key, bits, angles.clone()));
-                Some(angles)
-            }
-        })
-    }
-
-    pub fn new(phi0: f64, phi1: f64, bits: usize) -> Option<Angles> {
-        let ((sin0, cos0), (sin1, cos1)) = (Interval::sin_cos(phi0, bits), Interval::sin_cos(phi1, bits));
-        let (sc, cs) = (&sin0 * &cos1, &cos0 * &sin1);
-        let sum = &sc + &cs;
-        // sin²(δ/2) = (1 - cos δ)/2
-        let cos_difference = &(&cos0 * &cos1) + &(&sin0 * &sin1);
-        Some(Angles {
-            p: sc.over(&sum)?,
-            r: cs.over(&sum)?,
-            g0: sin0.over(&sum)?.square(),
-            g1: sin1.over(&sum)?.square(),
-            outer: [sin0, sin1, cos_difference.scale(-1.0).plus(1.0).scale(0.5)],
-        })
-    }
 }
 
 /// One root of the two parabolas with everything proved of it.

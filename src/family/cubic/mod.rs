@@ -1,5 +1,6 @@
 //! Cubic Bézier spirals matching G² Hermite data (Habib & Sakai).
 
+mod angles;
 mod exact;
 mod filter;
 mod pair;

@@ -1,6 +1,6 @@
 //! What depends on the two tangent angles alone.
 
-use super::exact::Angles;
+use super::angles::Angles;
 use crate::num::sines::{cos, sin, sin_of_sum};
 use std::f64::consts::PI;
 

@@ -7,7 +7,7 @@
 //! that halving needs some log 1/ε knots where slopes alone need 1/√ε.
 
 use super::curves::Curves;
-use super::march::{Knot, length};
+use super::knot::{Knot, length};
 use crate::num::Real;
 use std::cmp::Ordering::{Equal, Less};
 

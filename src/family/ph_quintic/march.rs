@@ -16,22 +16,10 @@
 //! one would end as undecided at the precision cap.
 
 use super::curves::Curves;
+use super::knot::{Knot, length};
 use super::{fork, narrow};
 use crate::num::Real;
 use std::cmp::Ordering::{self, Greater};
-
-/// Both curves at one t.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Knot<N> {
-    /// t, exactly.
-    pub t: N,
-    /// Heights Z of the two curves.
-    pub z: [N; 2],
-    /// Slopes s.
-    pub s: [N; 2],
-    /// Of the sign of D, and no larger: `2 (Z0 - Z1)/(Z0 + Z1)`.
-    pub gap: N,
-}
 
 /// A solution: t and Z, enclosed.
 #[derive(Debug, Clone, Copy)]
@@ -229,11 +217,6 @@ fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Option<bool> {
     }
     let monotone = a.s[1].sub(&b.s[0]).is_positive() || a.s[0].sub(&b.s[1]).is_positive();
     monotone.then_some(at_a != at_b && at_a != Ordering::Equal)
-}
-
-/// No less than `ln(b/a)`: `(r - 1)/√r` for their ratio r, with a little for rounding.
-pub(super) fn length<N: Real>(a: &N, b: &N) -> f64 {
-    b.sub(a).approx() / (a.approx().sqrt() * b.approx().sqrt()) * 1.0001
 }
 
 /// A point between two, not in their middle, where symmetric data have solutions; `None` when they are too close.

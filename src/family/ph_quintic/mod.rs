@@ -2,6 +2,7 @@
 
 mod curves;
 mod fork;
+mod knot;
 mod march;
 mod narrow;
 mod pair;

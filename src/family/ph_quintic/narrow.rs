@@ -6,7 +6,7 @@
 //! with `dζ/dx = -s` a term with the powers k of Z and j of t changes by its (j - ks)-fold.
 
 use super::curves::Curves;
-use super::march::Knot;
+use super::knot::Knot;
 use crate::num::Real;
 
 /// Above this cos Φ the other certificates do as well.

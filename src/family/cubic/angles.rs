@@ -1,0 +1,47 @@
+//! What depends on the two tangent angles alone, enclosed.
+
+use crate::family::outer::Sines;
+use crate::num::Interval;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// The constants of a pair of angles, as in [`super::pair::Pair`].
+pub(super) struct Angles {
+    pub p: Interval,
+    pub r: Interval,
+    pub g0: Interval,
+    pub g1: Interval,
+    pub outer: Sines<Interval>,
+}
+
+impl Angles {
+    /// [`Angles::new`], kept for the next call: neighbouring nodes share their angles, and the sines cost more than all else.
+    pub fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
+        type Last = Option<([u64; 2], usize, Rc<Angles>)>;
+        thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });
+        let key = [phi0.to_bits(), phi1.to_bits()];
+        LAST.with_borrow_mut(|last| match last {
+            Some((k, b, angles)) if *k == key && *b == bits => Some(angles.clone()),
+            _ => {
+                let angles = Rc::new(Angles::new(phi0, phi1, bits)?);
+                *last = Some((key, bits, angles.clone()));
+                Some(angles)
+            }
+        })
+    }
+
+    pub fn new(phi0: f64, phi1: f64, bits: usize) -> Option<Angles> {
+        let ((sin0, cos0), (sin1, cos1)) = (Interval::sin_cos(phi0, bits), Interval::sin_cos(phi1, bits));
+        let (sc, cs) = (&sin0 * &cos1, &cos0 * &sin1);
+        let sum = &sc + &cs;
+        // sin²(δ/2) = (1 - cos δ)/2
+        let cos_difference = &(&cos0 * &cos1) + &(&sin0 * &sin1);
+        Some(Angles {
+            p: sc.over(&sum)?,
+            r: cs.over(&sum)?,
+            g0: sin0.over(&sum)?.square(),
+            g1: sin1.over(&sum)?.square(),
+            outer: [sin0, sin1, cos_difference.scale(-1.0).plus(1.0).scale(0.5)],
+        })
+    }
+}

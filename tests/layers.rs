@@ -1,0 +1,221 @@
+//! The layers of ARCHITECTURE.md: no room imports one above it, and no two files import each other, directly or in a circle.
+//!
+//! An import is what a `use` line names, or a path that begins with `crate::`, followed through re-exports to the file that defines the name. A
+//! re-export itself is none, and neither is what tests inside a file use.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Each room of `src/` with the rooms that it may import.
+const ROOMS: [(&str, &[&str]); 14] = [
+    ("error", &[]),
+    ("files", &["error"]),
+    ("num", &["error"]),
+    ("plot", &["error"]),
+    ("grid", &["num", "error"]),
+    ("curve", &["num", "error"]),
+    ("family", &["curve", "grid", "num", "error"]),
+    ("eval", &["family", "grid", "num", "error"]),
+    ("recipe", &["family", "grid", "num", "error"]),
+    ("atlas", &["eval", "family", "grid", "num", "files", "error"]),
+    ("transition", &["family", "curve", "num", "error"]),
+    ("path", &["family", "curve", "num", "error"]),
+    ("picture", &["atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
+    (
+        "cli",
+        &["picture", "path", "transition", "atlas", "recipe", "eval", "plot", "family", "curve", "grid", "num", "files", "error"],
+    ),
+];
+
+/// A source file, read as far as imports go.
+struct Source {
+    /// Its module, such as `["family", "cubic"]`.
+    module: Vec<String>,
+    /// Absolute paths of what it imports.
+    imports: Vec<Vec<String>>,
+    /// What it re-exports: name to absolute path.
+    exports: BTreeMap<String, Vec<String>>,
+}
+
+/// Every file below a folder whose name ends in `.rs`.
+fn files(folder: &Path, all: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files(&path, all);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            all.push(path);
+        }
+    }
+}
+
+fn module_of(path: &Path) -> Vec<String> {
+    let mut parts: Vec<String> = path.with_extension("").iter().map(|p| p.to_str().unwrap().to_owned()).collect();
+    if parts.last().is_some_and(|last| last == "mod" || last == "lib") {
+        parts.pop();
+    }
+    parts
+}
+
+/// The paths of a `use` tree: `a::{b, c::d}` is `a::b` and `a::c::d`.
+fn leaves(tree: &str) -> Vec<String> {
+    let Some(open) = tree.find('{') else { return vec![tree.trim().to_owned()] };
+    let (head, body) = (&tree[..open], &tree[open + 1..tree.rfind('}').unwrap()]);
+    let (mut all, mut depth, mut part) = (Vec::new(), 0, String::new());
+    for c in body.chars().chain([',']) {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                all.extend(leaves(&part).into_iter().filter(|l| !l.is_empty()).map(|l| format!("{}{l}", head.trim())));
+                part.clear();
+                continue;
+            }
+            _ => {}
+        }
+        part.push(c);
+    }
+    all
+}
+
+/// A path seen from a module, from the root; `None` for those of other crates.
+fn absolute(path: &str, module: &[String]) -> Option<Vec<String>> {
+    let mut here = module.to_vec();
+    let mut parts = path.split("::").map(str::trim).peekable();
+    match *parts.peek()? {
+        "crate" | "spiral_atlas" => {
+            here.clear();
+            parts.next();
+        }
+        "self" => {
+            parts.next();
+        }
+        "super" => {
+            while parts.next_if_eq(&"super").is_some() {
+                here.pop();
+            }
+        }
+        _ => return None,
+    }
+    here.extend(parts.map(str::to_owned));
+    Some(here)
+}
+
+fn read(path: &Path) -> Source {
+    let module = module_of(path.strip_prefix("src").unwrap());
+    let text = fs::read_to_string(path).unwrap();
+    // Tests stand last.
+    let code = text.split("#[cfg(test)]\nmod ").next().unwrap();
+    let code: Vec<&str> = code.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
+    let code = code.join("\n");
+    let (mut imports, mut exports) = (Vec::new(), BTreeMap::new());
+    let mut rest = String::new();
+    for statement in code.split_inclusive(';') {
+        let line = statement.trim_start().trim_end_matches(';');
+        // What stands before it, such as an attribute.
+        let start = ["pub use ", "pub(crate) use ", "pub(super) use ", "use "].iter().find_map(|word| {
+            line.match_indices(word).map(|(at, _)| at).find(|at| *at == 0 || line[..*at].ends_with('\n')).map(|at| (at, *word))
+        });
+        let Some((at, word)) = start else {
+            rest += statement;
+            continue;
+        };
+        for leaf in leaves(&line[at + word.len()..]) {
+            let (path, name) = leaf.split_once(" as ").unwrap_or((&leaf, leaf.rsplit("::").next().unwrap()));
+            let local = if word == "use " {
+                absolute(path, &module)
+            } else {
+                absolute(path, &module).or_else(|| absolute(&format!("self::{path}"), &module))
+            };
+            match local {
+                Some(path) if word == "use " => imports.push(path),
+                Some(path) => {
+                    exports.insert(name.trim().to_owned(), path);
+                }
+                None => {}
+            }
+        }
+    }
+    let word = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+    for (at, _) in rest.match_indices("crate::") {
+        let path: String = rest[at..].chars().take_while(|c| word(*c)).collect();
+        imports.extend(absolute(path.trim_end_matches(':'), &module));
+    }
+    Source { module, imports, exports }
+}
+
+/// The file that defines what a path names: its index.
+fn target(sources: &[Source], path: &[String]) -> Option<usize> {
+    for length in (0..=path.len()).rev() {
+        let Some(i) = sources.iter().position(|s| s.module == path[..length]) else { continue };
+        let export = path.get(length).and_then(|name| sources[i].exports.get(name));
+        return match export {
+            Some(export) => target(sources, &[export, &path[length + 1..]].concat()),
+            None => Some(i),
+        };
+    }
+    None
+}
+
+/// What each file imports of the others.
+fn graph() -> (Vec<Source>, Vec<BTreeSet<usize>>) {
+    let mut paths = Vec::new();
+    files(Path::new("src"), &mut paths);
+    paths.sort();
+    let sources: Vec<Source> = paths.iter().map(|p| read(p)).collect();
+    let edges = (0..sources.len()).map(|i| {
+        let targets = sources[i].imports.iter().filter_map(|path| target(&sources, path));
+        targets.filter(|t| *t != i && !sources[*t].module.is_empty()).collect()
+    });
+    let edges = edges.collect();
+    (sources, edges)
+}
+
+#[test]
+fn no_import_goes_up() {
+    let (sources, edges) = graph();
+    let mut wrong = Vec::new();
+    let mut across = 0;
+    for (source, targets) in sources.iter().zip(&edges) {
+        let Some(room) = source.module.first().filter(|room| !["main", "noise"].contains(&room.as_str())) else { continue };
+        let allowed =
+            ROOMS.iter().find(|(name, _)| name == room).unwrap_or_else(|| panic!("the room `{room}` is not in the list"));
+        for target in targets.iter().map(|t| &sources[*t].module).filter(|t| t[0] != *room) {
+            across += 1;
+            if !allowed.1.contains(&target[0].as_str()) {
+                wrong.push(format!("{} -> {}", source.module.join("::"), target.join("::")));
+            }
+        }
+    }
+    assert!(across > 100, "only {across} imports between rooms were seen");
+    assert!(wrong.is_empty(), "imports that go up:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn no_files_import_each_other_in_a_circle() {
+    let (sources, edges) = graph();
+    // Leaves are taken off until only circles are left, and what lies between them.
+    let mut left: BTreeSet<usize> = (0..sources.len()).collect();
+    loop {
+        let ends: Vec<usize> = left
+            .iter()
+            .copied()
+            .filter(|i| {
+                let into = left.iter().any(|j| edges[*j].contains(i));
+                let out = edges[*i].iter().any(|j| left.contains(j));
+                !(into && out)
+            })
+            .collect();
+        if ends.is_empty() {
+            break;
+        }
+        ends.iter().for_each(|i| {
+            left.remove(i);
+        });
+    }
+    let name = |i: &usize| sources[*i].module.join("::");
+    let arrows = left.iter().flat_map(|i| edges[*i].iter().filter(|j| left.contains(j)).map(move |j| (i, j)));
+    let told: Vec<String> = arrows.map(|(i, j)| format!("{} -> {}", name(i), name(j))).collect();
+    assert!(told.is_empty(), "circles among:\n{}", told.join("\n"));
+}
