@@ -1,0 +1,12 @@
+//! Atlases from recipe to picture: the file, the pipeline that fills it, recipes, pictures, and those that are shipped.
+
+#[cfg(feature = "cli")]
+mod crude;
+mod file;
+mod pipeline;
+#[cfg(feature = "cli")]
+mod plot;
+#[cfg(feature = "cli")]
+mod recipes;
+#[cfg(feature = "cli")]
+mod shipped;

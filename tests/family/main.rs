@@ -1,0 +1,15 @@
+//! Every family against independent oracles, published numbers and reference data; and what places its curves in the user's plane.
+
+mod any_spiral;
+mod cubic_oracle;
+mod cubic_properties;
+mod cubic_vectors;
+mod oracle;
+mod ph_oracle;
+mod ph_path;
+mod ph_vectors;
+mod reach_oracle;
+mod reach_vectors;
+mod transition;
+mod trig_oracle;
+mod trig_vectors;

@@ -1,0 +1,109 @@
+//! What the pages tell users to type works, and the figures they show are what it draws.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+fn pages() -> Vec<PathBuf> {
+    let docs = std::fs::read_dir(Path::new(ROOT).join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let pages = docs.filter(|path| path.extension().is_some_and(|e| e == "md"));
+    [Path::new(ROOT).join("README.md")].into_iter().chain(pages).collect()
+}
+
+/// A line of shell: the arguments of each command, whose output the next one reads.
+type Line = Vec<Vec<String>>;
+
+/// Every line of `query`, `curve` and `path` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
+fn commands(text: &str) -> Vec<Line> {
+    let blocks = text.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let lines = blocks.flat_map(|block| block.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
+    let arguments = lines.filter_map(|line| {
+        let one = |command: &str| {
+            let rest = command.strip_prefix("cargo run --release -- ").or_else(|| command.strip_prefix("spiral-atlas "))?;
+            Some(rest.split_whitespace().map(str::to_owned).collect())
+        };
+        line.split(" #").next()?.split(" | ").map(|command| one(command.trim())).collect::<Option<Line>>()
+    });
+    arguments.filter(|line| ["query", "curve", "path"].contains(&line[0][0].as_str())).collect()
+}
+
+/// Runs a line in a folder.
+fn run(line: &Line, folder: &Path) {
+    let mut read = Vec::new();
+    for arguments in line {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_spiral-atlas"));
+        command.current_dir(folder).args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // It need not read.
+        let _ = child.stdin.take().unwrap().write_all(&read);
+        let done = child.wait_with_output().unwrap();
+        assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+        read = done.stdout;
+    }
+}
+
+/// The share of pixels that differ clearly. Libraries of mathematics may differ in a last bit, and so may a pixel of a curve's rim.
+fn difference(a: &[u8], b: &[u8]) -> f64 {
+    let [a, b] = [a, b].map(|png| image::load_from_memory(png).unwrap().to_rgb8());
+    if a.dimensions() != b.dimensions() {
+        return 1.0;
+    }
+    let differ = a.pixels().zip(b.pixels()).filter(|(p, q)| p.0.iter().zip(q.0).any(|(x, y)| x.abs_diff(y) > 64)).count();
+    differ as f64 / a.pixels().len() as f64
+}
+
+#[test]
+fn commands_work_and_draw_the_figures() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("docs/figures")).unwrap();
+    std::fs::create_dir(folder.path().join("examples")).unwrap();
+    for example in std::fs::read_dir(Path::new(ROOT).join("examples")).unwrap().map(|entry| entry.unwrap()) {
+        std::fs::copy(example.path(), folder.path().join("examples").join(example.file_name())).unwrap();
+    }
+    std::fs::write(folder.path().join("data.csv"), "phi0,phi1,kappa0,kappa1\n0.7,1.4,0.4,4\n").unwrap();
+    let mut lines = 0;
+    for page in pages() {
+        for line in commands(&std::fs::read_to_string(&page).unwrap()) {
+            run(&line, folder.path());
+            lines += 1;
+        }
+    }
+    assert!(lines > 15, "{lines}");
+    let mut figures = Vec::new();
+    for entry in std::fs::read_dir(Path::new(ROOT).join("docs/figures")).unwrap() {
+        let committed = entry.unwrap().path();
+        let made = folder.path().join("docs/figures").join(committed.file_name().unwrap());
+        assert!(made.exists(), "no page has a command that draws {}", committed.display());
+        let [committed, made] = [committed, made].map(|path| std::fs::read(path).unwrap());
+        assert!(difference(&committed, &made) < 1e-3, "a figure is not up to date; the page has its command");
+        figures.push(committed);
+    }
+    assert!(figures.len() > 5 && figures.windows(2).all(|w| difference(&w[0], &w[1]) > 5e-3));
+}
+
+#[test]
+fn links_lead_to_files() {
+    let mut links = 0;
+    for page in pages() {
+        let text = std::fs::read_to_string(&page).unwrap();
+        for rest in text.split("](").skip(1) {
+            let target = rest.split([')', '#']).next().unwrap();
+            if !target.starts_with("http") && !target.is_empty() {
+                assert!(page.parent().unwrap().join(target).exists(), "{}: {target}", page.display());
+                links += 1;
+            }
+        }
+    }
+    assert!(links > 15, "{links}");
+}
+
+#[test]
+fn commands_are_found() {
+    let text =
+        "```sh\ncargo run --release -- query --a 1 \\\n    --b 2  # why\nls\nspiral-atlas generate x\n```\nspiral-atlas query\n";
+    assert_eq!(commands(text), [[["query", "--a", "1", "--b", "2"]]]);
+    let text = "```sh\nspiral-atlas path a | spiral-atlas path b -\nspiral-atlas path a | less\n```\n";
+    assert_eq!(commands(text), [vec![vec!["path", "a"], vec!["path", "b", "-"]]]);
+}
