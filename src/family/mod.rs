@@ -6,6 +6,7 @@ mod answer;
 pub mod any_spiral;
 pub mod cubic;
 mod hermite;
+mod kernel;
 mod outer;
 pub mod ph_path;
 pub mod ph_quintic;
@@ -14,6 +15,7 @@ mod rows;
 pub mod trig_quintic;
 
 pub use answer::{Answer, Value, Values};
+pub use kernel::{Kernel, Shader, ShaderInputs};
 
 use crate::error::{Error, Result};
 use crate::grid::{Axis, Grid, Spacing};
@@ -156,7 +158,7 @@ fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
 }
 
 /// A family on one grid.
-pub trait Table: Sync {
+pub trait Table: Kernel {
     /// The f64 step: proves the codes of the nodes from `start` on, or leaves [`Code::UNDECIDED`].
     fn filter(&self, start: u64, out: &mut [Code]);
 
@@ -177,33 +179,6 @@ pub trait Table: Sync {
     /// # Errors
     /// As there.
     fn exact_scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()>;
-
-    /// The f32 step on the GPU: the assembled shader's family part.
-    #[cfg(feature = "gpu")]
-    fn shader(&self) -> Shader;
-
-    /// The f32 inputs for the nodes `start .. start + len`; the layout is the shader's own business.
-    #[cfg(feature = "gpu")]
-    fn shader_inputs(&self, start: u64, len: u64) -> ShaderInputs;
-}
-
-/// The family's part of a compute shader. It must define `fn evaluate(index: vec4<u32>) -> u32`,
-/// which returns a [`Code`] for the node with these axis indices, and may read `inputs` and `params.offsets`.
-#[cfg(feature = "gpu")]
-pub struct Shader {
-    /// Constants generated from Rust.
-    pub constants: String,
-    /// `(file name, text)` of the fragments, in order.
-    pub fragments: Vec<(&'static str, &'static str)>,
-}
-
-/// What a chunk of nodes reads on the GPU.
-#[cfg(feature = "gpu")]
-pub struct ShaderInputs {
-    /// All tables, one after another.
-    pub words: Vec<f32>,
-    /// Where each table begins, and whatever else the family wants to say.
-    pub offsets: [u32; 4],
 }
 
 /// Every family, in the order in which they are listed to users.

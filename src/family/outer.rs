@@ -14,7 +14,6 @@ use std::cmp::Ordering::Greater;
 pub(super) type Sines<N> = [N; 3];
 
 /// The f32 twin of [`lanes`].
-#[cfg(feature = "gpu")]
 pub(super) const FRAGMENT: (&str, &str) = ("lib/outer.wgsl", include_str!("../../shaders/lib/outer.wgsl"));
 
 /// Lanes where the bound holds, and where it does not; where neither, doubles cannot tell.

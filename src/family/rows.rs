@@ -1,4 +1,4 @@
-//! What families on any grid share: the loop over nodes, the constants and the tables of a shader.
+//! What families on any grid share: the loop over nodes.
 
 use super::Code;
 use crate::grid::{Grid, MAX_AXES};
@@ -62,48 +62,4 @@ fn row<S: Simd, R: Rows>(simd: S, rows: &R, constants: &R::Constants, node: &[f6
         };
         rows.codes(simd, constants, node, lanes, codes);
     }
-}
-
-/// A shader's constants in WGSL: flags, whole numbers, numbers, and what marks an undecided node.
-#[cfg(feature = "gpu")]
-pub(super) fn constants(flags: &[(&str, u8)], counts: &[(&str, usize)], numbers: &[(&str, f64)]) -> String {
-    let whole = |name: &str, value: usize| format!("const {name}: u32 = {value}u;\n");
-    let mut text = whole("UNDECIDED", Code::UNDECIDED.0.into());
-    text.extend(flags.iter().map(|(name, bit)| whole(name, (*bit).into())));
-    text.extend(counts.iter().map(|(name, count)| whole(name, *count)));
-    text.extend(numbers.iter().map(|(name, value)| format!("const {name}: f32 = {value:e};\n")));
-    text
-}
-
-/// A shader's tables: the constants that the nodes `start .. start + len` need, by the index of their first `angles` axes, then the
-/// words of each further axis, by index.
-///
-/// The offsets: the first of these indices, then where each further axis begins; the rest is the family's own, and 0 here.
-#[cfg(feature = "gpu")]
-pub(super) fn tables<const A: usize, const P: usize>(
-    grid: &Grid,
-    (start, len): (u64, u64),
-    constants: impl Fn([f64; A]) -> [f32; P],
-    words_of: &[&dyn Fn(f64) -> Vec<f32>],
-) -> super::ShaderInputs {
-    let (angles, further) = grid.axes().split_at(A);
-    let each = further.iter().map(|axis| axis.values().len() as u64).product::<u64>();
-    let (first, last) = (start / each, (start + len.max(1) - 1) / each);
-    let mut words = Vec::with_capacity((last - first + 1) as usize * P);
-    for at in first..=last {
-        let mut rest = at as usize;
-        let mut node = [0.0; A];
-        for (slot, axis) in node.iter_mut().zip(angles).rev() {
-            *slot = axis.values()[rest % axis.values().len()];
-            rest /= axis.values().len();
-        }
-        words.extend(constants(node));
-    }
-    // The first index wraps as the shader's own does.
-    let mut offsets = [first as u32, 0, 0, 0];
-    for ((axis, offset), words_of) in further.iter().zip(&mut offsets[1..]).zip(words_of) {
-        *offset = words.len() as u32;
-        words.extend(axis.values().iter().flat_map(|v| words_of(*v)));
-    }
-    super::ShaderInputs { words, offsets }
 }

@@ -3,9 +3,8 @@
 //! What proofs may not assume (no folding, no fusing, denormals kept, exact division) is printed: `-- --nocapture`.
 
 use crate::adapters::labels;
-use spiral_atlas::error::Result;
 use spiral_atlas::eval::gpu::{Engine, Settings};
-use spiral_atlas::family::{Code, Shader, ShaderInputs, Table};
+use spiral_atlas::family::{Kernel, Shader, ShaderInputs};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 use std::sync::atomic::AtomicBool;
 
@@ -83,24 +82,11 @@ impl Case {
 
 struct Probe<'a>(&'a [Case]);
 
-impl Table for Probe<'_> {
-    fn filter(&self, _: u64, _: &mut [Code]) {
-        unreachable!("the f32 step only");
-    }
-    fn exact(&self, _: u64) -> Result<(Code, usize)> {
-        unreachable!("the f32 step only");
-    }
-    fn scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
-        unreachable!("the f32 step only");
-    }
-
-    fn exact_scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
-        unreachable!("the f32 step only");
-    }
+impl Kernel for Probe<'_> {
     fn shader(&self) -> Shader {
         Shader { constants: format!("const WORDS: u32 = {WORDS}u;"), fragments: vec![("arithmetic.wgsl", SHADER)] }
     }
-    fn shader_inputs(&self, start: u64, len: u64) -> ShaderInputs {
+    fn inputs(&self, start: u64, len: u64) -> ShaderInputs {
         let cases = &self.0[start as usize..(start + len) as usize];
         ShaderInputs { words: cases.iter().flat_map(|c| c.words).collect(), offsets: [start as u32, 0, 0, 0] }
     }

@@ -1,9 +1,9 @@
 //! The engine against a CPU twin of a shader that hashes everything it is given, on every adapter there is.
 
 use crate::adapters::labels;
-use spiral_atlas::error::{Error, Result};
+use spiral_atlas::error::Error;
 use spiral_atlas::eval::gpu::{Engine, RunStats, Settings, adapters as all_adapters, select};
-use spiral_atlas::family::{Code, Shader, ShaderInputs, Table};
+use spiral_atlas::family::{Code, Kernel, Shader, ShaderInputs};
 use spiral_atlas::grid::{Axis, Grid, MAX_COUNT, Spacing};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -53,24 +53,11 @@ impl<'g> Hash<'g> {
     }
 }
 
-impl Table for Hash<'_> {
-    fn filter(&self, _: u64, _: &mut [Code]) {
-        unreachable!("the engine is the f32 step only");
-    }
-    fn exact(&self, _: u64) -> Result<(Code, usize)> {
-        unreachable!("the engine is the f32 step only");
-    }
-    fn scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
-        unreachable!("the engine is the f32 step only");
-    }
-
-    fn exact_scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
-        unreachable!("the engine is the f32 step only");
-    }
+impl Kernel for Hash<'_> {
     fn shader(&self) -> Shader {
         Shader { constants: format!("const SALT: u32 = {}u;", self.salt), fragments: vec![("hash.wgsl", self.shader)] }
     }
-    fn shader_inputs(&self, start: u64, len: u64) -> ShaderInputs {
+    fn inputs(&self, start: u64, len: u64) -> ShaderInputs {
         let (first, last) = (self.grid.index(start)[0], self.grid.index(start + len - 1)[0]);
         let mut words: Vec<f32> = (first..=last).map(|i| Hash::entry(0, i) as f32).collect();
         let mut offsets = [first as u32, 0, 0, 0];

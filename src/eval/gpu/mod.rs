@@ -17,7 +17,7 @@ pub use adapter::{AdapterFacts, adapters, select};
 pub use assemble::{Assembled, SourceMap, assemble, validate};
 
 use crate::error::{Error, Result};
-use crate::family::{Code, ShaderInputs, Table};
+use crate::family::{Code, Kernel, ShaderInputs};
 use crate::grid::Grid;
 use adapter::Gpu;
 use pace::Pace;
@@ -94,7 +94,7 @@ pub struct RunStats {
 
 /// A family's shader on one adapter and one grid.
 pub struct Engine<'t> {
-    table: &'t dyn Table,
+    kernel: &'t dyn Kernel,
     grid: &'t Grid,
     gpu: Gpu,
     program: Program,
@@ -103,15 +103,15 @@ pub struct Engine<'t> {
 }
 
 impl<'t> Engine<'t> {
-    /// Opens the adapter of a choice (see [`select`]) and compiles the table's shader for it.
+    /// Opens the adapter of a choice (see [`select`]) and compiles the kernel's shader for it.
     ///
     /// # Errors
     /// [`Error::Gpu`] when no adapter fits, it does not open, or the shader does not compile.
-    pub fn new(choice: Option<&str>, table: &'t dyn Table, grid: &'t Grid, settings: &Settings) -> Result<Engine<'t>> {
+    pub fn new(choice: Option<&str>, kernel: &'t dyn Kernel, grid: &'t Grid, settings: &Settings) -> Result<Engine<'t>> {
         let gpu = Gpu::open(choice)?;
-        let program = Program::new(&gpu, &table.shader(), settings.clamped(&gpu.limits))?;
+        let program = Program::new(&gpu, &kernel.shader(), settings.clamped(&gpu.limits))?;
         let pace = Pace::new(program.settings.most_nodes().min(grid.len()));
-        Ok(Engine { table, grid, gpu, program, pace, free: Vec::new() })
+        Ok(Engine { kernel, grid, gpu, program, pace, free: Vec::new() })
     }
 
     /// The adapter in use.
@@ -184,7 +184,7 @@ impl<'t> Engine<'t> {
     fn inputs(&mut self, start: u64, mut nodes: u64) -> Result<(u32, ShaderInputs)> {
         let most = self.most_input_bytes();
         loop {
-            let inputs = self.table.shader_inputs(start, nodes);
+            let inputs = self.kernel.inputs(start, nodes);
             let bytes = inputs.words.len() as u64 * 4;
             match nodes {
                 _ if bytes <= most => return Ok((nodes as u32, inputs)),

@@ -6,25 +6,12 @@ use crate::grid::{Axis, Spacing};
 
 struct Plain;
 
-impl Table for Plain {
-    fn filter(&self, _: u64, _: &mut [Code]) {
-        unreachable!("the f32 step only");
-    }
-    fn exact(&self, _: u64) -> Result<(Code, usize)> {
-        unreachable!("the f32 step only");
-    }
-    fn scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
-        unreachable!("the f32 step only");
-    }
-
-    fn exact_scalars(&self, _: u64, _: Code, _: &[usize], _: &mut [f32]) -> Result<()> {
-        unreachable!("the f32 step only");
-    }
+impl Kernel for Plain {
     fn shader(&self) -> Shader {
         let evaluate = "fn evaluate(index: vec4<u32>) -> u32 { return index.x & 0xfffu; }";
         Shader { constants: String::new(), fragments: vec![("plain.wgsl", evaluate)] }
     }
-    fn shader_inputs(&self, _: u64, _: u64) -> ShaderInputs {
+    fn inputs(&self, _: u64, _: u64) -> ShaderInputs {
         ShaderInputs { words: Vec::new(), offsets: [0; 4] }
     }
 }

@@ -6,7 +6,6 @@ mod exact;
 mod fast;
 mod involute;
 mod pair;
-#[cfg(feature = "gpu")]
 mod shader;
 mod shape;
 mod table;

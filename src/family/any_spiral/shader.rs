@@ -2,7 +2,7 @@
 
 use super::pair::Pair;
 use super::{EXISTS, INFLECTION, RISING};
-use crate::family::rows::{constants, tables};
+use crate::family::kernel::{constants, tables};
 use crate::family::{Shader, ShaderInputs, outer};
 use crate::grid::Grid;
 

@@ -5,7 +5,7 @@ use super::pair::{PAIR_ERROR, Pair};
 use super::{AnySpiral, Code, EXISTS, INFLECTION, RISING};
 use crate::error::{Error, Result};
 use crate::family::rows::{Rows, fill};
-use crate::family::{Table, chart_of, outer};
+use crate::family::{Kernel, Shader, ShaderInputs, Table, chart_of, outer};
 use crate::grid::{Axis, Grid, MAX_AXES};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
@@ -95,14 +95,14 @@ impl Table for AnyTable<'_> {
     fn exact_scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
         self.datum(node).exact_scalars(code, which, out)
     }
+}
 
-    #[cfg(feature = "gpu")]
-    fn shader(&self) -> crate::family::Shader {
+impl Kernel for AnyTable<'_> {
+    fn shader(&self) -> Shader {
         super::shader::shader()
     }
 
-    #[cfg(feature = "gpu")]
-    fn shader_inputs(&self, start: u64, len: u64) -> crate::family::ShaderInputs {
+    fn inputs(&self, start: u64, len: u64) -> ShaderInputs {
         super::shader::inputs(self.grid, self.sign, start, len)
     }
 }

@@ -7,7 +7,6 @@ mod pair;
 mod poly;
 mod precision;
 mod root;
-#[cfg(feature = "gpu")]
 mod shader;
 mod solve;
 mod table;

@@ -18,7 +18,6 @@ impl Precision {
     /// f64 with correctly rounded pair constants ([`Pair::precise`]): 1 and a product.
     pub const FINE: Precision = Precision { input: 3.0, ..Precision::F64 };
     /// f32: constants rounded once from f64, κ rounded once, one product: 3, and a little for the f64 errors below.
-    #[cfg(feature = "gpu")]
     pub const F32: Precision = Precision { unit: 1.0 / (1u32 << 24) as f64, input: 4.0 };
 
     /// Γ of [`Bounds`].

@@ -4,7 +4,7 @@ use super::pair::Pair;
 use super::poly::Bounds;
 use super::precision::Precision;
 use super::{ANY_SPIRAL, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
-use crate::family::rows::{constants, tables};
+use crate::family::kernel::{constants, tables};
 use crate::family::{Shader, ShaderInputs, outer};
 use crate::grid::Grid;
 

@@ -6,7 +6,6 @@ mod bound;
 mod curves;
 mod datum;
 mod range;
-#[cfg(feature = "gpu")]
 mod shader;
 mod straight;
 mod table;

@@ -1,7 +1,7 @@
 //! What the shaders `ph_equal_length.wgsl` and `ph_hermite.wgsl` read.
 
 use super::{Kind, ONE_WAY, PAPER, PEAK_INSIDE, REGULAR};
-use crate::family::rows::{constants, tables};
+use crate::family::kernel::{constants, tables};
 use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 use crate::num::sines::{cos, sin};

@@ -4,7 +4,7 @@ use super::datum::{Datum, check};
 use super::truth::{Greatest, least, verdict};
 use super::{Kind, PhPath};
 use crate::error::Result;
-use crate::family::{Code, NO_VALUE, Table, chart_of};
+use crate::family::{Code, Kernel, NO_VALUE, Shader, ShaderInputs, Table, chart_of};
 use crate::grid::Grid;
 use crate::num::{Ball, Interval, Real, climb};
 
@@ -79,14 +79,14 @@ impl Table for PathTable<'_> {
         }
         Ok(())
     }
+}
 
-    #[cfg(feature = "gpu")]
-    fn shader(&self) -> crate::family::Shader {
+impl Kernel for PathTable<'_> {
+    fn shader(&self) -> Shader {
         super::shader::shader(self.kind)
     }
 
-    #[cfg(feature = "gpu")]
-    fn shader_inputs(&self, start: u64, len: u64) -> crate::family::ShaderInputs {
+    fn inputs(&self, start: u64, len: u64) -> ShaderInputs {
         super::shader::inputs(self.kind, self.grid, start, len)
     }
 }

@@ -6,7 +6,6 @@ mod knot;
 mod march;
 mod narrow;
 mod pair;
-#[cfg(feature = "gpu")]
 mod shader;
 mod shape;
 mod solve;

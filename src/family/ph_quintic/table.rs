@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::family::cubic::Datum;
 use crate::family::hermite::check_grid;
 use crate::family::rows::{Rows, fill};
-use crate::family::{Code, NO_VALUE, Table, chart_of};
+use crate::family::{Code, Kernel, NO_VALUE, Shader, ShaderInputs, Table, chart_of};
 use crate::grid::{Grid, MAX_AXES};
 use crate::num::{Ball, climb};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
@@ -76,14 +76,14 @@ impl Table for PhTable<'_> {
     fn exact_scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
         self.fill(node, code, out, |datum, out| exact_scalars(datum, which, out))
     }
+}
 
-    #[cfg(feature = "gpu")]
-    fn shader(&self) -> crate::family::Shader {
+impl Kernel for PhTable<'_> {
+    fn shader(&self) -> Shader {
         super::shader::shader()
     }
 
-    #[cfg(feature = "gpu")]
-    fn shader_inputs(&self, start: u64, len: u64) -> crate::family::ShaderInputs {
+    fn inputs(&self, start: u64, len: u64) -> ShaderInputs {
         super::shader::inputs(self.grid, start, len)
     }
 }

@@ -4,7 +4,6 @@ mod angle;
 mod exact;
 mod filter;
 mod poly;
-#[cfg(feature = "gpu")]
 mod shader;
 mod solve;
 mod table;

@@ -4,7 +4,7 @@ use super::angle::Angle;
 use super::filter::{Precision, SMALL, least_drawn_m};
 use super::poly::{LEAST_M, MONOTONE_M};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
-use crate::family::rows::{constants, tables};
+use crate::family::kernel::{constants, tables};
 use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 

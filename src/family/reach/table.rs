@@ -8,7 +8,7 @@ use super::solve::Datum;
 use super::{CASE_BITS, Reach};
 use crate::error::Result;
 use crate::family::rows::{Rows, fill};
-use crate::family::{Code, Table, chart_of};
+use crate::family::{Code, Kernel, Shader, ShaderInputs, Table, chart_of};
 use crate::grid::{Grid, MAX_AXES};
 use crate::num::climb;
 use fearless_simd::{Level, Simd, dispatch};
@@ -69,14 +69,14 @@ impl Table for ReachTable<'_> {
     fn exact_scalars(&self, node: u64, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
         super::solve::exact_scalars(self.kind, self.datum(node), code, which, out)
     }
+}
 
-    #[cfg(feature = "gpu")]
-    fn shader(&self) -> crate::family::Shader {
+impl Kernel for ReachTable<'_> {
+    fn shader(&self) -> Shader {
         super::shader::shader(self.kind)
     }
 
-    #[cfg(feature = "gpu")]
-    fn shader_inputs(&self, start: u64, len: u64) -> crate::family::ShaderInputs {
+    fn inputs(&self, start: u64, len: u64) -> ShaderInputs {
         super::shader::inputs(self.kind, self.grid, start, len)
     }
 }

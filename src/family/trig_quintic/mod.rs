@@ -6,7 +6,6 @@ mod filter;
 mod frame;
 mod plain;
 mod poly;
-#[cfg(feature = "gpu")]
 mod shader;
 mod table;
 mod threshold;

@@ -4,7 +4,7 @@ use super::filter::coefficient_error;
 use super::plain::{PRINTED_Q, end_slope, printed_ratio};
 use super::poly::{BERNSTEIN, Frame, K};
 use super::{END_CURVATURE_AS_PRINTED, END_RISES, PRINTED_RATIO, SPIRAL};
-use crate::family::rows::{constants, tables};
+use crate::family::kernel::{constants, tables};
 use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 use std::cmp::Ordering::Less;

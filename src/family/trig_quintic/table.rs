@@ -7,7 +7,7 @@ use super::poly::Frame;
 use super::{TrigQuintic, threshold};
 use crate::error::Result;
 use crate::family::rows::{Rows, fill};
-use crate::family::{Code, Table, chart_of};
+use crate::family::{Code, Kernel, Shader, ShaderInputs, Table, chart_of};
 use crate::grid::{Grid, MAX_AXES};
 use crate::num::climb;
 use fearless_simd::{Level, Simd, dispatch};
@@ -72,14 +72,14 @@ impl Table for TrigTable<'_> {
         }
         Ok(())
     }
+}
 
-    #[cfg(feature = "gpu")]
-    fn shader(&self) -> crate::family::Shader {
+impl Kernel for TrigTable<'_> {
+    fn shader(&self) -> Shader {
         super::shader::shader()
     }
 
-    #[cfg(feature = "gpu")]
-    fn shader_inputs(&self, start: u64, len: u64) -> crate::family::ShaderInputs {
+    fn inputs(&self, start: u64, len: u64) -> ShaderInputs {
         super::shader::inputs(self.grid, start, len)
     }
 }
