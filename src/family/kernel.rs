@@ -1,6 +1,7 @@
 //! The f32 step of a family, for a GPU: plain data, whoever runs it.
 
 use super::Code;
+use super::record::Record;
 use crate::grid::Grid;
 
 /// A family's f32 step on one grid.
@@ -39,20 +40,20 @@ pub(super) fn constants(flags: &[(&str, u8)], counts: &[(&str, usize)], numbers:
     text
 }
 
-/// A shader's tables: the constants that the nodes `start .. start + len` need, by the index of their first `angles` axes, then the
+/// A shader's tables: the records that the nodes `start .. start + len` need, by the index of their first `A` axes, then the
 /// words of each further axis, by index.
 ///
 /// The offsets: the first of these indices, then where each further axis begins; the rest is the family's own, and 0 here.
-pub(super) fn tables<const A: usize, const P: usize>(
+pub(super) fn tables<const A: usize, R: Record>(
     grid: &Grid,
     (start, len): (u64, u64),
-    constants: impl Fn([f64; A]) -> [f32; P],
+    records: impl Fn([f64; A]) -> R,
     words_of: &[&dyn Fn(f64) -> Vec<f32>],
 ) -> ShaderInputs {
     let (angles, further) = grid.axes().split_at(A);
     let each = further.iter().map(|axis| axis.values().len() as u64).product::<u64>();
     let (first, last) = (start / each, (start + len.max(1) - 1) / each);
-    let mut words = Vec::with_capacity((last - first + 1) as usize * P);
+    let mut words = Vec::new();
     for at in first..=last {
         let mut rest = at as usize;
         let mut node = [0.0; A];
@@ -60,7 +61,7 @@ pub(super) fn tables<const A: usize, const P: usize>(
             *slot = axis.values()[rest % axis.values().len()];
             rest /= axis.values().len();
         }
-        words.extend(constants(node));
+        records(node).push(&mut words);
     }
     // The first index wraps as the shader's own does.
     let mut offsets = [first as u32, 0, 0, 0];
@@ -70,3 +71,11 @@ pub(super) fn tables<const A: usize, const P: usize>(
     }
     ShaderInputs { words, offsets }
 }
+
+/// Names a file below `shaders/`, with its text.
+macro_rules! fragment {
+    ($name:literal) => {
+        ($name, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $name)))
+    };
+}
+pub(super) use fragment;

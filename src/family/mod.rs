@@ -11,6 +11,7 @@ mod outer;
 pub mod ph_path;
 pub mod ph_quintic;
 pub mod reach;
+mod record;
 mod rows;
 pub mod trig_quintic;
 

@@ -13,9 +13,6 @@ use std::cmp::Ordering::Greater;
 /// `[sin φ0, sin φ1, sin²((φ1 - φ0)/2)]`.
 pub(super) type Sines<N> = [N; 3];
 
-/// The f32 twin of [`lanes`].
-pub(super) const FRAGMENT: (&str, &str) = ("lib/outer.wgsl", include_str!("../../shaders/lib/outer.wgsl"));
-
 /// Lanes where the bound holds, and where it does not; where neither, doubles cannot tell.
 ///
 /// Sines, curvatures and the square are within a relative `error`, which also covers four roundings.

@@ -1,15 +1,14 @@
-//! What the shader `cubic.wgsl` reads: constants and tables, generated from the same Rust as the f64 step.
+//! What the shader of `shaders/cubic/` reads: constants and tables, generated from the same Rust as the f64 step.
 
-use super::pair::Pair;
+use super::pair;
 use super::poly::Bounds;
 use super::precision::Precision;
 use super::{ANY_SPIRAL, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
-use crate::family::kernel::{constants, tables};
-use crate::family::{Shader, ShaderInputs, outer};
+use crate::family::kernel::{constants, fragment, tables};
+use crate::family::record::{Record, record};
+use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 
-/// Numbers of a pair in the table; the order is that of `read_pair`.
-const PAIR_STRIDE: usize = 23;
 /// f32 leaves a, k outside 2^±20 to f64: within, nothing overflows, and the smallest terms stay above the denormals.
 const MOST: f64 = (1u32 << 20) as f64;
 /// Constants of pairs must lie within 2^±30, apart from the two that may be 0 or negative.
@@ -41,20 +40,21 @@ pub(super) fn shader() -> Shader {
         ("LEAST", 1.0 / MOST),
         ("KAPPA_MOST", KAPPA_MOST),
     ];
-    let constants = constants(&flags, &[("PAIR_STRIDE", PAIR_STRIDE)], &numbers);
     Shader {
-        constants,
+        constants: constants(&flags, &[], &numbers) + &Pair::wgsl(),
         fragments: vec![
-            outer::FRAGMENT,
-            ("lib/bernstein.wgsl", include_str!("../../../shaders/lib/bernstein.wgsl")),
-            ("cubic.wgsl", include_str!("../../../shaders/cubic.wgsl")),
+            fragment!("lib/outer.wgsl"),
+            fragment!("lib/bernstein.wgsl"),
+            fragment!("cubic/poly.wgsl"),
+            fragment!("cubic/root.wgsl"),
+            fragment!("cubic/filter.wgsl"),
         ],
     }
 }
 
 /// Pairs of the chunk, then the third and fourth axis; the last offset is 1 in the normalised chart.
 pub(super) fn inputs(grid: &Grid, normalised: bool, start: u64, len: u64) -> ShaderInputs {
-    let pair = |[phi0, phi1]: [f64; 2]| pair_words(phi0, phi1, normalised);
+    let pair = |[phi0, phi1]: [f64; 2]| Pair::new(phi0, phi1, normalised);
     let words = |v| vec![curvature(v)];
     let mut inputs = tables(grid, (start, len), pair, &[&words, &words]);
     inputs.offsets[3] = u32::from(normalised);
@@ -66,23 +66,59 @@ fn curvature(value: f64) -> f32 {
     kept as f32
 }
 
-/// One row of the table; the last flag is 0 when the pair is left to f64.
-fn pair_words(phi0: f64, phi1: f64, normalised: bool) -> [f32; PAIR_STRIDE] {
-    let mut row = [0.0; PAIR_STRIDE];
-    let Some(pair) = Pair::new(phi0, phi1) else { return row };
-    let sizes = [pair.g0, pair.g1, pair.curve0, pair.curve1, pair.sin0, pair.sin1, pair.r.abs().max(pair.p.abs())];
-    if sizes.iter().any(|v| !(1.0 / PAIR_MOST..=PAIR_MOST).contains(v)) {
-        return row;
+record! {
+    /// The constants of a pair of angles, as [`pair::Pair`] has them, and the bounds of its node's errors.
+    Pair {
+        p: f32,
+        r: f32,
+        g0: f32,
+        g1: f32,
+        /// a / κ0, or its inverse in the normalised chart.
+        curve0: f32,
+        /// k / κ1, or its inverse in the normalised chart.
+        curve1: f32,
+        sin0: f32,
+        sin1: f32,
+        sin2_half: f32,
+        /// φ0 < φ1.
+        rising: bool,
+        /// The constants fit f32; other pairs are left to f64.
+        usable: bool,
+        rounding0: [f32; 3],
+        rounding1: [f32; 3],
+        slope0: [f32; 3],
+        slope1: [f32; 3],
     }
-    let (start, end) = Bounds::of_pair(&pair, Precision::F32.gamma());
-    // What turns the given curvature coordinates into the other two: a product either way, as divisions prove nothing.
-    let [to0, to1] = [pair.curve0, pair.curve1].map(|c| if normalised { 1.0 / c } else { c });
-    let constants = [pair.p, pair.r, pair.g0, pair.g1, to0, to1, pair.sin0, pair.sin1, pair.sin2_half];
-    let flags = [f64::from(u8::from(pair.rising)), 1.0];
-    // Bounds are rounded to f32 and then multiplied and added in f32: three more units.
-    let bounds = [start.rounding, end.rounding, start.slope, end.slope].concat().into_iter().map(|b| b * (1.0 + 1e-6));
-    for (word, value) in row.iter_mut().zip(constants.into_iter().chain(flags).chain(bounds)) {
-        *word = value as f32;
+}
+
+impl Pair {
+    fn new(phi0: f64, phi1: f64, normalised: bool) -> Pair {
+        let Some(pair) = pair::Pair::new(phi0, phi1) else { return Pair::default() };
+        let sizes = [pair.g0, pair.g1, pair.curve0, pair.curve1, pair.sin0, pair.sin1, pair.r.abs().max(pair.p.abs())];
+        if sizes.iter().any(|v| !(1.0 / PAIR_MOST..=PAIR_MOST).contains(v)) {
+            return Pair::default();
+        }
+        let (start, end) = Bounds::of_pair(&pair, Precision::F32.gamma());
+        // What turns the given curvature coordinates into the other two: a product either way, as divisions prove nothing.
+        let [to0, to1] = [pair.curve0, pair.curve1].map(|c| if normalised { 1.0 / c } else { c });
+        // Bounds are rounded to f32 and then multiplied and added in f32: three more units.
+        let bound = |bounds: [f64; 3]| bounds.map(|b| (b * (1.0 + 1e-6)) as f32);
+        Pair {
+            p: pair.p as f32,
+            r: pair.r as f32,
+            g0: pair.g0 as f32,
+            g1: pair.g1 as f32,
+            curve0: to0 as f32,
+            curve1: to1 as f32,
+            sin0: pair.sin0 as f32,
+            sin1: pair.sin1 as f32,
+            sin2_half: pair.sin2_half as f32,
+            rising: pair.rising,
+            usable: true,
+            rounding0: bound(start.rounding),
+            rounding1: bound(end.rounding),
+            slope0: bound(start.slope),
+            slope1: bound(end.slope),
+        }
     }
-    row
 }

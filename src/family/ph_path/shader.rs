@@ -1,7 +1,8 @@
-//! What the shaders `ph_equal_length.wgsl` and `ph_hermite.wgsl` read.
+//! What the shaders of `shaders/ph_path/` read.
 
 use super::{Kind, ONE_WAY, PAPER, PEAK_INSIDE, REGULAR};
-use crate::family::kernel::{constants, tables};
+use crate::family::kernel::{constants, fragment, tables};
+use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 use crate::num::sines::{cos, sin};
@@ -17,45 +18,69 @@ const TINY: f64 = 1e-30;
 const MOST: f64 = (1u32 << 20) as f64;
 const LEAST_SINE: f64 = 1.0 / (1u64 << 60) as f64;
 
-fn stride(kind: Kind) -> usize {
-    if kind == Kind::EqualLength { 11 } else { 5 }
-}
-
 pub(super) fn shader(kind: Kind) -> Shader {
     let flags = [("REGULAR", REGULAR), ("ONE_WAY", ONE_WAY), ("PEAK_INSIDE", PEAK_INSIDE), ("PAPER", PAPER)];
     let numbers = [("UNIT", UNIT), ("SIDE", SIDE), ("TINY", TINY)];
-    let own = match kind {
-        Kind::EqualLength => ("ph_equal_length.wgsl", include_str!("../../../shaders/ph_equal_length.wgsl")),
-        Kind::Hermite => ("ph_hermite.wgsl", include_str!("../../../shaders/ph_hermite.wgsl")),
+    let shared = [fragment!("ph_path/arc.wgsl"), fragment!("ph_path/truth.wgsl")];
+    let (record, own) = match kind {
+        Kind::EqualLength => (Units::wgsl() + &Sums::wgsl() + &Lengths::wgsl(), fragment!("ph_path/curves_of_length.wgsl")),
+        Kind::Hermite => (Units::wgsl(), fragment!("ph_path/curves_of_speeds.wgsl")),
     };
-    let shared = ("lib/ph_path.wgsl", include_str!("../../../shaders/lib/ph_path.wgsl"));
-    Shader { constants: constants(&flags, &[("PAIR_STRIDE", stride(kind))], &numbers), fragments: vec![shared, own] }
+    Shader { constants: constants(&flags, &[], &numbers) + &record, fragments: shared.into_iter().chain([own]).collect() }
 }
 
 pub(super) fn inputs(kind: Kind, grid: &Grid, start: u64, len: u64) -> ShaderInputs {
     let chunk = (start, len);
     match kind {
-        Kind::EqualLength => tables(grid, chunk, |theta: [f64; 2]| sums(theta), &[&lengths]),
-        Kind::Hermite => tables(grid, chunk, |theta: [f64; 2]| units(theta), &[&|l| vec![root(l)], &|l| vec![root(l)]]),
+        Kind::EqualLength => tables(grid, chunk, Sums::new, &[&|length| Lengths::new(length).words()]),
+        Kind::Hermite => tables(grid, chunk, Units::new, &[&|l| vec![root(l)], &|l| vec![root(l)]]),
     }
 }
 
-/// `60 (S ± 1)`, or zeros.
-fn lengths(length: f64) -> Vec<f32> {
-    let over = length - 1.0;
-    let fits = (1.0 / MOST..=MOST).contains(&over);
-    [length + 1.0, over].map(|x| if fits { (60.0 * x) as f32 } else { 0.0 }).to_vec()
+record! {
+    /// A length S.
+    Lengths {
+        /// `60 (S + 1)`, or 0 where it is left to f64.
+        p0: f32,
+        /// `60 (S - 1)`.
+        q0: f32,
+    }
+}
+
+record! {
+    /// Cosine and sine of half of each angle.
+    Units {
+        first: [f32; 2],
+        last: [f32; 2],
+        /// They fit f32; other pairs are left to f64.
+        usable: bool,
+    }
+}
+
+record! {
+    /// The same, and for each sign of w2, the positive one first, the two forms and g of `curves.rs`.
+    Sums {
+        first: [f32; 2],
+        last: [f32; 2],
+        /// They fit f32; other pairs are left to f64.
+        usable: bool,
+        forms: [f32; 3],
+        other_forms: [f32; 3],
+    }
+}
+
+impl Lengths {
+    fn new(length: f64) -> Lengths {
+        let over = length - 1.0;
+        if !(1.0 / MOST..=MOST).contains(&over) {
+            return Lengths::default();
+        }
+        Lengths { p0: (60.0 * (length + 1.0)) as f32, q0: (60.0 * over) as f32 }
+    }
 }
 
 fn root(size: f64) -> f32 {
     if (1.0 / MOST..=MOST).contains(&size) { size.sqrt() as f32 } else { 0.0 }
-}
-
-/// Cosine and sine of half of each angle; then 1, or 0 where they do not fit f32.
-fn units(theta: [f64; 2]) -> [f32; 5] {
-    let [[c0, s0], [c1, s1]] = theta.map(half);
-    let fits = [c0, s0, c1, s1].iter().all(|x| *x == 0.0 || x.abs() >= LEAST_SINE);
-    [c0 as f32, s0 as f32, c1 as f32, s1 as f32, f32::from(u8::from(fits))]
 }
 
 fn half(theta: f64) -> [f64; 2] {
@@ -63,17 +88,26 @@ fn half(theta: f64) -> [f64; 2] {
     [cos(half), sin(half).copysign(theta)]
 }
 
-/// The same, and for each sign of w2 the two forms and g of `curves.rs`.
-fn sums(theta: [f64; 2]) -> [f32; 11] {
-    let [[c0, s0], last] = theta.map(half);
-    let of = |sign: f64| {
-        let [c1, s1] = last.map(|x| sign * x);
-        let form = |x: f64, y: f64| 5.0 * (x - y) * (x - y) + 10.0 * (x * x + y * y);
-        let g = 5.0 * (c0 * s1 + c1 * s0 - 3.0 * (c0 * s0 + c1 * s1));
-        // What f32 would flush is nothing beside the other form.
-        let floor = |x: f64| if x < 1e-30 { 0.0 } else { x };
-        [floor(form(s0, s1)), floor(form(c0, c1)), g].map(|x| x as f32)
-    };
-    let ([a0, a1, a2, a3, usable], [p, q, g], [r, s, h]) = (units(theta), of(1.0), of(-1.0));
-    [a0, a1, a2, a3, usable, p, q, g, r, s, h]
+impl Units {
+    fn new(theta: [f64; 2]) -> Units {
+        let [first, last] = theta.map(half);
+        let usable = first.iter().chain(&last).all(|x| *x == 0.0 || x.abs() >= LEAST_SINE);
+        Units { first: first.map(|x| x as f32), last: last.map(|x| x as f32), usable }
+    }
+}
+
+impl Sums {
+    fn new(theta: [f64; 2]) -> Sums {
+        let [[c0, s0], end] = theta.map(half);
+        let forms = |sign: f64| {
+            let [c1, s1] = end.map(|x| sign * x);
+            let form = |x: f64, y: f64| 5.0 * (x - y) * (x - y) + 10.0 * (x * x + y * y);
+            let g = 5.0 * (c0 * s1 + c1 * s0 - 3.0 * (c0 * s0 + c1 * s1));
+            // What f32 would flush is nothing beside the other form.
+            let floor = |x: f64| if x < 1e-30 { 0.0 } else { x };
+            [floor(form(s0, s1)), floor(form(c0, c1)), g].map(|x| x as f32)
+        };
+        let Units { first, last, usable } = Units::new(theta);
+        Sums { first, last, usable, forms: forms(1.0), other_forms: forms(-1.0) }
+    }
 }

@@ -1,15 +1,13 @@
-//! What the shader `ph_quintic.wgsl` reads: constants and tables.
+//! What the shader of `shaders/ph_quintic/` reads: constants and tables.
 
-use super::pair::Pair;
+use super::pair;
 use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
-use crate::family::kernel::{constants, tables};
-use crate::family::{Shader, ShaderInputs, outer};
+use crate::family::kernel::{constants, fragment, tables};
+use crate::family::record::{Record, record};
+use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 use crate::num::Ball;
 
-/// Numbers of a pair and of a curvature; the order is that of `evaluate`.
-const PAIR_STRIDE: usize = 9;
-const AXIS_STRIDE: usize = 3;
 /// Unit roundoff of f32.
 const UNIT: f64 = 1.0 / (1u32 << 24) as f64;
 /// Relative error of a left-hand side against its right one, and of each of the four sums in a slope.
@@ -33,7 +31,6 @@ const LEAST: f64 = 1.0 / (1u32 << 10) as f64;
 
 pub(super) fn shader() -> Shader {
     let flags = [("SOLVABLE", SOLVABLE), ("SPIRAL", SPIRAL), ("ANY_SPIRAL", ANY_SPIRAL)];
-    let strides = [("PAIR_STRIDE", PAIR_STRIDE), ("AXIS_STRIDE", AXIS_STRIDE)];
     let numbers = [
         ("UNIT", UNIT),
         ("TERM", TERM),
@@ -43,45 +40,77 @@ pub(super) fn shader() -> Shader {
         ("MOST_Z", MOST_Z),
         ("LEAST_Z", LEAST_Z),
     ];
-    let constants = constants(&flags, &strides, &numbers);
     Shader {
-        constants,
+        constants: constants(&flags, &[], &numbers) + &Pair::wgsl() + &Curvature::wgsl(),
         fragments: vec![
-            outer::FRAGMENT,
-            ("lib/bernstein.wgsl", include_str!("../../../shaders/lib/bernstein.wgsl")),
-            ("ph_quintic.wgsl", include_str!("../../../shaders/ph_quintic.wgsl")),
+            fragment!("lib/outer.wgsl"),
+            fragment!("lib/bernstein.wgsl"),
+            fragment!("ph_quintic/curves.wgsl"),
+            fragment!("ph_quintic/march.wgsl"),
+            fragment!("ph_quintic/shape.wgsl"),
+            fragment!("ph_quintic/truth.wgsl"),
         ],
     }
 }
 
 pub(super) fn inputs(grid: &Grid, start: u64, len: u64) -> ShaderInputs {
-    let words = |kappa: f64| axis_words(kappa).to_vec();
-    tables(grid, (start, len), |[phi0, phi1]: [f64; 2]| pair_words(phi0, phi1), &[&words, &words])
+    let words = |kappa: f64| Curvature::new(kappa).words();
+    tables(grid, (start, len), |[phi0, phi1]: [f64; 2]| Pair::new(phi0, phi1), &[&words, &words])
 }
 
-/// κ, a power of two p, and κp³, from 1/8 to 1 for κ above 1.
-fn axis_words(kappa: f64) -> [f32; AXIS_STRIDE] {
-    if kappa != 0.0 && !(LEAST_KAPPA..=MOST).contains(&kappa.abs()) {
-        return [2.0 * MOST as f32, 1.0, 0.0];
+record! {
+    /// A curvature.
+    Curvature {
+        kappa: f32,
+        /// A power of two p for which κp³ is from 1/8 to 1 where κ is above 1.
+        scale: f32,
+        /// κp³.
+        bend: f32,
     }
-    let p = if kappa > 1.0 { 2f64.powi(-((kappa.log2() / 3.0).ceil() as i32)) } else { 1.0 };
-    [kappa as f32, p as f32, (kappa * p.powi(3)) as f32]
 }
 
-/// One row of the table; the last number is 0 when the pair is left to f64.
-fn pair_words(phi0: f64, phi1: f64) -> [f32; PAIR_STRIDE] {
-    let mut row = [0.0; PAIR_STRIDE];
-    let Some(pair) = Pair::<Ball>::new(phi0, phi1) else { return row };
-    let [sin0, sin1, square] = pair.outer.map(|b| b.value);
-    let [right0, right1] = pair.right.map(|b| b.value);
-    let (sin, cos) = (pair.sin.value, pair.cos.value);
-    let square_fits = !pair.rising || square >= LEAST * LEAST * LEAST * LEAST;
-    if [sin0, sin1, right0, right1, sin, cos].iter().any(|v| *v < LEAST) || !square_fits {
-        return row;
+record! {
+    /// The constants of a pair of angles, as [`pair::Pair`] has them.
+    Pair {
+        cos: f32,
+        right: [f32; 2],
+        /// `1/(4 sin Φ)`.
+        quarter: f32,
+        sines: [f32; 3],
+        /// φ0 < φ1.
+        rising: bool,
+        /// The constants fit f32; other pairs are left to f64.
+        usable: bool,
     }
-    let rising = f64::from(u8::from(pair.rising));
-    for (word, value) in row.iter_mut().zip([cos, right0, right1, 0.25 / sin, sin0, sin1, square, rising, 1.0]) {
-        *word = value as f32;
+}
+
+impl Curvature {
+    fn new(kappa: f64) -> Curvature {
+        if kappa != 0.0 && !(LEAST_KAPPA..=MOST).contains(&kappa.abs()) {
+            return Curvature { kappa: 2.0 * MOST as f32, scale: 1.0, bend: 0.0 };
+        }
+        let p = if kappa > 1.0 { 2f64.powi(-((kappa.log2() / 3.0).ceil() as i32)) } else { 1.0 };
+        Curvature { kappa: kappa as f32, scale: p as f32, bend: (kappa * p.powi(3)) as f32 }
     }
-    row
+}
+
+impl Pair {
+    fn new(phi0: f64, phi1: f64) -> Pair {
+        let Some(pair) = pair::Pair::<Ball>::new(phi0, phi1) else { return Pair::default() };
+        let [sin0, sin1, square] = pair.outer.map(|b| b.value);
+        let [right0, right1] = pair.right.map(|b| b.value);
+        let (sin, cos) = (pair.sin.value, pair.cos.value);
+        let square_fits = !pair.rising || square >= LEAST * LEAST * LEAST * LEAST;
+        if [sin0, sin1, right0, right1, sin, cos].iter().any(|v| *v < LEAST) || !square_fits {
+            return Pair::default();
+        }
+        Pair {
+            cos: cos as f32,
+            right: [right0, right1].map(|x| x as f32),
+            quarter: (0.25 / sin) as f32,
+            sines: [sin0, sin1, square].map(|x| x as f32),
+            rising: pair.rising,
+            usable: true,
+        }
+    }
 }

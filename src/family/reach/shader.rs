@@ -1,15 +1,14 @@
 //! What the shaders read: constants and tables, generated from the same Rust as the f64 step.
 
-use super::angle::Angle;
+use super::angle;
 use super::filter::{Precision, SMALL, least_drawn_m};
 use super::poly::{LEAST_M, MONOTONE_M};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
-use crate::family::kernel::{constants, tables};
+use crate::family::kernel::{constants, fragment, tables};
+use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 
-/// Numbers of an angle in the table; the order is that of `read_angle`.
-const ANGLE_STRIDE: usize = 6;
 /// Coordinates other than 0 must lie above this and below its inverse, or they are left to f64.
 const LEAST: f64 = 1e-12;
 /// Coordinates are clamped to [`LEAST`] / 2 and its inverse, which the shader takes for what they are.
@@ -43,25 +42,20 @@ pub(super) fn shader(kind: Kind) -> Shader {
         ("DRAWN_ABOVE", star * (1.0 + 4.0 * P.unit)),
         ("DRAWN_BELOW", star * (1.0 - 4.0 * P.unit)),
     ];
-    let constants = constants(&flags, &[("ANGLE_STRIDE", ANGLE_STRIDE)], &numbers);
     let own = match kind {
-        Kind::Cubic => ("reach_cubic.wgsl", include_str!("../../../shaders/reach_cubic.wgsl")),
-        Kind::Ph => ("reach_ph.wgsl", include_str!("../../../shaders/reach_ph.wgsl")),
+        Kind::Cubic => fragment!("reach/poly_cubic.wgsl"),
+        Kind::Ph => fragment!("reach/poly_ph.wgsl"),
     };
     Shader {
-        constants,
-        fragments: vec![
-            ("lib/bernstein.wgsl", include_str!("../../../shaders/lib/bernstein.wgsl")),
-            ("lib/reach.wgsl", include_str!("../../../shaders/lib/reach.wgsl")),
-            own,
-        ],
+        constants: constants(&flags, &[], &numbers) + &Angle::wgsl(),
+        fragments: vec![fragment!("lib/bernstein.wgsl"), fragment!("reach/filter.wgsl"), own],
     }
 }
 
 /// Angles of the chunk, then the axes of ξ and η.
 pub(super) fn inputs(kind: Kind, grid: &Grid, start: u64, len: u64) -> ShaderInputs {
     let words = |v| vec![coordinate(v)];
-    tables(grid, (start, len), |[theta]| angle_words(kind, theta), &[&words, &words])
+    tables(grid, (start, len), |[theta]| Angle::new(kind, theta), &[&words, &words])
 }
 
 fn coordinate(value: f64) -> f32 {
@@ -69,16 +63,27 @@ fn coordinate(value: f64) -> f32 {
     kept as f32
 }
 
-/// One row of the table; the last word is 0 when the angle is left to f64.
-fn angle_words(kind: Kind, theta: f64) -> [f32; ANGLE_STRIDE] {
-    let mut row = [0.0; ANGLE_STRIDE];
-    let Some(angle) = Angle::new(kind, theta) else { return row };
-    let sizes = [angle.sin, angle.cos.abs(), angle.g, angle.to_alpha, angle.to_beta];
-    if sizes.iter().any(|v| !(1.0 / MOST..=MOST).contains(v)) {
-        return row;
+record! {
+    /// The constants of an angle, as [`angle::Angle`] has them.
+    Angle {
+        sin: f32,
+        cos: f32,
+        g: f32,
+        to_alpha: f32,
+        to_beta: f32,
+        /// The constants fit f32; other angles are left to f64.
+        usable: bool,
     }
-    for (word, value) in row.iter_mut().zip([angle.sin, angle.cos, angle.g, angle.to_alpha, angle.to_beta, 1.0]) {
-        *word = value as f32;
+}
+
+impl Angle {
+    fn new(kind: Kind, theta: f64) -> Angle {
+        let Some(angle) = angle::Angle::new(kind, theta) else { return Angle::default() };
+        let angle::Angle { sin, cos, g, to_alpha, to_beta, .. } = angle;
+        if [sin, cos.abs(), g, to_alpha, to_beta].iter().any(|v| !(1.0 / MOST..=MOST).contains(v)) {
+            return Angle::default();
+        }
+        let [sin, cos, g, to_alpha, to_beta] = [sin, cos, g, to_alpha, to_beta].map(|x| x as f32);
+        Angle { sin, cos, g, to_alpha, to_beta, usable: true }
     }
-    row
 }

@@ -1,18 +1,15 @@
-//! What the shader `trig_quintic.wgsl` reads.
+//! What the shader of `shaders/trig_quintic/` reads.
 
 use super::filter::coefficient_error;
 use super::plain::{PRINTED_Q, end_slope, printed_ratio};
 use super::poly::{BERNSTEIN, Frame, K};
 use super::{END_CURVATURE_AS_PRINTED, END_RISES, PRINTED_RATIO, SPIRAL};
-use crate::family::kernel::{constants, tables};
+use crate::family::kernel::{constants, fragment, tables};
+use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 use std::cmp::Ordering::Less;
 
-/// Numbers of a pair of ratio and angle, of a p and of a q.
-const PAIR_STRIDE: usize = 5;
-const P_STRIDE: usize = 2;
-const Q_STRIDE: usize = 3;
 /// Pieces that wait: a piece of 2^-10 shows features that the error of f32 coefficients does not hide anyway.
 const MOST_LEVELS: usize = 12;
 /// Halvings of one polynomial; see `positive` in the shader.
@@ -43,13 +40,12 @@ pub(super) fn shader() -> Shader {
         ("COEFFICIENTS", K),
         ("MOST_LEVELS", MOST_LEVELS),
         ("MOST_HALVINGS", MOST_HALVINGS),
-        ("PAIR_STRIDE", PAIR_STRIDE),
-        ("P_STRIDE", P_STRIDE),
-        ("Q_STRIDE", Q_STRIDE),
     ];
     let constants = constants(&flags, &counts, &[("UNIT", UNIT), ("ERROR", ERROR), ("FLOOR", FLOOR)]);
-    let own = ("trig_quintic.wgsl", include_str!("../../../shaders/trig_quintic.wgsl"));
-    Shader { constants, fragments: vec![own] }
+    Shader {
+        constants: constants + &Pair::wgsl() + &End::wgsl(),
+        fragments: vec![fragment!("trig_quintic/poly.wgsl"), fragment!("trig_quintic/filter.wgsl")],
+    }
 }
 
 /// The factors of Bernstein's basis, then pairs, then the axes of m, p and q.
@@ -70,8 +66,8 @@ pub(super) fn inputs(grid: &Grid, start: u64, len: u64) -> ShaderInputs {
     let own = tables(
         grid,
         (start, len),
-        |[ratio, theta]| pair_words(ratio, theta, counts(ratio)),
-        &[&|m| vec![within(m, MOST)], &|p| end_words(p).to_vec(), &q_words],
+        |[ratio, theta]| Pair::new(ratio, theta, counts(ratio)),
+        &[&|m| vec![within(m, MOST)], &|p| End::new(p).words(), &|q| End::new(q).words()],
     );
     let factors = BERNSTEIN.map(|factor| (factor / BERNSTEIN[0]) as f32);
     let [first, rest @ ..] = own.offsets;
@@ -84,17 +80,42 @@ fn within(value: f64, most: f64) -> f32 {
     if value > 1.0 / most && value < most { value as f32 } else { 0.0 }
 }
 
-fn pair_words(ratio: f64, theta: f64, [printed, rising]: [f32; 2]) -> [f32; PAIR_STRIDE] {
-    let [y, last, square] = Frame::new(ratio, theta).map_or([0.0; 3], |f| [f.y, f.last, f.square]);
-    [within(y, MOST), last as f32, square as f32, printed, rising]
+record! {
+    /// The constants of a ratio and an angle.
+    Pair {
+        /// See [`Frame`]; 0 where it is left to f64.
+        y: f32,
+        last: f32,
+        square: f32,
+        /// How many m have the flag PRINTED_RATIO: those of smaller index.
+        printed: f32,
+        /// How many q have the flag END_RISES: those of smaller index.
+        rising: f32,
+    }
 }
 
-/// `4 + p` and `1 - p`.
-fn end_words(p: f64) -> [f32; P_STRIDE] {
-    [within(4.0 + p, MOST_END), (1.0 - p) as f32]
+record! {
+    /// A parameter p or q.
+    End {
+        /// `4 + p`; 0 where it is left to f64.
+        over: f32,
+        /// `1 - p`.
+        less: f32,
+        /// q lies where the end curvature counts as printed.
+        as_printed: bool,
+    }
 }
 
-fn q_words(q: f64) -> Vec<f32> {
-    let [q4, q1] = end_words(q);
-    vec![q4, q1, f32::from((PRINTED_Q[0]..=PRINTED_Q[1]).contains(&q))]
+impl Pair {
+    fn new(ratio: f64, theta: f64, [printed, rising]: [f32; 2]) -> Pair {
+        let [y, last, square] = Frame::new(ratio, theta).map_or([0.0; 3], |f| [f.y, f.last, f.square]);
+        Pair { y: within(y, MOST), last: last as f32, square: square as f32, printed, rising }
+    }
+}
+
+impl End {
+    fn new(p: f64) -> End {
+        let as_printed = (PRINTED_Q[0]..=PRINTED_Q[1]).contains(&p);
+        End { over: within(4.0 + p, MOST_END), less: (1.0 - p) as f32, as_printed }
+    }
 }

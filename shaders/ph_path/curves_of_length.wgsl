@@ -1,4 +1,4 @@
-// Given arc length: the end speed z and the root from (10)-(13), as in path/equal.rs.
+// Given arc length: the end speed z and the root from (10)-(13), as in curve/equal_length.rs.
 
 fn plus(a: Near, b: Near) -> Near {
     let value = a.value + b.value;
@@ -33,18 +33,18 @@ fn rounded(value: f32) -> Near {
 
 // offsets: first pair of the chunk, where the axis of S begins.
 fn ends(index: vec4<u32>, other: bool) -> Ends {
-    let pair = (index.x * params.shape.y + index.y - params.offsets.x) * PAIR_STRIDE;
-    let first = vec2<f32>(inputs[pair], inputs[pair + 1u]);
-    let last = select(1.0, -1.0, other) * vec2<f32>(inputs[pair + 2u], inputs[pair + 3u]);
-    let sums = pair + select(5u, 8u, other);
-    let length = params.offsets.y + 2u * index.z;
-    let p0 = rounded(inputs[length]);
-    let q0 = rounded(inputs[length + 1u]);
-    let usable = inputs[pair + 4u] > 0.0 && p0.value > 0.0;
+    let sums = read_sums((index.x * params.shape.y + index.y - params.offsets.x) * SUMS_WORDS);
+    let last = select(1.0, -1.0, other) * sums.last;
+    // Of sines, of cosines, and g.
+    let forms = select(sums.forms, sums.other_forms, other);
+    let lengths = read_lengths(params.offsets.y + index.z * LENGTHS_WORDS);
+    let p0 = rounded(lengths.p0);
+    let q0 = rounded(lengths.q0);
+    let usable = sums.usable && p0.value > 0.0;
     // g comes from differences in f64.
-    let g = Near(inputs[sums + 2u], 1.01 * UNIT * abs(inputs[sums + 2u]) + 1e-13);
-    let a = times(p0, rounded(inputs[sums]));
-    let b = times(q0, rounded(inputs[sums + 1u]));
+    let g = Near(forms.z, 1.01 * UNIT * abs(forms.z) + 1e-13);
+    let a = times(p0, rounded(forms.x));
+    let b = times(q0, rounded(forms.y));
     let above = a.value >= b.value;
     let apart = plus(a, Near(-b.value, b.error));
     let excess = Near(abs(apart.value), apart.error);
@@ -67,5 +67,5 @@ fn ends(index: vec4<u32>, other: bool) -> Ends {
     }
     let root_error = safe.error + rest.error;
     let fits = root_error < 0.1 * safe.value && error < 0.1 * size.value && safe.value < 1e6;
-    return Ends(size.value * first, size.value * last, error, roots, root_error, usable && fits);
+    return Ends(size.value * sums.first, size.value * last, error, roots, root_error, usable && fits);
 }

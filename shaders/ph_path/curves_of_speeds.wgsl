@@ -2,14 +2,12 @@
 
 // offsets: first pair of the chunk, where the axes of l0 and l1 begin.
 fn ends(index: vec4<u32>, other: bool) -> Ends {
-    let pair = (index.x * params.shape.y + index.y - params.offsets.x) * PAIR_STRIDE;
-    let first = vec2<f32>(inputs[pair], inputs[pair + 1u]);
-    let last = vec2<f32>(inputs[pair + 2u], inputs[pair + 3u]);
+    let units = read_units((index.x * params.shape.y + index.y - params.offsets.x) * UNITS_WORDS);
     let a = inputs[params.offsets.y + index.z];
     let b = inputs[params.offsets.z + index.w];
-    let usable = inputs[pair + 4u] > 0.0 && a > 0.0 && b > 0.0;
-    let w0 = a * first;
-    let w2 = select(b, -b, other) * last;
+    let usable = units.usable && a > 0.0 && b > 0.0;
+    let w0 = a * units.first;
+    let w2 = select(b, -b, other) * units.last;
     // Two roundings of the factors, one of the product.
     let error = 3.1 * UNIT * max(a, b);
     let z = vec2<f32>(120.0, 0.0) - 15.0 * (product(w0, w0) + product(w2, w2)) + 10.0 * product(w0, w2);

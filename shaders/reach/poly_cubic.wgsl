@@ -1,4 +1,4 @@
-// The cubic's part of lib/reach.wgsl: alpha u = 1, m = beta u^2 - 1.
+// The cubic's part of family/reach/poly.rs in f32: alpha u = 1, m = beta u^2 - 1.
 
 fn invert(alpha: Near, beta: Near, g: f32) -> Shape {
     let u = 1.0 / alpha.value;

@@ -1,22 +1,11 @@
-// Reachable end points in f32: twin of family/reach/filter.rs, function by function; formulas in family/reach/poly.rs. A family
-// adds `invert` and `coefficients`. Constants (UNIT, SCALE, ...) are generated from the same Rust, for f32. Proofs use + - * and
+// Reachable end points in f32: twin of family/reach/filter.rs, function by function; formulas in family/reach/poly.rs, whose
+// twins poly_cubic.wgsl and poly_ph.wgsl add `invert` and `coefficients`. Constants (UNIT, SCALE, ...) are generated from shader.rs. Proofs use + - * and
 // comparisons alone, and hold with or without fused multiply-adds, reassociated sums and flushed denormals (LEAST and FLOOR keep
 // all terms that matter above them). Guesses use / and sqrt, kept finite by clamps.
 
-struct Angle {
-    sin: f32,
-    cos: f32,
-    g: f32,
-    to_alpha: f32,
-    to_beta: f32,
-    // The constants fit f32.
-    usable: bool,
-}
-
 // offsets: first angle of the chunk, where the axes of xi and eta begin.
-fn read_angle(index: vec4<u32>) -> Angle {
-    let at = (index.x - params.offsets.x) * ANGLE_STRIDE;
-    return Angle(inputs[at], inputs[at + 1u], inputs[at + 2u], inputs[at + 3u], inputs[at + 4u], inputs[at + 5u] > 0.0);
+fn angle_of(index: vec4<u32>) -> Angle {
+    return read_angle((index.x - params.offsets.x) * ANGLE_WORDS);
 }
 
 // A number and how far it may be off.
@@ -122,7 +111,7 @@ fn ordinary(x: f32) -> bool {
 
 // The code of a node.
 fn evaluate(index: vec4<u32>) -> u32 {
-    let angle = read_angle(index);
+    let angle = angle_of(index);
     let xi = inputs[params.offsets.y + index.y];
     let eta = inputs[params.offsets.z + index.z];
     if !angle.usable || !ordinary(xi) || !ordinary(eta) {

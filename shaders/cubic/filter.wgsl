@@ -1,136 +1,22 @@
-// The cubic family in f32: twin of family/cubic/filter.rs, function by function. Formulas and bounds are derived there and
-// in poly.rs; the constants (UNIT, THIRD, ...) and each pair's bounds are generated from the same Rust, for f32.
+// Twin of family/cubic/filter.rs in f32, function by function: formulas and bounds are derived there. The constants (UNIT, THIRD, ...)
+// and the record Pair, with the bounds of each pair, are generated from shader.rs.
 // Proofs use + - * and comparisons alone, and hold with or without fused multiply-adds, reassociation of sums, and
 // flushed denormals (every bound has a part above 2^-110). Guesses use / and sqrt, kept finite by clamps; curvatures are
 // limited, so that no product overflows.
 
-struct Pair {
-    p: f32,
-    r: f32,
-    g0: f32,
-    g1: f32,
-    // a / kappa0 and k / kappa1; in the normalised chart their inverses.
-    curve0: f32,
-    curve1: f32,
-    sin0: f32,
-    sin1: f32,
-    sin2_half: f32,
-    // phi0 < phi1
-    rising: bool,
-    // The constants fit f32.
-    usable: bool,
-    rounding0: vec3<f32>,
-    rounding1: vec3<f32>,
-    slope0: vec3<f32>,
-    slope1: vec3<f32>,
-}
-
-fn read3(at: u32) -> vec3<f32> {
-    return vec3<f32>(inputs[at], inputs[at + 1u], inputs[at + 2u]);
-}
-
 // offsets: first pair of the chunk, where axes 2 and 3 begin, 1 for the normalised chart.
-fn read_pair(index: vec4<u32>) -> Pair {
+fn pair_of(index: vec4<u32>) -> Pair {
     // Unsigned differences are right even where the products wrap around.
-    let at = (index.x * params.shape.y + index.y - params.offsets.x) * PAIR_STRIDE;
-    return Pair(
-        inputs[at], inputs[at + 1u], inputs[at + 2u], inputs[at + 3u], inputs[at + 4u], inputs[at + 5u], inputs[at + 6u],
-        inputs[at + 7u], inputs[at + 8u], inputs[at + 9u] > 0.0, inputs[at + 10u] > 0.0,
-        read3(at + 11u), read3(at + 14u), read3(at + 17u), read3(at + 20u),
-    );
+    return read_pair((index.x * params.shape.y + index.y - params.offsets.x) * PAIR_WORDS);
 }
 
-struct Datum {
-    a: f32,
-    k: f32,
-    kappa0: f32,
-    kappa1: f32,
-}
-
-fn read_datum(index: vec4<u32>, pair: Pair) -> Datum {
+fn datum_of(index: vec4<u32>, pair: Pair) -> Datum {
     let third = inputs[params.offsets.y + index.z];
     let fourth = inputs[params.offsets.z + index.w];
     if params.offsets.w == 1u {
         return Datum(third, fourth, third * pair.curve0, fourth * pair.curve1);
     }
     return Datum(third * pair.curve0, fourth * pair.curve1, third, fourth);
-}
-
-// B0, B1, B2 of poly.rs.
-fn side(x: f32, y: f32, p: f32, g: f32, r: f32) -> vec3<f32> {
-    let u = 3.0 - x;
-    let u2 = u * u;
-    let xu = x * u;
-    let b0 = 2.0 * (p * u2) + g * (2.0 * xu + y * (3.0 * x - 10.0));
-    let b1_p = 2.0 * (u * (2.0 * (u * (x + 3.0)) + y * (7.0 * x - 17.0)));
-    let b1_g = (2.0 * xu) * (2.0 * x - 7.0 * y) + (y * y) * (22.0 - 9.0 * x);
-    let b1 = p * b1_p + g * b1_g + 4.0 * (r * (u2 * u));
-    let x5 = 5.0 * x;
-    let b2_p = u * (x * (x5 + 3.0) - 6.0) + y * (x * (2.0 * x5 - 32.0) + 12.0);
-    let b2_g = (x * x) * (x5 - 12.0) + y * (x * (12.0 - 2.0 * x5) + y * (x5 - 2.0));
-    let b2 = p * b2_p + g * b2_g + r * (u2 * (x5 - 2.0));
-    return vec3<f32>(b0, b1, b2);
-}
-
-// F = 3 - x - k y^2, its error, y = 3 - a x^2, F' = 4akxy - 1.
-struct Residual {
-    f: f32,
-    error: f32,
-    y: f32,
-    slope: f32,
-}
-
-fn residual(d: Datum, x: f32) -> Residual {
-    let v = d.a * x * x;
-    let y = 3.0 - v;
-    let wide = abs(y) + ETA;
-    let kw = d.k * wide;
-    let error = (kw * wide + 2.0 * (kw * (v + wide))) * RESIDUAL + RESIDUAL_FLOOR;
-    let slope = 4.0 * (d.a * x * (d.k * y)) - 1.0;
-    return Residual((3.0 - x) - d.k * (y * y), error, y, slope);
-}
-
-struct Root {
-    x: f32,
-    y: f32,
-    delta: f32,
-    low: f32,
-    high: f32,
-    proved: bool,
-}
-
-// A slope to divide by: never so small that the quotient leaves the range.
-fn steep(slope: f32) -> f32 {
-    return select(min(slope, -1e-6), max(slope, 1e-6), slope > 0.0);
-}
-
-fn find_root(d: Datum, start: f32) -> Root {
-    var x = start;
-    for (var i = 0u; i < 24u; i += 1u) {
-        let r = residual(d, x);
-        let step = r.f / steep(r.slope);
-        let next = clamp(x - step, 0.0, 3.0);
-        let moved = abs(next - x);
-        x = next;
-        if moved < x * 6e-5 {
-            break;
-        }
-    }
-    let r = residual(d, x);
-    // Near a double root delta may come out large; it then fails the test for `small`.
-    let delta = min(2.5 * r.error / abs(steep(r.slope)) + 4.0 * UNIT * x, 3.0);
-    let low = x - delta;
-    let high = x + delta;
-    let at_low = residual(d, low);
-    let at_high = residual(d, high);
-    let falls = at_low.f > at_low.error && at_high.f < -at_high.error;
-    let rises = at_low.f < -at_low.error && at_high.f > at_high.error;
-    let inside = low > 0.0 && high <= 3.0 && at_high.y > ETA;
-    let small = delta * 64.0 < x;
-    // The root lies between the rounded ends; see root.rs.
-    let reach = 1.01 * delta + 4.0 * UNIT;
-    let delta_y = 2.1 * (d.a * x * reach) + ETA;
-    return Root(x, r.y, max(reach, delta_y), low, high, (falls || rises) && inside && small);
 }
 
 struct Half {
@@ -180,11 +66,11 @@ fn spiral(b: vec3<f32>, e0: vec3<f32>, c: vec3<f32>, e1: vec3<f32>, root: Root) 
 
 // The code of a node.
 fn evaluate(index: vec4<u32>) -> u32 {
-    let pair = read_pair(index);
+    let pair = pair_of(index);
     if !pair.usable {
         return UNDECIDED;
     }
-    let d = read_datum(index, pair);
+    let d = datum_of(index, pair);
     if abs(d.kappa0) > KAPPA_MOST || abs(d.kappa1) > KAPPA_MOST {
         return UNDECIDED;
     }

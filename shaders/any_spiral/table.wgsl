@@ -4,24 +4,22 @@
 // offsets: first pair of the chunk, where axes 2 and 3 begin.
 fn evaluate(index: vec4<u32>) -> u32 {
     // Unsigned differences are right even where the products wrap around.
-    let pair = (index.x * params.shape.y + index.y - params.offsets.x) * PAIR_STRIDE;
-    let sines = vec3<f32>(inputs[pair], inputs[pair + 1u], inputs[pair + 2u]);
-    let side = inputs[pair + 3u];
-    let usable = inputs[pair + 4u] > 0.0;
-    let first = params.offsets.y + index.z * FIRST_STRIDE;
-    let k1 = inputs[first];
+    let pair = read_pair((index.x * params.shape.y + index.y - params.offsets.x) * PAIR_WORDS);
+    let first = read_first(params.offsets.y + index.z * FIRST_WORDS);
+    let side = pair.side;
+    let k1 = first.k1;
     let k2 = inputs[params.offsets.z + index.w];
-    if !usable || abs(k1) > MOST || abs(k2) > MOST {
+    if !pair.usable || abs(k1) > MOST || abs(k2) > MOST {
         return UNDECIDED;
     }
-    let falling = f32(index.w) < inputs[first + 1u];
-    let rising = f32(index.w) >= inputs[first + 2u];
+    let falling = f32(index.w) < first.below;
+    let rising = f32(index.w) >= first.upto;
     let flags = select(0u, RISING, rising);
     // omega must have the sign of k2 - k1.
     if !(side > 0.0 && rising || side < 0.0 && falling) {
         return flags;
     }
-    let any = any_spiral(sines, side * k1, side * k2, OUTER);
+    let any = any_spiral(pair.sines, side * k1, side * k2, OUTER);
     if any == OPEN {
         return UNDECIDED;
     }
