@@ -155,11 +155,11 @@ fn evaluate(index: vec4<u32>) -> u32 {
             continue;
         }
         let sign = spiral(b, e0, c, e1, root);
-        if sign == NEGATIVE {
+        if sign == NO {
             continue;
         }
         // Theorem 3.1 must be certain too, unless there is no spiral.
-        if sign == UNKNOWN || !(at_start.theorem == NO || at_end.theorem == NO) {
+        if sign == OPEN || !(at_start.theorem == NO || at_end.theorem == NO) {
             return UNDECIDED;
         }
         spirals += 1u;

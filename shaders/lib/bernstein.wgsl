@@ -1,13 +1,9 @@
 // Signs of a quintic in Bernstein form on [0, 1]; twin of num/bernstein.rs in f32.
 
-const NEGATIVE: u32 = 0u;
-const POSITIVE: u32 = 1u;
-const UNKNOWN: u32 = 2u;
-
 // Most halvings of a piece. A piece of 2^-10 shows features that the error of f32 coefficients does not hide anyway.
 const MOST_HALVINGS: u32 = 10u;
 
-// POSITIVE, NEGATIVE (somewhere), or UNKNOWN, for coefficients that may each be off by `error`; each halving adds `rounding`:
+// YES, NO (negative somewhere), or OPEN, for coefficients that may each be off by `error`; each halving adds `rounding`:
 // five steps of one addition, exactly halved.
 fn positive(coefficients: array<f32, 6>, error: f32, rounding: f32) -> u32 {
     // Depth first with the right halves waiting: one a level, and the piece in hand.
@@ -16,7 +12,7 @@ fn positive(coefficients: array<f32, 6>, error: f32, rounding: f32) -> u32 {
     waiting[0] = coefficients;
     levels[0] = 0u;
     var count = 1u;
-    var answer = POSITIVE;
+    var answer = YES;
     loop {
         if count == 0u {
             break;
@@ -27,7 +23,7 @@ fn positive(coefficients: array<f32, 6>, error: f32, rounding: f32) -> u32 {
         let e = error + rounding * f32(level);
         // The outer coefficients are values of the quintic.
         if piece[0] < -e || piece[5] < -e {
-            return NEGATIVE;
+            return NO;
         }
         var certain = 0u;
         var above = 0u;
@@ -39,7 +35,7 @@ fn positive(coefficients: array<f32, 6>, error: f32, rounding: f32) -> u32 {
             continue;
         }
         if level == MOST_HALVINGS || certain == 0u {
-            answer = UNKNOWN;
+            answer = OPEN;
             continue;
         }
         var left = piece;

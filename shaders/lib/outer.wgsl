@@ -1,9 +1,5 @@
 // The outer bound of every spiral region; twin of family/outer.rs in f32. `error` is as there.
 
-const NO: u32 = 0u;
-const YES: u32 = 1u;
-const OPEN: u32 = 2u;
-
 // (sin phi0 - kappa0)(kappa1 - sin phi1) > sin^2((phi1 - phi0)/2), both factors positive; `sines` in this order.
 fn any_spiral(sines: vec3<f32>, kappa0: f32, kappa1: f32, error: f32) -> u32 {
     let room0 = sines.x - kappa0;

@@ -128,9 +128,7 @@ fn peak(c: Curve) -> Peak {
     return best;
 }
 
-const BELOW: u32 = 0u;
-const ABOVE: u32 = 1u;
-const OPEN: u32 = 2u;
+// Besides YES, NO and OPEN: no halving will tell.
 const HOPELESS: u32 = 3u;
 
 // Bernstein coefficients of degree 8: v sigma^2 - h and v sigma^2 + h.
@@ -194,11 +192,11 @@ fn compared(c: Curve, v: Near, touching: bool) -> u32 {
     }
     let e = s.error;
     if min(min(s.minus[0].x, s.minus[2].z), min(s.plus[0].x, s.plus[2].z)) < -e {
-        return ABOVE;
+        return NO;
     }
     let low = min(least(min(s.minus[0], min(s.minus[1], s.minus[2]))), least(min(s.plus[0], min(s.plus[1], s.plus[2]))));
     if low > e {
-        return BELOW;
+        return YES;
     }
     let high = max(most(max(s.minus[1], s.minus[2])), most(max(s.plus[1], s.plus[2])));
     return select(HOPELESS, OPEN, high > e);
@@ -214,7 +212,7 @@ fn below(whole: Curve, limit: Near, touching: bool) -> u32 {
     var first = touching;
     for (var i = 0u; i < 80u; i += 1u) {
         if count == 0u {
-            return BELOW;
+            return YES;
         }
         count -= 1u;
         let c = waiting[count];
@@ -222,12 +220,12 @@ fn below(whole: Curve, limit: Near, touching: bool) -> u32 {
         let scale = 1.0 / f32(1u << level);
         // h of a piece shrinks with its width, a power of two.
         let found = compared(c, Near(limit.value * scale, limit.error * scale), first);
-        if found == BELOW {
+        if found == YES {
             first = false;
             continue;
         }
         if found != OPEN || level == 12u {
-            return select(OPEN, ABOVE, found == ABOVE);
+            return select(OPEN, NO, found == NO);
         }
         let left = 0.5 * (c.w0 + c.w1);
         let right = 0.5 * (c.w1 + c.w2);

@@ -1,9 +1,5 @@
 // The question of family/ph_path/truth.rs in f32.
 
-const NO: u32 = 0u;
-const YES: u32 = 1u;
-const UNKNOWN: u32 = 2u;
-
 // Whether h keeps its sign.
 fn keeps_sign(c: Curve) -> u32 {
     let m = max(modulus(c.w0), max(modulus(c.w1), modulus(c.w2)));
@@ -12,7 +8,7 @@ fn keeps_sign(c: Curve) -> u32 {
     let h1 = 2.0 * outer(c.w0, c.w2);
     let h2 = 4.0 * outer(c.w1, c.w2);
     if abs(h0) <= error || abs(h2) <= error {
-        return UNKNOWN;
+        return OPEN;
     }
     if (h0 > 0.0) != (h2 > 0.0) {
         return NO;
@@ -28,7 +24,7 @@ fn keeps_sign(c: Curve) -> u32 {
     if gap > gap_error {
         return YES;
     }
-    return select(UNKNOWN, NO, gap < -gap_error && middle < -error);
+    return select(OPEN, NO, gap < -gap_error && middle < -error);
 }
 
 fn reversed(c: Curve) -> Curve {
@@ -44,7 +40,7 @@ fn peak_inside(c: Curve, p: Peak) -> u32 {
         if exceeds(point(c, p.at), v) && stays_under(point(c, 0.0), v) && stays_under(point(c, 1.0), v) {
             return YES;
         }
-        return UNKNOWN;
+        return OPEN;
     }
     var turned = c;
     if ends.y > ends.x {
@@ -57,9 +53,9 @@ fn peak_inside(c: Curve, p: Peak) -> u32 {
     let relative = start.turn.error / max(abs(start.turn.value), 1e-30) + 2.1 * start.speed.error / max(speed, 1e-30) + 1e-5;
     let error = value * min(relative, 1.0);
     if !(relative < 0.1 && exceeds(start, value - error) && stays_under(start, value + error)) {
-        return UNKNOWN;
+        return OPEN;
     }
-    return select(UNKNOWN, NO, below(turned, Near(value, error), true) == BELOW);
+    return select(OPEN, NO, below(turned, Near(value, error), true) == YES);
 }
 
 // The code of a node.
@@ -102,12 +98,12 @@ fn evaluate(index: vec4<u32>) -> u32 {
         }
     }
     let winner = curves[best];
-    if below(winner, Near(limit, 0.0), false) != BELOW {
+    if below(winner, Near(limit, 0.0), false) != YES {
         return UNDECIDED;
     }
     let way = keeps_sign(winner);
     let inside = peak_inside(winner, peaks[best]);
-    if way == UNKNOWN || inside == UNKNOWN {
+    if way == OPEN || inside == OPEN {
         return UNDECIDED;
     }
     return REGULAR | select(0u, ONE_WAY, way == YES) | select(0u, PEAK_INSIDE, inside == YES) | select(0u, PAPER, best < 2u);

@@ -45,14 +45,10 @@ fn knot(curves: Curves, t: f32) -> Knot {
     return Knot(t, z, error, s, 1.1 * error + 4.0 * TERM, gap, 2.1 * error + 8.0 * UNIT);
 }
 
-const APART: u32 = 0u;
-const ONCE: u32 = 1u;
-const UNCLEAR: u32 = 2u;
-
 // Whether the curves meet between two knots: march.rs has the two certificates.
 fn meets(a: Knot, b: Knot) -> u32 {
     if abs(a.gap) <= a.gap_error || abs(b.gap) <= b.gap_error {
-        return UNCLEAR;
+        return OPEN;
     }
     let same = (a.gap > 0.0) == (b.gap > 0.0);
     let errors = a.s_error + b.s_error;
@@ -61,13 +57,13 @@ fn meets(a: Knot, b: Knot) -> u32 {
         let length = (b.t - a.t) / (sqrt(a.t) * sqrt(b.t)) * 1.001;
         let reach = (abs(fall) + errors) * 0.2501 * length;
         if abs(a.gap) - a.gap_error > reach && abs(b.gap) - b.gap_error > reach {
-            return APART;
+            return NO;
         }
     }
     if a.s.y - b.s.x > errors || a.s.x - b.s.y > errors {
-        return select(ONCE, APART, same);
+        return select(YES, NO, same);
     }
-    return UNCLEAR;
+    return OPEN;
 }
 
 // A knot's heights against the limits of both curves beyond it: `high` is that of one curve, `low`, if positive, that of the other.

@@ -12,7 +12,7 @@ fn half_quintic(turn: vec3<f32>, speed: array<f32, 5>, sign: f32) -> vec3<f32> {
     );
 }
 
-// Whether the solution's curvature rises throughout: POSITIVE, NEGATIVE or UNKNOWN.
+// Whether the solution's curvature rises throughout: YES, NO or OPEN.
 fn spiral(curves: Curves, root: Root) -> u32 {
     let t = root.t.value;
     let z = root.z.value;
@@ -40,30 +40,30 @@ fn spiral(curves: Curves, root: Root) -> u32 {
     // t has the power 10 at most, Z the power 3; powers of a number known to a thirtieth grow by less than 1.4.
     let relative = (10.0 * root.t.error + 3.0 * root.z.error) * 1.4 + SHAPE;
     if !(relative < 0.25) {
-        return UNKNOWN;
+        return OPEN;
     }
     let size = max(start_size, end_size);
     let largest = max(size.x, max(size.y, size.z));
     if !(largest < 1e30 && largest > 1e-15) {
-        return UNKNOWN;
+        return OPEN;
     }
     // The outer coefficients are values of the quintic, and have smaller errors of their own.
     if start.x < -relative * start_size.x || end.x < -relative * end_size.x {
-        return NEGATIVE;
+        return NO;
     }
     // The least and the greatest quintic: only one of them can answer.
     let low_start = start - relative * start_size;
     let low_end = end - relative * end_size;
     let rounding = 8.0 * UNIT * largest;
     let low = array<f32, 6>(low_start.x, low_start.y, low_start.z, low_end.z, low_end.y, low_end.x);
-    if positive(low, rounding, rounding) == POSITIVE {
-        return POSITIVE;
+    if positive(low, rounding, rounding) == YES {
+        return YES;
     }
     let high_start = start + relative * start_size;
     let high_end = end + relative * end_size;
     let high = array<f32, 6>(high_start.x, high_start.y, high_start.z, high_end.z, high_end.y, high_end.x);
-    if positive(high, rounding, rounding) == NEGATIVE {
-        return NEGATIVE;
+    if positive(high, rounding, rounding) == NO {
+        return NO;
     }
-    return UNKNOWN;
+    return OPEN;
 }

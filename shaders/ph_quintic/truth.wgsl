@@ -35,7 +35,7 @@ fn count(curves: Curves, any: bool) -> u32 {
     for (var knots = 0u; knots < 96u; knots += 1u) {
         b = waiting[depth - 1u];
         let met = meets(a, b);
-        if met == UNCLEAR {
+        if met == OPEN {
             let apart = b.t - a.t;
             if depth == DEPTH || apart < a.t * 0.001 {
                 return UNDECIDED;
@@ -46,7 +46,7 @@ fn count(curves: Curves, any: bool) -> u32 {
             depth += 1u;
             continue;
         }
-        if met == ONCE {
+        if met == YES {
             solutions += 1u;
             if any {
                 let root = enclose(curves, a, b);
@@ -54,10 +54,10 @@ fn count(curves: Curves, any: bool) -> u32 {
                     return UNDECIDED;
                 }
                 let verdict = spiral(curves, root);
-                if verdict == UNKNOWN {
+                if verdict == OPEN {
                     return UNDECIDED;
                 }
-                spirals += u32(verdict == POSITIVE);
+                spirals += u32(verdict == YES);
             }
         }
         a = b;

@@ -46,23 +46,21 @@ fn find_shape(angle: Angle, a: Near, b: Near, none: bool) -> Shape {
     return shape;
 }
 
-// The four levels of a case as bits, or OPEN.
-const OPEN: u32 = 0xffffu;
-
+// The four levels of a case as bits, or UNDECIDED.
 fn levels(angle: Angle, shape: Shape) -> u32 {
     if shape.none {
         return 0u;
     }
     let m = shape.m.value;
     if !shape.found || !(shape.m.error < m * SMALL && m < MOST_M) {
-        return OPEN;
+        return UNDECIDED;
     }
     let value = coefficients(m, shape.u.value, angle.g, -1.0);
     let size = coefficients(m, shape.u.value, angle.g, 1.0);
     // The quotient is good to a hundredth, or nothing is said.
     let inverse = 1.0 / m;
     if !(abs(inverse * m - 1.0) < 0.01) {
-        return OPEN;
+        return UNDECIDED;
     }
     let relative = shape.m.error * inverse * 3.4 + shape.u.error * 2.2 + COEFFICIENT;
     var error: array<f32, 6>;
@@ -79,7 +77,7 @@ fn levels(angle: Angle, shape: Shape) -> u32 {
     let not_drawn = m + shape.m.error < DRAWN_BELOW;
     let middle = value[1] > error[1] && value[2] > error[2] && value[3] > error[3];
     if end && middle {
-        return select(OPEN, EXISTS | EXACT | THEOREM, not_drawn);
+        return select(UNDECIDED, EXISTS | EXACT | THEOREM, not_drawn);
     }
     // The least and the greatest quintic: only one of them can answer.
     var low: array<f32, 6>;
@@ -93,15 +91,15 @@ fn levels(angle: Angle, shape: Shape) -> u32 {
         largest = max(largest, max(abs(low[i]), abs(high[i])));
     }
     let rounding = 5.0 * UNIT * largest;
-    if positive(high, rounding, rounding) == NEGATIVE {
+    if positive(high, rounding, rounding) == NO {
         return EXISTS;
     }
     let not_theorem = value[1] < -error[1] || value[2] < -error[2] || value[3] < -error[3];
     // What the theorem does not accept is not drawn either.
-    if not_theorem && positive(low, rounding, rounding) == POSITIVE {
+    if not_theorem && positive(low, rounding, rounding) == YES {
         return EXISTS | EXACT;
     }
-    return OPEN;
+    return UNDECIDED;
 }
 
 // Zero, or of a size at which nothing is flushed or overflows; what was clamped is not.
@@ -133,7 +131,7 @@ fn evaluate(index: vec4<u32>) -> u32 {
         }
         let none = select(eta <= 0.0, h.value < -h.error, mirrored);
         let found = levels(angle, find_shape(angle, a, b, none));
-        if found == OPEN {
+        if found == UNDECIDED {
             return UNDECIDED;
         }
         code |= found << (CASE_BITS * case_index);

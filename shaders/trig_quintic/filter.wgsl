@@ -47,7 +47,7 @@ fn positive(coefficients: Coefficients) -> u32 {
     errors[0] = 0.0;
     var count = 1u;
     var halvings = 0u;
-    var answer = POSITIVE;
+    var answer = YES;
     loop {
         if count == 0u {
             break;
@@ -58,14 +58,14 @@ fn positive(coefficients: Coefficients) -> u32 {
         let e = errors[count];
         // The outer coefficients are values of the polynomial.
         if piece[0].x < -e || piece[9].y < -e {
-            return NEGATIVE;
+            return NO;
         }
         if least(piece) > e {
             continue;
         }
         let size = largest(piece);
         if level + 2u >= MOST_LEVELS || halvings >= MOST_HALVINGS || size <= e {
-            answer = UNKNOWN;
+            answer = OPEN;
             continue;
         }
         halvings += 1u;
@@ -110,13 +110,13 @@ fn shifted(form: Form, sign: f32) -> Coefficients {
 
 // The greatest that the polynomial may be only can prove no, the least only yes.
 fn spiral(form: Form) -> u32 {
-    if positive(shifted(form, 1.0)) == NEGATIVE {
-        return NEGATIVE;
+    if positive(shifted(form, 1.0)) == NO {
+        return NO;
     }
-    if positive(shifted(form, -1.0)) == POSITIVE {
-        return POSITIVE;
+    if positive(shifted(form, -1.0)) == YES {
+        return YES;
     }
-    return UNKNOWN;
+    return OPEN;
 }
 
 // The code of a node. The first index counts pairs of ratio and theta.
@@ -139,8 +139,8 @@ fn evaluate(index: vec4<u32>) -> u32 {
     }
     let a = hodograph(pair.y, pair.last, m, p.over, p.less, q.over, q.less);
     let found = spiral(numerator(a, pair.square));
-    if found == UNKNOWN {
+    if found == OPEN {
         return UNDECIDED;
     }
-    return flags | select(0u, SPIRAL, found == POSITIVE);
+    return flags | select(0u, SPIRAL, found == YES);
 }

@@ -34,6 +34,8 @@ pub struct ShaderInputs {
 pub(super) fn constants(flags: &[(&str, u8)], counts: &[(&str, usize)], numbers: &[(&str, f64)]) -> String {
     let whole = |name: &str, value: usize| format!("const {name}: u32 = {value}u;\n");
     let mut text = whole("UNDECIDED", Code::UNDECIDED.0.into());
+    // What every question in a shader answers: OPEN where f32 cannot tell.
+    text.extend(["NO", "YES", "OPEN"].iter().zip(0..).map(|(name, value)| whole(name, value)));
     text.extend(flags.iter().map(|(name, bit)| whole(name, (*bit).into())));
     text.extend(counts.iter().map(|(name, count)| whole(name, *count)));
     text.extend(numbers.iter().map(|(name, value)| format!("const {name}: f32 = {value:e};\n")));

@@ -34,9 +34,6 @@ pub(super) fn shader() -> Shader {
         ("END_CURVATURE_AS_PRINTED", END_CURVATURE_AS_PRINTED),
     ];
     let counts = [
-        ("NEGATIVE", 0),
-        ("POSITIVE", 1),
-        ("UNKNOWN", 2),
         ("COEFFICIENTS", K),
         ("MOST_LEVELS", MOST_LEVELS),
         ("MOST_HALVINGS", MOST_HALVINGS),
