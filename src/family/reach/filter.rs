@@ -46,7 +46,6 @@ impl Precision {
         most_beta: (1u128 << 120) as f64,
         range_u: (1.0 / (1u128 << 100) as f64, (1u128 << 84) as f64),
     };
-    #[cfg_attr(not(feature = "gpu"), expect(dead_code, reason = "only shaders compute in f32"))]
     pub const F32: Precision = Precision {
         unit: 1.0 / (1u32 << 24) as f64,
         scale: 5.0,
