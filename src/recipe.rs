@@ -49,7 +49,7 @@ mod raw;
 pub use levels::Levels;
 pub use raw::{is_angle, parse_angle, parse_coordinate};
 
-use crate::atlas::Lookup;
+use crate::atlas::{Lookup, MAX_HEADER};
 use crate::error::{Error, Result};
 use crate::family::{self, Chart, Family};
 use crate::grid::{Axis, Grid, Spacing};
@@ -145,13 +145,14 @@ impl Recipe {
         resolve(&text).map_err(|fault| fault.within(&text))
     }
 
-    /// Reads a recipe from a file.
+    /// Reads a recipe from a file, or from standard input for `-`.
     ///
     /// # Errors
-    /// [`Error::Io`], or [`Error::Recipe`] as [`Recipe::parse`] has it, with the file's name.
+    /// [`Error::Io`], also for a text that is too long for the header of an atlas ([`MAX_HEADER`] bytes); or [`Error::Recipe`] as
+    /// [`Recipe::parse`] has it, with the file's name.
     pub fn read(path: impl AsRef<Path>) -> Result<Recipe> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
+        let text = crate::files::read_text(path, MAX_HEADER as u64)?;
         Recipe::parse(&text).map_err(|e| match e {
             Error::Recipe(what) => Error::Recipe(format!("{}: {what}", path.display())),
             other => other,

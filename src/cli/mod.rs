@@ -17,6 +17,7 @@ mod query;
 mod render;
 mod verify;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 use spiral_atlas::{Error, Result};
 use std::process::ExitCode;
@@ -72,7 +73,7 @@ enum Outcome {
 
 /// Runs the program with the process's arguments.
 pub fn main() -> ExitCode {
-    let done = match Cli::parse().command {
+    let done = match parse().command {
         Command::Generate(args) => generate::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Render(args) => render::run(&args),
@@ -102,16 +103,29 @@ fn completions(shell: clap_complete::Shell) -> Result<Outcome> {
 
 /// Ends the program as for arguments that clap itself refuses, with the usage of the command that was given.
 fn refuse(what: &str) -> ! {
+    given().error(ErrorKind::ArgumentConflict, what).exit()
+}
+
+/// The arguments, or the end of the program with help or an error. An error always shows the usage of the command that was given;
+/// clap leaves it out where a single value is wrong.
+fn parse() -> Cli {
+    Cli::try_parse().unwrap_or_else(|mut error| {
+        if error.use_stderr() && error.get(ContextKind::Usage).is_none() {
+            error.insert(ContextKind::Usage, ContextValue::StyledStr(given().render_usage()));
+        }
+        error.exit()
+    })
+}
+
+/// The command that the first words of the command line name.
+fn given() -> clap::Command {
     let mut command = Cli::command();
     command.build();
-    // The arguments were parsed once already, so this cannot fail.
-    let matches = command.clone().get_matches();
-    let mut given = &matches;
-    while let Some((name, more)) = given.subcommand() {
-        command = command.find_subcommand(name).cloned().unwrap_or(command);
-        given = more;
+    for word in std::env::args_os().skip(1) {
+        let Some(next) = word.to_str().and_then(|name| command.find_subcommand(name)) else { break };
+        command = next.clone();
     }
-    command.error(clap::error::ErrorKind::ArgumentConflict, what).exit()
+    command
 }
 
 /// A flag that Ctrl-C (and a polite request to end) sets; long work looks at it and cleans up after itself.
