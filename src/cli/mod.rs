@@ -73,6 +73,8 @@ enum Outcome {
 
 /// Runs the program with the process's arguments.
 pub fn main() -> ExitCode {
+    #[cfg(feature = "gpu")]
+    tell_errors_without_panics();
     let done = match parse().command {
         Command::Generate(args) => generate::run(&args),
         Command::Verify(args) => verify::run(&args),
@@ -99,6 +101,17 @@ fn completions(shell: clap_complete::Shell) -> Result<Outcome> {
     let mut text = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "spiral-atlas", &mut text);
     output::print(&String::from_utf8_lossy(&text)).map(|()| Outcome::Fine)
+}
+
+/// Keeps panics of the GPU library silent where they become errors: a backtrace before a good message only hides it.
+#[cfg(feature = "gpu")]
+fn tell_errors_without_panics() {
+    let tell = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !spiral_atlas::eval::gpu::panic_becomes_error() {
+            tell(panic);
+        }
+    }));
 }
 
 /// Ends the program as for arguments that clap itself refuses, with the usage of the command that was given.
