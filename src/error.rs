@@ -21,7 +21,7 @@ pub enum Error {
         what: String,
     },
     /// The operating system refused to read or write.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {}", path.display(), in_words(source))]
     Io {
         /// The file or folder.
         path: PathBuf,
@@ -60,4 +60,23 @@ impl Error {
         let path = path.into();
         move |source| Error::Io { path, source }
     }
+}
+
+/// What the system said, as a sentence with a way out where there is one, and its own words after.
+fn in_words(source: &std::io::Error) -> String {
+    use std::io::ErrorKind as Kind;
+    let what = match source.kind() {
+        Kind::NotFound => "there is no such file or folder; check the name",
+        Kind::PermissionDenied => "this user has no right to that; change the rights or choose another place",
+        Kind::ReadOnlyFilesystem => "its disk can only be read; choose another place",
+        Kind::StorageFull => "its disk is full; free some room or choose another place",
+        Kind::QuotaExceeded => "this user's share of the disk is used up; free some room or choose another place",
+        Kind::FileTooLarge => "the file would be larger than the system allows; raise the limit or write less",
+        Kind::IsADirectory => "it is a folder; name a file",
+        Kind::NotADirectory => "a part of this path is a file, not a folder; choose another path",
+        Kind::AlreadyExists => "a file of that name is in the way; choose another name",
+        _ => return source.to_string(),
+    };
+    // An error that was made from its kind alone has no words beyond it.
+    if source.raw_os_error().is_some() { format!("{what} ({source})") } else { what.into() }
 }

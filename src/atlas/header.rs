@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Longest header, in bytes; the recipe's text is most of it.
-pub const MAX_HEADER: usize = 1 << 20;
+pub const MAX_HEADER: usize = crate::files::LONGEST_RECIPE as usize;
 /// The tensor of flags.
 pub(super) const FLAGS: &str = "flags";
 /// The tensor of packed counts.
@@ -163,10 +163,12 @@ impl Tensor {
 
 /// The header's text and the tensors of a file.
 fn split(file: &[u8]) -> Result<(&[u8], &[u8]), String> {
-    let (len, rest) = file.split_first_chunk::<WORD>().ok_or("it is shorter than 8 bytes")?;
+    let (len, rest) = file.split_first_chunk::<WORD>().ok_or("it is no atlas: it is shorter than 8 bytes")?;
     let len = u64::from_le_bytes(*len);
     if len > MAX_HEADER as u64 || len % WORD as u64 != 0 {
-        return Err(format!("its header has {len} bytes; a multiple of {WORD} up to {MAX_HEADER} was expected"));
+        return Err(format!(
+            "it is no atlas: its first {WORD} bytes announce a header of {len} bytes, where an atlas has a multiple of {WORD} up to {MAX_HEADER}"
+        ));
     }
     rest.split_at_checked(len as usize).ok_or_else(|| format!("it ends inside its header of {len} bytes"))
 }

@@ -37,6 +37,7 @@ pub use write::{Writer, Written};
 
 use crate::error::{Error, Result};
 use crate::family::Family;
+use crate::files::Draft;
 use crate::grid::{Grid, Lookup};
 use blake3::Hash;
 use header::{FLAGS, Header, SOLUTIONS};
@@ -96,6 +97,8 @@ pub struct Atlas {
     lookups: Vec<Lookup>,
     metadata: BTreeMap<String, String>,
     id: Hash,
+    /// The file, where it goes with the atlas: after the map, because some systems keep a file that is mapped.
+    _draft: Option<Draft>,
 }
 
 impl Atlas {
@@ -108,14 +111,26 @@ impl Atlas {
         let path = path.as_ref();
         // Asked before opening, because opening a pipe would wait for its other end.
         if !std::fs::metadata(path).map_err(Error::io(path))?.is_file() {
-            return Err(Error::Atlas { path: path.to_owned(), what: "it is not a regular file".into() });
+            return Err(Error::Atlas {
+                path: path.to_owned(),
+                what: "it is not an ordinary file; an atlas is mapped into memory, and needs one".into(),
+            });
         }
         let file = File::open(path).map_err(Error::io(path))?;
+        Atlas::new(path.to_owned(), Atlas::map(path, &file)?)
+    }
+
+    /// Opens a file that has no place and goes with the atlas; `path` is the place it would have had.
+    pub(crate) fn of_draft(path: PathBuf, mut draft: Draft) -> Result<Atlas> {
+        let map = Atlas::map(&path, draft.file())?;
+        Ok(Atlas { _draft: Some(draft), ..Atlas::new(path, map)? })
+    }
+
+    fn map(path: &Path, file: &File) -> Result<Mmap> {
         // SAFETY: the map is read-only and private to this value, and only ever read as u8, f32 or f64, for which every bit
         // pattern is valid. That nobody changes the file meanwhile cannot be enforced; the documentation of `Atlas` asks for it.
         // Should someone do so, no invariant that memory safety rests on is read from the map again after this check.
-        let map = unsafe { Mmap::map(&file) }.map_err(Error::io(path))?;
-        Atlas::new(path.to_owned(), map)
+        unsafe { Mmap::map(file) }.map_err(Error::io(path))
     }
 
     /// Checks a copy of the bytes of a file, as [`Atlas::open`] does.
@@ -144,7 +159,7 @@ impl Atlas {
         let (flags, solutions) = (place(FLAGS)?, place(SOLUTIONS)?);
         let (metadata, id) = (header.metadata().map_err(invalid)?, header.id().map_err(invalid)?);
         let lookups = header.grid.axes().iter().map(Lookup::new).collect();
-        Ok(Atlas { map, header, body, flags, solutions, lookups, metadata, id, path })
+        Ok(Atlas { map, header, body, flags, solutions, lookups, metadata, id, path, _draft: None })
     }
 
     /// The file it was opened from.

@@ -2,10 +2,10 @@
 
 use super::about::{About, check_name};
 use super::header::{Header, Tensor};
-use super::{Spec, fault};
+use super::{Atlas, Spec, fault};
 use crate::error::{Error, Result};
 use crate::eval::Chunk;
-use crate::files::Draft;
+use crate::files::{Draft, check_room, folder};
 use blake3::{Hash, Hasher};
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -40,20 +40,29 @@ pub struct Written {
 }
 
 impl Writer {
-    /// Opens a temporary file in the folder of `path` and lays the atlas out.
+    /// Bytes of the file that a specification makes.
     ///
     /// # Errors
     /// [`Error::Domain`] when the specification is inconsistent (axes that are no chart of the family, a scalar given twice,
-    /// a recipe too long); [`Error::Io`], naming `path`, when the system refuses.
+    /// a recipe too long).
+    pub fn size(spec: &Spec) -> Result<u64> {
+        let (header, head) = layout(spec)?;
+        Ok(head.len() as u64 + header.body_len() as u64)
+    }
+
+    /// Opens a temporary file in the folder of `path` and lays the atlas out.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] when the specification is inconsistent, as for [`Writer::size`], or the disk has no room for the atlas;
+    /// [`Error::Io`], naming `path`, when the system refuses.
     pub fn create(path: &Path, spec: &Spec) -> Result<Writer> {
-        let domain = |what| Error::Domain(format!("the atlas `{}`: {what}", spec.name));
-        check_name("atlas", spec.name).map_err(Error::Domain)?;
-        let header = Header::new(About::of(spec).map_err(domain)?, spec.grid.clone()).map_err(domain)?;
-        let head = header.render().map_err(domain)?;
+        let (header, head) = layout(spec)?;
         let io = || Error::io(path);
+        let size = head.len() as u64 + header.body_len() as u64;
+        check_room(folder(path), &format!("the atlas `{}`", spec.name), size)?;
         let mut draft = Draft::beside(path).map_err(io())?;
         let body = head.len() as u64;
-        draft.file().set_len(body + header.body_len() as u64).map_err(io())?;
+        draft.file().set_len(size).map_err(io())?;
         let hashers = vec![Hasher::new(); header.tensors.len()];
         let mut writer = Writer { target: path.to_owned(), draft, header, body, hashers, nodes: spec.grid.len(), next: 0 };
         for (i, axis) in spec.grid.axes().iter().enumerate() {
@@ -91,6 +100,25 @@ impl Writer {
     /// # Errors
     /// [`Error::Domain`] when nodes are missing; [`Error::Io`], naming the target, when the system refuses.
     pub fn finish(mut self) -> Result<Written> {
+        let id = self.complete()?;
+        let bytes = self.body + self.header.body_len() as u64;
+        let Writer { target, draft, header, .. } = self;
+        draft.keep().map_err(Error::io(&target))?;
+        let hashes = header.tensors.into_iter().map(|t: Tensor| t.name).zip(header.hashes).collect();
+        Ok(Written { bytes, id, hashes })
+    }
+
+    /// Fills in the hashes and opens the atlas where it is. It never gets its place, and its file goes when the atlas is dropped.
+    ///
+    /// # Errors
+    /// As of [`Writer::finish`].
+    pub fn open(mut self) -> Result<Atlas> {
+        self.complete()?;
+        Atlas::of_draft(self.target, self.draft)
+    }
+
+    /// Writes the header, now that all hashes are known; returns the atlas's id.
+    fn complete(&mut self) -> Result<Hash> {
         if self.next != self.nodes {
             return Err(Error::Domain(format!(
                 "the atlas `{}` has {} of {} nodes; write them all before finishing",
@@ -99,12 +127,9 @@ impl Writer {
         }
         self.header.hashes = self.hashers.iter().map(Hasher::finalize).collect();
         let (head, id) = (self.header.render().map_err(Error::Domain)?, self.header.id().map_err(Error::Domain)?);
-        let bytes = self.body + self.header.body_len() as u64;
-        let Writer { target, mut draft, header, .. } = self;
-        let file = draft.file();
-        file.rewind().and_then(|()| file.write_all(&head)).and_then(|()| draft.keep()).map_err(Error::io(&target))?;
-        let hashes = header.tensors.into_iter().map(|t: Tensor| t.name).zip(header.hashes).collect();
-        Ok(Written { bytes, id, hashes })
+        let file = self.draft.file();
+        file.rewind().and_then(|()| file.write_all(&head)).map_err(Error::io(&self.target))?;
+        Ok(id)
     }
 
     fn check(&self, chunk: &Chunk) -> Result<(), String> {
@@ -135,4 +160,13 @@ impl Writer {
         self.hashers[tensor].update(bytes);
         Ok(())
     }
+}
+
+/// The header of a specification, and its bytes as they stand before any hash is known.
+fn layout(spec: &Spec) -> Result<(Header, Vec<u8>)> {
+    let domain = |what| Error::Domain(format!("the atlas `{}`: {what}", spec.name));
+    check_name("atlas", spec.name).map_err(Error::Domain)?;
+    let header = Header::new(About::of(spec).map_err(domain)?, spec.grid.clone()).map_err(domain)?;
+    let head = header.render().map_err(domain)?;
+    Ok((header, head))
 }

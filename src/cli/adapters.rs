@@ -2,6 +2,8 @@
 
 use super::{Outcome, output};
 use spiral_atlas::Result;
+#[cfg(feature = "gpu")]
+use spiral_atlas::files::size;
 
 /// List the GPU adapters: type, driver, limits.
 #[derive(clap::Args)]
@@ -35,8 +37,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
         };
         text += &format!(
             "{label}\n  {role}\n  storage buffers to {}, buffers to {}; {} workgroups a dimension, {} invocations each; timestamps: {}\n",
-            output::bytes(adapter.max_storage_bytes),
-            output::bytes(adapter.max_buffer_bytes),
+            size(adapter.max_storage_bytes),
+            size(adapter.max_buffer_bytes),
             output::grouped(adapter.max_groups.into()),
             output::grouped(adapter.max_group_size.into()),
             if adapter.timestamps { "yes" } else { "no" }

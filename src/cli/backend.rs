@@ -49,17 +49,28 @@ impl BackendArgs {
         }
     }
 
-    /// All backends to verify with: the one asked for, or the CPU and every GPU adapter that can compute.
+    /// All backends to verify with: the one asked for, or the CPU and every GPU adapter that can compute. Where no GPU is among
+    /// them, the reason comes with them.
     ///
     /// # Errors
-    /// [`Error::Gpu`] when a GPU is asked for and none fits.
-    pub fn all(&self) -> Result<Vec<Backend>> {
+    /// [`Error::Gpu`] when a GPU is asked for, as `required` does, and none fits.
+    pub fn all(&self, required: bool) -> Result<(Vec<Backend>, Option<String>)> {
         self.check();
-        match (self.backend, &self.adapter) {
-            (Choice::Cpu, _) => Ok(vec![Backend::Cpu]),
-            (_, Some(adapter)) => Ok(vec![select(Some(adapter))?]),
-            (Choice::Gpu, None) => every_gpu(),
-            (Choice::Auto, None) => Ok([Backend::Cpu].into_iter().chain(every_gpu().unwrap_or_default()).collect()),
+        if required && self.backend == Choice::Cpu {
+            super::refuse("`--require-adapter` asks for a GPU; it does not go with `--backend cpu`");
+        }
+        let gpus = match (self.backend, &self.adapter) {
+            (Choice::Cpu, _) => return Ok((vec![Backend::Cpu], Some("only the CPU was asked for".into()))),
+            (_, Some(adapter)) => return Ok((vec![select(Some(adapter))?], None)),
+            (_, None) => every_gpu(),
+        };
+        let mut backends = if self.backend == Choice::Auto { vec![Backend::Cpu] } else { Vec::new() };
+        match gpus {
+            Err(why) if self.backend == Choice::Auto && !required => Ok((backends, Some(why.to_string()))),
+            gpus => {
+                backends.extend(gpus?);
+                Ok((backends, None))
+            }
         }
     }
 

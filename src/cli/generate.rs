@@ -7,7 +7,7 @@ use super::{Outcome, render};
 use spiral_atlas::Result;
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, Report, evaluate};
-use spiral_atlas::files::write_file;
+use spiral_atlas::files::{self, write_file};
 use spiral_atlas::recipe::{AtlasPlan, Recipe};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -70,6 +70,11 @@ struct ReportFile<'a> {
 pub fn run(args: &Args) -> Result<Outcome> {
     let (recipe, backend) = (Recipe::read(&args.recipe)?, args.backend.one()?);
     render::check(&args.recipe, &recipe, &args.out)?;
+    for plan in &recipe.atlases {
+        files::check_place(&atlas_path(&args.out, &plan.name))?;
+        files::check_place(&report_path(&args.out, &plan.name))?;
+    }
+    check_room(&recipe, &args.out)?;
     // Before the work rather than after: whether the check can be done at all.
     let checkers = if args.check == Check::Full { backend::others(&backend)? } else { Vec::new() };
     let stop = super::stop_flag()?;
@@ -77,7 +82,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let (mut all, mut atlases) = (Vec::new(), Vec::new());
     for plan in &recipe.atlases {
         let path = atlas_path(&args.out, &plan.name);
-        let report = write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
+        let (report, writer) = write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
+        writer.finish()?;
         let atlas = Atlas::open(&path)?;
         let made = finish(args, plan, &atlas, report, &checkers, &stop)?;
         if !args.json {
@@ -104,7 +110,26 @@ pub fn atlas_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.atlas.safetensors"))
 }
 
-/// Evaluates an atlas straight into its file.
+fn report_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.report.json"))
+}
+
+/// Makes sure, before any work, that the disk has room for all atlases of a recipe together.
+pub fn check_room(recipe: &Recipe, folder: &Path) -> Result<()> {
+    let sizes = recipe.atlases.iter().map(|plan| Writer::size(&spec(recipe, plan)));
+    let sum = sizes.sum::<Result<u64>>()?;
+    let what = match &recipe.atlases[..] {
+        [one] => format!("the atlas `{}`", one.name),
+        all => format!("the {} atlases of the recipe", all.len()),
+    };
+    files::check_room(folder, &what, sum)
+}
+
+fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan) -> Spec<'a> {
+    Spec { name: &plan.name, family: plan.family, grid: &plan.grid, scalars: &plan.scalars, recipe: &recipe.text }
+}
+
+/// Evaluates an atlas straight into its file, which is then whole but not finished.
 pub fn write_atlas(
     recipe: &Recipe,
     plan: &AtlasPlan,
@@ -112,10 +137,9 @@ pub fn write_atlas(
     backend: &Backend,
     threads: usize,
     stop: &AtomicBool,
-) -> Result<Report> {
+) -> Result<(Report, Writer)> {
     let job = Job { family: plan.family, grid: &plan.grid, scalars: &plan.scalars };
-    let spec = Spec { name: &plan.name, family: plan.family, grid: &plan.grid, scalars: &plan.scalars, recipe: &recipe.text };
-    let mut writer = Writer::create(path, &spec)?;
+    let mut writer = Writer::create(path, &spec(recipe, plan))?;
     let bar = output::progress(plan.name.clone(), plan.grid.len());
     let report = evaluate(&job, backend, threads, stop, |chunk| {
         writer.put(&chunk)?;
@@ -123,9 +147,7 @@ pub fn write_atlas(
         Ok(())
     });
     bar.finish_and_clear();
-    let report = report?;
-    writer.finish()?;
-    Ok(report)
+    Ok((report?, writer))
 }
 
 /// Checks an atlas and writes what stands beside it.
@@ -141,7 +163,7 @@ fn finish(args: &Args, plan: &AtlasPlan, atlas: &Atlas, report: Report, checkers
         }
     };
     let id = atlas.id().to_hex().to_string();
-    let beside = args.out.join(format!("{}.report.json", plan.name));
+    let beside = report_path(&args.out, &plan.name);
     let text = output::to_json(&ReportFile { atlas: &plan.name, id: &id, report: &report, check: &check })? + "\n";
     write_file(&beside, text.as_bytes())?;
     let mut files = vec![Product::of(atlas.path())?, Product::of(&beside)?];

@@ -2,6 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
+use spiral_atlas::files::size;
 use spiral_atlas::{Error, Result};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -54,16 +55,6 @@ pub fn grouped(number: u64) -> String {
     digits.chars().enumerate().flat_map(|(i, c)| breaks(i).then_some(',').into_iter().chain([c])).collect()
 }
 
-/// Bytes in the largest unit that leaves a number above 1.
-pub fn bytes(number: u64) -> String {
-    match number {
-        0..1024 => format!("{number} B"),
-        1024..0x10_0000 => format!("{:.1} KiB", number as f64 / 1024.0),
-        0x10_0000..0x4000_0000 => format!("{:.1} MiB", number as f64 / 1_048_576.0),
-        _ => format!("{:.2} GiB", number as f64 / 1_073_741_824.0),
-    }
-}
-
 /// A number with at most four decimals.
 pub fn short(x: f64) -> String {
     let text = format!("{x:.4}");
@@ -110,12 +101,15 @@ impl Product {
 
     /// A line of a summary.
     pub fn line(&self) -> String {
-        format!("  {}  {}\n    BLAKE3 {}\n", self.path.display(), bytes(self.bytes), self.blake3)
+        format!("  {}  {}\n    BLAKE3 {}\n", self.path.display(), size(self.bytes), self.blake3)
     }
 }
 
 /// Creates a folder with its parents, unless it is there.
 pub fn make_folder(path: &Path) -> Result<()> {
+    if path.exists() && !path.is_dir() {
+        return Err(Error::Domain(format!("{} is a file; the folder for the results needs another name", path.display())));
+    }
     std::fs::create_dir_all(path).map_err(|source| Error::Io { path: path.to_owned(), source })
 }
 
@@ -126,7 +120,6 @@ mod tests {
     #[test]
     fn numbers_are_readable() {
         assert_eq!([0, 999, 1000, 1234567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
-        assert_eq!([12, 2048, 5 << 20, 3 << 29].map(bytes), ["12 B", "2.0 KiB", "5.0 MiB", "1.50 GiB"]);
     }
 
     #[test]

@@ -8,12 +8,15 @@ use super::output::{json_error, stdout_error};
 use super::query::Answer;
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::family::Family;
+use spiral_atlas::files::size;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::Path;
 
 /// Longest line in bytes; no line of numbers comes near.
 const MAX_LINE: usize = 1 << 16;
+/// A line that still has no end after so many bytes may have none at all, as in /dev/zero: it is not read on.
+const MAX_SKIPPED: usize = 1 << 26;
 
 /// Answers for every row of a file, or of standard input for `-`.
 pub fn run(family: &'static dyn Family, path: &Path, atlas: Option<&Atlas>) -> Result<Outcome> {
@@ -53,7 +56,7 @@ pub fn run(family: &'static dyn Family, path: &Path, atlas: Option<&Atlas>) -> R
         let mut text = match answer {
             Ok(answer) => serde_json::to_vec(&answer),
             Err(error) => {
-                outcome = Outcome::Bad;
+                outcome = Outcome::Failed;
                 serde_json::to_vec(&Bad { line: lines.number, error })
             }
         }
@@ -106,7 +109,8 @@ impl Lines {
 
     /// Leaves the rest of a line unread, in pieces.
     fn skip(&mut self) -> io::Result<()> {
-        loop {
+        let mut skipped = 0;
+        while skipped < MAX_SKIPPED {
             let buffer = self.input.fill_buf()?;
             let end = buffer.iter().position(|b| *b == b'\n');
             let (length, done) = (end.map_or(buffer.len(), |at| at + 1), end.is_some() || buffer.is_empty());
@@ -114,7 +118,9 @@ impl Lines {
             if done {
                 return Ok(());
             }
+            skipped += length;
         }
+        Err(io::Error::other(format!("line {} has no end within {}; this is no table", self.number, size(MAX_SKIPPED as u64))))
     }
 }
 
@@ -136,5 +142,11 @@ mod tests {
         assert_eq!(lines.next().unwrap(), Some(Ok("last")));
         assert_eq!(lines.next().unwrap(), None);
         assert_eq!(lines.number, 3);
+    }
+
+    #[test]
+    fn a_line_without_end_is_left() {
+        let mut lines = Lines { input: BufReader::new(Box::new(io::repeat(b'0'))), number: 0, line: Vec::new() };
+        assert!(lines.next().unwrap_err().to_string().contains("line 1 has no end"));
     }
 }

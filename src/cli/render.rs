@@ -5,6 +5,7 @@ use super::output::{self, Product};
 use super::pictures;
 use super::{Outcome, generate};
 use spiral_atlas::atlas::Atlas;
+use spiral_atlas::files::{check_place, write_file};
 use spiral_atlas::recipe::{AtlasPlan, PictureKind, PicturePlan, Recipe};
 use spiral_atlas::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -48,20 +49,19 @@ pub fn run(args: &Args) -> Result<Outcome> {
     Ok(Outcome::Fine)
 }
 
-/// Makes the recipe's atlases in a folder that goes away, and draws them.
+/// Makes the recipe's atlases in files that go away, and draws them.
 fn of_recipe(args: &Args) -> Result<Vec<Product>> {
     let (recipe, backend) = (Recipe::read(&args.source)?, args.backend.one()?);
     check(&args.source, &recipe, &args.out)?;
+    generate::check_room(&recipe, &args.out)?;
     let stop = super::stop_flag()?;
     output::make_folder(&args.out)?;
-    // Beside the pictures: there is room for them, and the system's own folder may be memory.
-    let folder = tempfile::Builder::new().prefix(".spiral-atlas-").tempdir_in(&args.out);
-    let folder = folder.map_err(|source| Error::Io { path: args.out.clone(), source })?;
     let (mut atlases, mut products) = (Vec::new(), Vec::new());
     for plan in &recipe.atlases {
-        let path = generate::atlas_path(folder.path(), &plan.name);
-        generate::write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
-        let atlas = Atlas::open(&path)?;
+        // Beside the pictures: there is room for them, and the system's own folder may be memory.
+        let path = generate::atlas_path(&args.out, &plan.name);
+        let (_, writer) = generate::write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
+        let atlas = writer.open()?;
         products.extend(one(&atlas, &pictures::plans(&atlas)?, &args.out)?);
         atlases.push(atlas);
     }
@@ -73,7 +73,7 @@ fn of_recipe(args: &Args) -> Result<Vec<Product>> {
 pub fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
     let files = pictures::files(folder, &atlas.about().name, plans.len());
     let draw = |(plan, file): (&PicturePlan, PathBuf)| {
-        spiral_atlas::files::write_file(&file, &pictures::draw(atlas, plan)?)?;
+        write_file(&file, &pictures::draw(atlas, plan)?)?;
         Product::of(&file)
     };
     plans.iter().zip(files).map(draw).collect()
@@ -91,14 +91,15 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
         return Ok(None);
     }
     let (stem, file) = (stem(source), together_path(source, folder));
-    spiral_atlas::files::write_file(&file, &pictures::side_by_side(&stem, slices)?)?;
+    write_file(&file, &pictures::side_by_side(&stem, slices)?)?;
     Product::of(&file).map(Some)
 }
 
-/// Makes sure, before any work, that every grid lies in the family's domain and no two pictures of a recipe have one name.
+/// Makes sure, before any work, that every grid lies in the family's domain, no two pictures of a recipe have one name, and nothing
+/// but files has these names.
 ///
 /// # Errors
-/// Those of [`spiral_atlas::family::Family::table`], and [`Error::Recipe`] that names the file.
+/// Those of [`spiral_atlas::family::Family::table`], [`Error::Recipe`] that names the file, and [`Error::Io`].
 pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
     for plan in &recipe.atlases {
         plan.family.table(&plan.grid).map_err(|e| match e {
@@ -116,7 +117,7 @@ pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
     }
     files.sort();
     match files.windows(2).find(|pair| pair[0] == pair[1]) {
-        None => Ok(()),
+        None => files.iter().try_for_each(|file| check_place(file)),
         Some(pair) => Err(Error::Recipe(format!(
             "two pictures would be {}; rename an atlas, or the recipe itself (slices side by side bear its name)",
             pair[0].display()

@@ -14,14 +14,19 @@ use std::sync::atomic::AtomicBool;
 
 /// Recompute an atlas and compare every byte.
 ///
-/// By default with the CPU and with every GPU adapter there is, hardware and software. Exits with 1 when anything differs:
-/// a hash, the legend, the recipe, or a value of a node.
+/// By default with the CPU and with every GPU adapter there is, hardware and software. Where there is no adapter, the CPU alone
+/// recomputes it, and the output says so. The exit status is 1 when anything differs: a hash, the legend, the recipe, or a value of a
+/// node.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas verify out/quickstart.atlas.safetensors\n  \
-                        spiral-atlas verify out/quickstart.atlas.safetensors --adapter llvmpipe --json")]
+                        spiral-atlas verify out/quickstart.atlas.safetensors --adapter llvmpipe --json\n  \
+                        spiral-atlas verify out/quickstart.atlas.safetensors --require-adapter")]
 pub struct Args {
     /// The atlas.
     atlas: PathBuf,
+    /// Fail, with status 2, unless a GPU adapter can recompute it too.
+    #[arg(long)]
+    require_adapter: bool,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -51,6 +56,8 @@ struct Verified {
     /// What is wrong before any node is looked at; empty is good.
     faults: Vec<String>,
     comparisons: Vec<Compared>,
+    /// Why no GPU recomputed it; null when one did.
+    no_gpu: Option<String>,
     good: bool,
 }
 
@@ -60,7 +67,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let family = pictures::of(&atlas)?;
     let scalars = scalars(&atlas, family)?;
     let job = Job { family, grid: atlas.grid(), scalars: &scalars };
-    let (stored, backends) = (stored(&atlas)?, args.backend.all()?);
+    let (stored, (backends, no_gpu)) = (stored(&atlas)?, args.backend.all(args.require_adapter)?);
     let stop = super::stop_flag()?;
     let hashes = atlas.check_hashes().err().map(|e| e.to_string());
     let faults: Vec<String> = [hashes, legend_fault(&atlas, family), recipe_fault(&atlas)].into_iter().flatten().collect();
@@ -69,7 +76,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let comparisons = backends.iter().map(compare).collect::<Result<Vec<_>>>()?;
     let good = faults.is_empty() && !comparisons.is_empty() && comparisons.iter().all(Compared::holds);
     let id = atlas.id().to_hex().to_string();
-    let verified = Verified { atlas: args.atlas.clone(), id, faults, comparisons, good };
+    let verified = Verified { atlas: args.atlas.clone(), id, faults, comparisons, no_gpu, good };
     if args.json {
         output::print_json(&verified)?
     } else {
@@ -145,6 +152,9 @@ impl Verified {
         }
         for compared in &self.comparisons {
             text += &format!("  {}", compared.text());
+        }
+        if let Some(why) = &self.no_gpu {
+            text += &format!("  NOT compared with any GPU ({why})\n");
         }
         text
     }

@@ -41,7 +41,7 @@
 //! levels = [0.1, 0.3, 0.5]
 //! ```
 //!
-//! Angles may be written `"40deg"` on axes of angles.
+//! Angles may be written `"40deg"` or `"40°"` on axes of angles.
 
 mod levels;
 mod raw;
@@ -145,13 +145,14 @@ impl Recipe {
         resolve(&text).map_err(|fault| fault.within(&text))
     }
 
-    /// Reads a recipe from a file.
+    /// Reads a recipe from a file, or from standard input for `-`.
     ///
     /// # Errors
-    /// [`Error::Io`], or [`Error::Recipe`] as [`Recipe::parse`] has it, with the file's name.
+    /// [`Error::Io`], also for a text that is too long for the header of an atlas (1 MiB); or [`Error::Recipe`] as
+    /// [`Recipe::parse`] has it, with the file's name.
     pub fn read(path: impl AsRef<Path>) -> Result<Recipe> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
+        let text = crate::files::read_text(path, crate::files::LONGEST_RECIPE)?;
         Recipe::parse(&text).map_err(|e| match e {
             Error::Recipe(what) => Error::Recipe(format!("{}: {what}", path.display())),
             other => other,

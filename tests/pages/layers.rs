@@ -17,7 +17,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("curve", &["num", "error"]),
     ("family", &["curve", "grid", "num", "error"]),
     ("eval", &["family", "grid", "num", "error"]),
-    ("recipe", &["family", "grid", "num", "error"]),
+    ("recipe", &["family", "grid", "num", "files", "error"]),
     ("atlas", &["eval", "family", "grid", "num", "files", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
     ("path", &["family", "curve", "num", "error"]),

@@ -16,7 +16,6 @@ use serde::de::DeserializeOwned;
 use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::{Error, Result};
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Plan paths of Pythagorean-hodograph quintics: through ends, through points, of equal length,
@@ -57,6 +56,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
 }
 
+/// Longest input in bytes: a million spans have 200 MiB.
+const MAX_INPUT: u64 = 1 << 28;
+
 /// What a tool works on and where it draws.
 #[derive(clap::Args)]
 struct Files {
@@ -73,13 +75,7 @@ impl Files {
         if let Some(path) = self.figure.as_ref().filter(|p| !has_extension(p, "png")) {
             return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
         }
-        let io = |source| Error::Io { path: self.input.clone(), source };
-        let mut text = String::new();
-        if self.input == Path::new("-") {
-            std::io::stdin().read_to_string(&mut text).map_err(io)?;
-        } else {
-            text = std::fs::read_to_string(&self.input).map_err(io)?;
-        }
+        let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
         input::parse(&text, has_extension(&self.input, "toml")).map_err(|e| self.blame(Error::Domain(e)))
     }
 

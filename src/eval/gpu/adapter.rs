@@ -87,6 +87,16 @@ impl Health {
     }
 }
 
+impl Drop for Gpu {
+    /// A device that failed is left to the system. wgpu's own teardown waits for it and looks for things that a failed call left behind,
+    /// and panics on either; a panic while another one unwinds would even end the process. There is one such device a run at most.
+    fn drop(&mut self) {
+        if self.check().is_err() {
+            std::mem::forget((self.device.clone(), self.queue.clone()));
+        }
+    }
+}
+
 impl Gpu {
     /// Opens the adapter of a choice; see [`select`].
     pub(super) fn open(choice: Option<&str>) -> Result<Gpu> {
@@ -101,13 +111,16 @@ impl Gpu {
             memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         };
-        let (device, queue) = block_on(adapter.request_device(&descriptor))
-            .map_err(|e| Error::Gpu(format!("{} does not open: {e}", facts.label())))?;
+        let closed = |what: &str| Error::Gpu(format!("{} does not open: {what}", facts.label()));
+        // wgpu compiles shaders of its own here, and panics as it clears up after a driver that refuses them.
+        let opened = super::caught(|| block_on(adapter.request_device(&descriptor)));
+        let opened = opened.ok_or_else(|| closed("its driver failed; restart the machine, or use the CPU (`--backend cpu`)"))?;
+        let (device, queue) = opened.map_err(|e| closed(&e.to_string()))?;
         let health = Health::default();
         let (uncaptured, lost) = (health.clone(), health.clone());
         device.on_uncaptured_error(Arc::new(move |e| uncaptured.report(e.to_string())));
-        device.set_device_lost_callback(move |reason, message| {
-            lost.report(format!("the device was lost ({reason:?}): {message}; run again, or use the CPU (`--backend cpu`)"));
+        device.set_device_lost_callback(move |_, message| {
+            lost.report(format!("the device was lost: {message}; run again, or use the CPU (`--backend cpu`)"));
         });
         Ok(Gpu { facts, device, queue, limits, health })
     }

@@ -23,6 +23,7 @@ use adapter::Gpu;
 use pace::Pace;
 use program::Program;
 use slot::{Flight, Slot};
+use std::cell::Cell;
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -37,6 +38,25 @@ const IN_FLIGHT: usize = 3;
 const MOST_NODES: u64 = 1 << 23;
 /// How long to wait before looking again whether the user asked to stop.
 const PATIENCE: Duration = Duration::from_millis(500);
+
+thread_local! {
+    static CATCHING: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether a panic on this thread, at this moment, would be caught and become an [`Error::Gpu`].
+///
+/// The panic hook of a program may then stay silent: the error tells more. (The library must not set a hook, which belongs to the program.)
+pub fn panic_becomes_error() -> bool {
+    CATCHING.get()
+}
+
+/// Calls wgpu where it is known to panic on failures of the driver; none when it did.
+fn caught<T>(call: impl FnOnce() -> T) -> Option<T> {
+    CATCHING.set(true);
+    let outcome = catch_unwind(AssertUnwindSafe(call));
+    CATCHING.set(false);
+    outcome.ok()
+}
 
 /// How work is cut up. It changes speed, never a bit of the result; the defaults are measured (see DESIGN.md).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -218,12 +238,12 @@ impl<'t> Engine<'t> {
 
     fn poll(&self, how: wgpu::PollType) -> Result<()> {
         // wgpu panics when the wait itself fails, as it does on a device lost by a driver's reset.
-        let outcome = catch_unwind(AssertUnwindSafe(|| self.gpu.device.poll(how)));
+        let outcome = caught(|| self.gpu.device.poll(how));
         self.gpu.check()?;
         match outcome {
-            Ok(Ok(_) | Err(wgpu::PollError::Timeout)) => Ok(()),
-            Ok(Err(e)) => Err(self.gpu.error(&e.to_string())),
-            Err(_) => Err(self.gpu.error("the device failed while it was waited for")),
+            Some(Ok(_) | Err(wgpu::PollError::Timeout)) => Ok(()),
+            Some(Err(e)) => Err(self.gpu.error(&e.to_string())),
+            None => Err(self.gpu.error("the device failed while it was waited for")),
         }
     }
 }
