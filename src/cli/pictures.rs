@@ -5,16 +5,14 @@ use spiral_atlas::atlas::Atlas;
 use spiral_atlas::eval::{Backend, Job, evaluate};
 use spiral_atlas::family::{Family, Flag};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
-use spiral_atlas::plot::{self, AxisView, Mark, Multiples, Region, Slice};
-use spiral_atlas::recipe::{Levels, PictureKind, PicturePlan, Recipe, is_angle};
+use spiral_atlas::plot::{self, AxisView, Mark, Multiples, Region, Sheet, Slice};
+use spiral_atlas::recipe::{Levels, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE, is_angle};
 use spiral_atlas::{Error, Result, family};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-const SLICE: (u32, u32) = (1000, 860);
-const MULTIPLES: (u32, u32) = (1500, 1350);
-/// Each panel of slices side by side.
-const PANEL: (u32, u32) = (620, 700);
+/// Height of the heading above slices of unlike regions, in pixels at the usual resolution.
+const HEAD: u32 = 40;
 
 /// The plans of an atlas: those of the recipe in its metadata or, where that has none, its default slice.
 ///
@@ -45,6 +43,7 @@ fn default_slice(atlas: &Atlas) -> Result<PicturePlan> {
         outlines: Vec::new(),
         levels: None,
         marks: Vec::new(),
+        look: Look::default(),
     })
 }
 
@@ -62,16 +61,24 @@ pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
 /// Those of [`plot`], and [`Error::Domain`] for a family that this program does not have.
 pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
     match plan.kind {
-        PictureKind::Slice | PictureKind::Union | PictureKind::Compare { .. } => plot::slice_png(&slice(atlas, plan)?, SLICE),
-        PictureKind::Multiples => plot::multiples_png(&multiples(atlas, plan)?, MULTIPLES),
+        PictureKind::Slice | PictureKind::Union | PictureKind::Compare { .. } => {
+            plot::slice_png(&slice(atlas, plan)?, sheet(&plan.look, SLICE_SIZE))
+        }
+        PictureKind::Multiples => plot::multiples_png(&multiples(atlas, plan)?, sheet(&plan.look, MULTIPLES_SIZE)),
     }
+}
+
+/// The sheet for a look, of a usual size at the usual resolution.
+fn sheet(look: &Look, usual: (u32, u32)) -> Sheet {
+    Sheet { size: look.pixels(usual), dpi: look.dpi }
 }
 
 /// Draws slices of several atlases side by side: under one legend where they show the same, or else each with its own.
 ///
 /// # Errors
 /// As [`draw`].
-pub fn side_by_side(title: &str, mut slices: Vec<Slice>) -> Result<Vec<u8>> {
+pub fn side_by_side(stem: &str, look: &Look, mut slices: Vec<Slice>) -> Result<Vec<u8>> {
+    let title = look.title.as_deref().unwrap_or(stem);
     // The legend counts all panels together.
     for slice in &mut slices {
         let share = |region: &Region| {
@@ -83,11 +90,14 @@ pub fn side_by_side(title: &str, mut slices: Vec<Slice>) -> Result<Vec<u8>> {
     let count = slices.len() as u32;
     let labels = |slice: &Slice| slice.regions.iter().chain(&slice.outlines).map(|r| r.label.clone()).collect::<Vec<_>>();
     if slices.iter().any(|slice| labels(slice) != labels(&slices[0])) {
-        return plot::montage_png(title, &slices, slices.len().min(3), PANEL);
+        let columns = slices.len().min(3);
+        let rows = slices.len().div_ceil(columns) as u32;
+        let usual = (PANEL_SIZE.0 * columns as u32, PANEL_SIZE.1.saturating_mul(rows) + HEAD);
+        return plot::montage_png(title, &slices, columns, sheet(look, usual));
     }
     let columns = vec![String::new(); slices.len()];
     let figure = Multiples { title: title.into(), note: String::new(), columns, rows: vec![String::new()], panels: slices };
-    plot::multiples_png(&figure, (PANEL.0.saturating_mul(count), PANEL.1))
+    plot::multiples_png(&figure, sheet(look, (PANEL_SIZE.0.saturating_mul(count), PANEL_SIZE.1)))
 }
 
 /// The slice of a plan: the chosen node of each axis that is not drawn or, of a union, all chosen ones together.
@@ -111,44 +121,60 @@ pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
         slice.regions = compared(atlas, plan, with)?;
         slice.outlines = Vec::new();
     }
-    slice.title = title.trim_end_matches([':', ' ']).to_owned();
+    slice.title = heading(plan, &title);
     let (x, y) = (slice.x.values.len() as u64, slice.y.values.len() as u64);
     slice.note = format!("{} × {} = {} nodes, each proved", grouped(x), grouped(y), grouped(x * y));
     slice.marks = plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect();
     Ok(slice)
 }
 
-/// Panels over the other axes: the last one to the right, the one before upwards.
+/// The heading that the recipe chooses, or else this one, which may end with a colon.
+fn heading(plan: &PicturePlan, usual: &str) -> String {
+    plan.look.title.as_deref().unwrap_or(usual.trim_end_matches([':', ' '])).to_owned()
+}
+
+/// Panels over the other axes. Those of one node are told in the heading; of the rest the slower ones make the rows, upwards, and the
+/// faster ones the columns.
 fn multiples(atlas: &Atlas, plan: &PicturePlan) -> Result<Multiples> {
-    let (axes, empty) = (atlas.grid().axes(), (0, vec![0]));
-    let (rows, columns) = match plan.at.as_slice() {
-        [rows, columns] => (Some(rows), Some(columns)),
-        [columns] => (None, Some(columns)),
-        _ => (None, None),
-    };
-    let captions = |of: Option<&(usize, Vec<usize>)>| match of {
-        Some((axis, nodes)) => nodes.iter().map(|node| place(&axes[*axis], *node)).collect(),
-        None => vec![String::new()],
-    };
-    let nodes = |of: Option<&(usize, Vec<usize>)>| of.unwrap_or(&empty).1.clone();
+    let axes = atlas.grid().axes();
+    let (fixed, open): (Vec<_>, Vec<_>) = plan.at.iter().cloned().partition(|(_, nodes)| nodes.len() == 1);
+    // As many slow axes make the rows as leave the grid of panels least long.
+    let count = |of: &[Chosen]| of.iter().map(|(_, nodes)| nodes.len()).product::<usize>();
+    let split = (0..open.len()).min_by_key(|split| count(&open[..*split]).max(count(&open[*split..]))).unwrap_or(0);
+    let rows: Vec<Vec<Chosen>> = combinations(&open[..split]).into_iter().rev().collect();
+    let columns = combinations(&open[split..]);
     let mut panels = Vec::new();
-    for row in nodes(rows).into_iter().rev() {
-        for column in nodes(columns) {
-            let at = |of: Option<&(usize, Vec<usize>)>, node| of.map(|(axis, _)| (*axis, vec![node]));
-            let fixed: Vec<(usize, Vec<usize>)> = at(rows, row).into_iter().chain(at(columns, column)).collect();
-            panels.push(panel(atlas, plan, &fixed)?);
+    for row in &rows {
+        for column in &columns {
+            panels.push(panel(atlas, plan, &[&fixed[..], row, column].concat())?);
         }
     }
-    let (name, total) = (&atlas.about().name, panels.iter().map(|p| p.x.values.len() * p.y.values.len()).sum::<usize>());
-    let mut rows: Vec<String> = captions(rows);
-    rows.reverse();
-    let of = plan
-        .at
+    let caption = |at: &Vec<Chosen>| at.iter().map(|(axis, nodes)| place(&axes[*axis], nodes[0])).collect::<Vec<_>>();
+    let title = format!("{}: {}", atlas.about().name, caption(&fixed).join(", "));
+    let nodes = panels.iter().map(|p| p.x.values.len() * p.y.values.len()).sum::<usize>();
+    let of = open
         .iter()
         .map(|(axis, nodes)| format!("{} of {} {}", nodes.len(), axes[*axis].values().len(), plot::symbol(axes[*axis].name())));
     let of = of.collect::<Vec<_>>().join(", ");
-    let note = format!("{} panels ({of}), {} nodes, each proved", panels.len(), grouped(total as u64));
-    Ok(Multiples { title: name.clone(), note, columns: captions(columns), rows, panels })
+    let of = if of.is_empty() { "1 panel".to_owned() } else { format!("{} panels ({of})", panels.len()) };
+    Ok(Multiples {
+        title: heading(plan, &title),
+        note: format!("{of}, {} nodes, each proved", grouped(nodes as u64)),
+        columns: columns.iter().map(|at| caption(at).join("\n")).collect(),
+        rows: rows.iter().map(|at| caption(at).join("\n")).collect(),
+        panels,
+    })
+}
+
+/// An axis that is not drawn, and the nodes chosen of it.
+type Chosen = (usize, Vec<usize>);
+
+/// All ways to take one node of each axis, the last axis fastest; one empty way for no axes.
+fn combinations(axes: &[Chosen]) -> Vec<Vec<Chosen>> {
+    axes.iter().fold(vec![vec![]], |all, (axis, nodes)| {
+        let longer = |way: Vec<Chosen>| nodes.iter().map(move |node| [way.clone(), vec![(*axis, vec![*node])]].concat());
+        all.into_iter().flat_map(longer).collect()
+    })
 }
 
 /// The flags on a plane of the atlas through nodes of the other axes, x fastest; where there are several, what is true at any of them.

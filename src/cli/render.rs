@@ -91,7 +91,7 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
         return Ok(None);
     }
     let (stem, file) = (stem(source), together_path(source, folder));
-    write_file(&file, &pictures::side_by_side(&stem, slices)?)?;
+    write_file(&file, &pictures::side_by_side(&stem, &recipe.look, slices)?)?;
     Product::of(&file).map(Some)
 }
 

@@ -1,6 +1,7 @@
 //! Axes beside a rectangle: ticks, numbers, labels.
 
-use super::canvas::{Canvas, INK, Pen, Rect};
+use super::canvas::{Canvas, Pen, Rect};
+use super::palette::INK;
 use super::scale::{Room, Scale, Tick};
 
 /// Sizes that a figure's parts share, in pixels.

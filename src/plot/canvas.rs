@@ -1,23 +1,15 @@
 //! A white sheet of pixels with anti-aliased lines and text. Only correctly rounded arithmetic and the font that comes
 //! with the program: the same calls give the same bytes.
 
+use super::palette::{Color, INK, WHITE};
 use crate::error::{Error, Result};
+use crate::recipe::{DPI, MAX_PIXELS};
 use ab_glyph::{Font, FontRef, Glyph, GlyphId, PxScale, ScaleFont, point};
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
-
-/// Most pixels of a picture: a typing error should not fill the memory.
-const MAX_PIXELS: u64 = 1 << 25;
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter, PixelDimensions, Unit};
 
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 
-/// Red, green, blue.
-pub(super) type Color = [u8; 3];
 pub(super) type Point = [f64; 2];
-
-pub(super) const WHITE: Color = [255, 255, 255];
-pub(super) const INK: Color = [34, 34, 34];
-pub(super) const GREY: Color = [95, 95, 95];
 
 /// Pixels from `left` to before `right`, from `top` to before `bottom`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,6 +46,22 @@ impl Rect {
     }
 }
 
+/// The sheet of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sheet {
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+    /// Pixels per inch. The file says so; what is drawn depends on the size alone.
+    pub dpi: u32,
+}
+
+impl From<(u32, u32)> for Sheet {
+    /// A sheet of so many pixels, at 96 pixels per inch.
+    fn from(size: (u32, u32)) -> Sheet {
+        Sheet { size, dpi: DPI }
+    }
+}
+
 /// How a text is written.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pen {
@@ -74,12 +82,14 @@ impl Pen {
 
 pub(super) struct Canvas {
     size: (u32, u32),
+    dpi: u32,
     pixels: Vec<u8>,
     font: FontRef<'static>,
 }
 
 impl Canvas {
-    pub fn new(size: (u32, u32)) -> Result<Canvas> {
+    pub fn new(sheet: impl Into<Sheet>) -> Result<Canvas> {
+        let Sheet { size, dpi } = sheet.into();
         let (width, height) = size;
         let count = u64::from(width) * u64::from(height);
         if count == 0 || count > MAX_PIXELS {
@@ -87,7 +97,7 @@ impl Canvas {
             return Err(Error::Domain(format!("a picture of {width} x {height} pixels; {limit}")));
         }
         let font = FontRef::try_from_slice(FONT).map_err(|e| Error::Domain(format!("the built-in font: {e}")))?;
-        Ok(Canvas { size, pixels: vec![255; count as usize * 3], font })
+        Ok(Canvas { size, dpi, pixels: vec![255; count as usize * 3], font })
     }
 
     /// The whole sheet.
@@ -97,11 +107,23 @@ impl Canvas {
 
     /// The picture as a PNG file.
     pub fn into_png(self) -> Result<Vec<u8>> {
+        self.encoded().map_err(|e| Error::Domain(format!("PNG of {} x {} pixels: {e}", self.size.0, self.size.1)))
+    }
+
+    fn encoded(&self) -> std::result::Result<Vec<u8>, EncodingError> {
         let mut png = Vec::new();
+        let mut encoder = Encoder::new(&mut png, self.size.0, self.size.1);
+        encoder.set_color(ColorType::Rgb);
+        encoder.set_depth(BitDepth::Eight);
+        // Pixels per metre, which is what the chunk pHYs has.
+        let density = (f64::from(self.dpi) / 0.0254).round() as u32;
+        encoder.set_pixel_dims(Some(PixelDimensions { xppu: density, yppu: density, unit: Unit::Meter }));
         // Large even areas: unfiltered, they take less than half as much.
-        PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::NoFilter)
-            .write_image(&self.pixels, self.size.0, self.size.1, ExtendedColorType::Rgb8)
-            .map_err(|e| Error::Domain(format!("PNG of {} x {} pixels: {e}", self.size.0, self.size.1)))?;
+        encoder.set_compression(Compression::High);
+        encoder.set_filter(Filter::NoFilter);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.pixels)?;
+        writer.finish()?;
         Ok(png)
     }
 
@@ -151,6 +173,13 @@ impl Canvas {
         ] {
             self.fill(side, color);
         }
+    }
+
+    /// A line with a white casing on both sides, so that it stands out from whatever it crosses.
+    pub fn cased(&mut self, points: &[Point], width: f64, color: Color, clip: Rect) {
+        let casing = (width / 2.0).clamp(1.0, 3.0);
+        self.line(points, width + 2.0 * casing, WHITE, clip);
+        self.line(points, width, color, clip);
     }
 
     /// A line through points, with round ends and joints, in the part of the sheet within `clip`. Parts with a point

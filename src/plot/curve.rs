@@ -1,15 +1,12 @@
 //! A curve with its control polygon and end circles, its curvature, and the derivative of its curvature.
 
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
-use super::canvas::{Canvas, Color, GREY, INK, Point, Rect};
+use super::canvas::{Canvas, Point, Rect};
 use super::legend::{Entry, Heading, Key, Legend};
+use super::palette::{GREY, INK, LINES, PALE, RED};
 use super::scale::Scale;
 use super::slice::check_room;
 use crate::error::{Error, Result};
-
-const CIRCLES: [Color; 3] = [[0, 114, 178], [213, 94, 0], [0, 158, 115]];
-const WRONG: Color = [200, 30, 30];
-const PALE: Color = [190, 190, 190];
 
 /// From this ratio of largest to smallest on, positive values get a logarithmic axis.
 const LOG_RATIO: f64 = 300.0;
@@ -125,12 +122,12 @@ fn entries(figure: &CurveFigure) -> Vec<Entry> {
     if !figure.control.is_empty() {
         entries.push(Entry { key: Key::Line(GREY, 0.09), text: "control polygon".into() });
     }
-    for (circle, color) in figure.circles.iter().zip(CIRCLES.into_iter().cycle()) {
+    for (circle, color) in figure.circles.iter().zip(LINES.into_iter().cycle()) {
         entries.push(Entry { key: Key::Line(color, 0.1), text: circle.label.clone() });
     }
     let wrong = turns_back(figure);
     if figure.derivative.points.iter().any(|p| wrong(*p)) {
-        entries.push(Entry { key: Key::Line(WRONG, 0.16), text: "curvature turns back".into() });
+        entries.push(Entry { key: Key::Line(RED, 0.16), text: "curvature turns back".into() });
     }
     entries
 }
@@ -166,14 +163,14 @@ fn draw_curve(canvas: &mut Canvas, figure: &CurveFigure, style: Style, area: Rec
     canvas.frame(rect, GREY);
     let em = style.em;
     let diagonal = f64::from(rect.width() + rect.height()) / unit(&x, rect);
-    for (circle, color) in figure.circles.iter().zip(CIRCLES.into_iter().cycle()) {
-        canvas.line(&to_sheet(&arc(circle, diagonal)), em * 0.1, color, rect);
+    for (circle, color) in figure.circles.iter().zip(LINES.into_iter().cycle()) {
+        canvas.cased(&to_sheet(&arc(circle, diagonal)), em * 0.1, color, rect);
     }
     let control = to_sheet(&figure.control);
-    canvas.line(&control, em * 0.09, GREY, rect);
-    canvas.line(&to_sheet(&figure.curve), em * 0.2, INK, rect);
+    canvas.cased(&control, em * 0.09, GREY, rect);
+    canvas.cased(&to_sheet(&figure.curve), em * 0.2, INK, rect);
     for point in control {
-        canvas.line(&[point, point], em * 0.55, GREY, rect.grown(style.px(0.3)));
+        canvas.cased(&[point, point], em * 0.55, GREY, rect.grown(style.px(0.3)));
     }
     draw_below(canvas, &x, style, rect, true);
     draw_left(canvas, &y, style, rect, true);
@@ -271,7 +268,7 @@ fn draw_graph(canvas: &mut Canvas, graph: &Graph, [x, y]: [Scale; 2], style: Sty
     // Points that are not finite interrupt a line.
     let only_wrong = |(p, place): (&Point, &Point)| if wrong(*p) { *place } else { [f64::NAN; 2] };
     let wrong: Vec<Point> = graph.points.iter().zip(&places).map(only_wrong).collect();
-    canvas.line(&wrong, style.em * 0.24, WRONG, rect);
+    canvas.line(&wrong, style.em * 0.24, RED, rect);
     draw_below(canvas, &x, style, rect, true);
     draw_left(canvas, &y, style, rect, true);
 }

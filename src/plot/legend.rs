@@ -1,7 +1,8 @@
 //! Heading above a figure and legend below it.
 
 use super::axes::Style;
-use super::canvas::{Canvas, Color, GREY, INK, Pen, Point, Rect, WHITE};
+use super::canvas::{Canvas, Pen, Point, Rect};
+use super::palette::{Color, GREY, INK, OUTLINES, WHITE};
 
 /// The sign of a legend's entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,7 +10,7 @@ pub(super) enum Key {
     /// A filled region.
     Fill(Color),
     /// A line hatched on one side.
-    Hatched(Color),
+    Hatched(Outline),
     /// A line; the second number is its width in em.
     Line(Color, f64),
     /// The star of marks.
@@ -77,19 +78,33 @@ fn draw_key(canvas: &mut Canvas, style: Style, rect: Rect, key: Key) {
             canvas.fill(rect, color);
             canvas.frame(rect, GREY);
         }
-        Key::Hatched(color) => {
+        Key::Hatched(outline) => {
             let hatch = Hatch::new(style);
             for y in rect.top..rect.bottom {
                 for x in rect.left..rect.right {
-                    let cover = if y < rect.top + hatch.line { 1.0 } else { hatch.stripe(x, y) };
-                    canvas.blend(x, y, color, cover);
+                    hatch.draw(canvas, x, y, outline);
                 }
             }
+            canvas.fill(Rect { bottom: rect.top + hatch.line, ..rect }, outline.color);
         }
         Key::Line(color, width) => {
             canvas.line(&[rect.at(0.0, 0.5), rect.at(1.0, 0.5)], width * style.em, color, rect.grown(2));
         }
         Key::Star => star(canvas, rect.at(0.5, 0.5), style.em * 0.6),
+    }
+}
+
+/// How one of several outlines is told from the others: by its colour, and where there are more than colours, by the way its stripes run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Outline {
+    pub color: Color,
+    /// Whether stripes rise to the right. Those of the first ones fall, because boundaries tend to rise.
+    rising: bool,
+}
+
+impl Outline {
+    pub fn of(index: usize) -> Outline {
+        Outline { color: OUTLINES[index % OUTLINES.len()], rising: index / OUTLINES.len() % 2 == 1 }
     }
 }
 
@@ -102,20 +117,24 @@ pub(super) struct Hatch {
     pub band: i32,
     period: f64,
     half: f64,
+    casing: f64,
 }
 
 impl Hatch {
     pub fn new(style: Style) -> Hatch {
         let line = style.px(0.13).max(1);
-        Hatch { line, band: style.px(0.7).max(3), period: style.em * 0.5, half: style.em * 0.04 + 0.1 }
+        Hatch { line, band: style.px(0.8).max(4), period: style.em * 0.7, half: style.em * 0.04 + 0.1, casing: style.em * 0.06 }
     }
 
-    /// How much of this pixel the stripes cover.
-    pub fn stripe(&self, x: i32, y: i32) -> f64 {
-        // Distance from the nearest of the lines x - y = multiple of the period: they fall to the right, for boundaries tend to rise.
-        let off = f64::from(x - y).rem_euclid(self.period);
+    /// Draws as much of the stripes and their casing as lies on this pixel.
+    pub fn draw(&self, canvas: &mut Canvas, x: i32, y: i32, outline: Outline) {
+        // Distance from the nearest of the lines x - y, or x + y, = multiple of the period.
+        let off = f64::from(if outline.rising { x + y } else { x - y }).rem_euclid(self.period);
         let distance = off.min(self.period - off) / std::f64::consts::SQRT_2;
-        (self.half + 0.5 - distance).clamp(0.0, 1.0)
+        let cover = |half: f64| (half + 0.5 - distance).clamp(0.0, 1.0);
+        // A pixel that the stripe touches at all is white under it.
+        canvas.blend(x, y, WHITE, cover(self.half + self.casing.max(1.0) + 0.5));
+        canvas.blend(x, y, outline.color, cover(self.half));
     }
 }
 

@@ -8,12 +8,15 @@ mod canvas;
 mod curve;
 mod legend;
 mod multiples;
+mod palette;
 mod paths;
 mod scale;
 mod slice;
 
+pub use canvas::Sheet;
 pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
 pub use multiples::{Multiples, multiples_png};
+pub use palette::region_colors;
 pub use paths::{Backdrop, Lines, PathsFigure, paths_png};
 pub use slice::{montage_png, slice_png};
 
@@ -67,31 +70,6 @@ pub struct Slice {
     pub marks: Vec<Mark>,
     /// Small print below the heading; may be empty.
     pub note: String,
-}
-
-/// The colours of `count` nested regions, largest first: from light to dark, so that they stay apart without colour
-/// and for colour-blind readers.
-pub fn region_colors(count: usize) -> Vec<[u8; 3]> {
-    const RAMP: [[u8; 3]; 4] = [[226, 226, 226], [242, 188, 60], [38, 137, 152], [54, 26, 92]];
-    let picked: &[usize] = match count {
-        0..=1 => &[2],
-        2 => &[0, 1],
-        3 => &[0, 1, 3],
-        _ => &[0, 1, 2, 3],
-    };
-    if count <= 4 {
-        return picked.iter().take(count).map(|&i| RAMP[i]).collect();
-    }
-    let mixed = |i: usize| {
-        let at = i * 3;
-        let (low, part) = ((at / (count - 1)).min(2), at as f64 / (count - 1) as f64);
-        let mix = |c: usize| {
-            let (a, b) = (f64::from(RAMP[low][c]), f64::from(RAMP[low + 1][c]));
-            (a + (b - a) * (part - low as f64)).round() as u8
-        };
-        [mix(0), mix(1), mix(2)]
-    };
-    (0..count).map(mixed).collect()
 }
 
 /// An axis name as a formula: `phi0` becomes `φ₀`, `kappa1` becomes `κ₁`; unknown names stay.

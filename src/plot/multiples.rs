@@ -2,10 +2,13 @@
 
 use super::Slice;
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
-use super::canvas::{Canvas, Pen, Rect};
+use super::canvas::{Canvas, Pen, Rect, Sheet};
 use super::legend::{Heading, Legend};
 use super::slice::{Panel, check_room, entries};
 use crate::error::{Error, Result};
+
+/// Height of a line of a caption, in em.
+const LINE: f64 = 1.25;
 
 /// Slices in rows and columns, usually over two outer axes of a grid.
 ///
@@ -17,24 +20,25 @@ pub struct Multiples {
     pub title: String,
     /// Small print below the heading; may be empty.
     pub note: String,
-    /// What stands above each column; may be empty texts.
+    /// What stands above each column; may be empty texts, or of several lines.
     pub columns: Vec<String>,
-    /// What stands beside each row, topmost first; may be empty texts.
+    /// What stands beside each row, topmost first; may be empty texts, or of several lines.
     pub rows: Vec<String>,
     /// The panels row by row, all with the same labels of regions and outlines. Their titles and notes stand above them.
     pub panels: Vec<Slice>,
 }
 
-/// Draws small multiples of `size` (width, height) pixels in all; the legend counts the nodes of all panels.
+/// Draws small multiples on a sheet; the legend counts the nodes of all panels.
 ///
 /// # Errors
 /// [`Error::Domain`] when the number of panels is not rows times columns, when two panels have different regions, and
 /// whenever [`super::slice_png`] would fail for a panel.
-pub fn multiples_png(figure: &Multiples, size: (u32, u32)) -> Result<Vec<u8>> {
-    let mut canvas = Canvas::new(size)?;
+pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
+    let sheet = sheet.into();
+    let mut canvas = Canvas::new(sheet)?;
     check(figure)?;
     let panels = figure.panels.iter().map(Panel::new).collect::<Result<Vec<_>>>()?;
-    let layout = Layout::new(&canvas, figure, &panels, size)?;
+    let layout = Layout::new(&canvas, figure, &panels, sheet.size)?;
     let style = layout.style;
     layout.heading.draw(&mut canvas, style, layout.sheet);
     for (i, (panel, slice)) in panels.iter().zip(&figure.panels).enumerate() {
@@ -117,20 +121,21 @@ impl<'a> Layout<'a> {
 
         let label = style.px(1.6);
         let gap = style.px(if shared { 0.8 } else { 1.4 });
-        let has = |captions: &[String]| captions.iter().any(|c| !c.is_empty());
+        let lines = |captions: &[String]| captions.iter().map(|c| c.lines().count()).max().unwrap_or(0);
+        let captions = |of: &[String]| style.px(LINE * lines(of) as f64 + 0.35);
         let about = sheet.width() / columns - style.px(if shared { 1.0 } else { 6.0 });
         let heights = figure.panels.iter().map(|p| Heading::new(canvas, &p.title, &p.note, small, about).height(small));
         let above = heights.max().unwrap_or(0);
         let below = style.below() + label;
 
-        let top = sheet.top + heading.height(style) + if has(&figure.columns) { style.px(1.6) } else { style.px(0.7) };
+        let top = sheet.top + heading.height(style) + captions(&figure.columns).max(style.px(0.7));
         let bottom = sheet.bottom - legend - style.px(0.6) - below;
         let between_rows = above + gap + if shared { 0 } else { below };
         let height = (bottom - top - above - (rows - 1) * between_rows) / rows;
         let widths = panels.iter().map(|p| width_left(canvas, &p.y.scale, style, height));
         let numbers = widths.max().unwrap_or(0);
         let beside = numbers + label;
-        let right = sheet.right - if has(&figure.rows) { style.px(1.6) } else { 0 };
+        let right = sheet.right - if lines(&figure.rows) > 0 { captions(&figure.rows) } else { 0 };
         let left = sheet.left + beside;
         let between_columns = gap + if shared { 0 } else { beside };
         let width = (right - left - (columns - 1) * between_columns) / columns;
@@ -154,15 +159,19 @@ impl<'a> Layout<'a> {
         let style = self.style;
         for (column, caption) in figure.columns.iter().enumerate() {
             let rect = self.panel(0, column);
-            let at = [rect.at(0.5, 0.0)[0], f64::from(rect.top - self.above) - style.em * 0.85];
-            let caption = canvas.fit(style.em, caption, f64::from(self.step.0) - style.em * 0.5);
-            canvas.text(at, Pen::new(style.em, 0.5), &caption);
+            for (line, i) in caption.lines().rev().zip(0..) {
+                let up = style.em * (0.85 + LINE * f64::from(i));
+                let line = canvas.fit(style.em, line, f64::from(self.step.0) - style.em * 0.5);
+                canvas.text([rect.at(0.5, 0.0)[0], f64::from(rect.top - self.above) - up], Pen::new(style.em, 0.5), &line);
+            }
         }
         for (row, caption) in figure.rows.iter().enumerate() {
             let rect = self.panel(row, 0);
-            let at = [f64::from(self.grid.right) + style.em * 1.0, rect.at(0.0, 0.5)[1]];
-            let caption = canvas.fit(style.em, caption, f64::from(self.step.1) - style.em * 0.5);
-            canvas.text(at, Pen { up: true, ..Pen::new(style.em, 0.5) }, &caption);
+            for (line, i) in caption.lines().zip(0..) {
+                let at = [f64::from(self.grid.right) + style.em * (1.0 + LINE * f64::from(i)), rect.at(0.0, 0.5)[1]];
+                let line = canvas.fit(style.em, line, f64::from(self.step.1) - style.em * 0.5);
+                canvas.text(at, Pen { up: true, ..Pen::new(style.em, 0.5) }, &line);
+            }
         }
         if self.shared {
             label_below(canvas, style, self.grid, style.below(), &figure.panels[0].x.label);

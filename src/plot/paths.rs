@@ -1,19 +1,13 @@
 //! Several paths in one plane, with graphs beside them.
 
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
-use super::canvas::{Canvas, Color, GREY, Point, Rect};
+use super::canvas::{Canvas, Point, Rect};
 use super::curve::{bounds, same_scales};
 use super::legend::Heading;
+use super::palette::{GREY, GROWN, LINES, OBSTACLE, RED};
 use super::scale::Scale;
 use super::slice::check_room;
 use crate::error::{Error, Result};
-
-/// Colours that stay apart for colour-blind readers (Okabe and Ito, 2008).
-const COLORS: [Color; 7] =
-    [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [86, 180, 233], [230, 159, 0], [60, 60, 60]];
-const LEVEL: Color = [200, 30, 30];
-const OBSTACLE: Color = [168, 168, 168];
-const GROWN: Color = [238, 228, 208];
 
 /// Graphs over a common axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,11 +122,11 @@ fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
         let pixels = (place(&[backdrop.grown, 0.0])[0] - place(&[0.0, 0.0])[0]).abs();
         draw_backdrop(canvas, backdrop, style, rect, (pixels, &place));
     }
-    for (path, color) in figure.paths.iter().zip(COLORS.into_iter().cycle()) {
+    for (path, color) in figure.paths.iter().zip(LINES.into_iter().cycle()) {
         let places: Vec<Point> = path.iter().map(place).collect();
-        canvas.line(&places, style.em * 0.18, color, rect);
+        canvas.cased(&places, style.em * 0.18, color, rect);
         if let Some(first) = places.first() {
-            canvas.line(&[*first, *first], style.em * 0.6, color, rect);
+            canvas.cased(&[*first, *first], style.em * 0.6, color, rect);
         }
     }
     finish(canvas, [&x, &y], ["x", "y"], style, rect);
@@ -149,12 +143,15 @@ fn draw_backdrop(
 ) {
     let places = |points: &[Point]| points.iter().map(place).collect::<Vec<_>>();
     let obstacles: Vec<Vec<Point>> = backdrop.obstacles.iter().map(|ring| places(ring)).collect();
-    for ring in &obstacles {
-        let around: Vec<Point> = ring.iter().chain(ring.first()).copied().collect();
-        canvas.line(&around, 2.0 * grown, GROWN, clip);
+    // First the edges, then what they go around: where two overlap there is none.
+    for (more, color) in [(style.em * 0.14, GREY), (0.0, GROWN)] {
+        for ring in &obstacles {
+            let around: Vec<Point> = ring.iter().chain(ring.first()).copied().collect();
+            canvas.line(&around, 2.0 * grown + more, color, clip);
+        }
     }
     obstacles.iter().for_each(|ring| canvas.polygon(ring, OBSTACLE));
-    canvas.line(&places(&backdrop.polyline), style.em * 0.06, GREY, clip);
+    canvas.cased(&places(&backdrop.polyline), style.em * 0.06, GREY, clip);
 }
 
 fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
@@ -171,11 +168,11 @@ fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
     let rect = narrowed(canvas, &y, style, area)?;
     canvas.frame(rect, GREY);
     let places = |points: &[Point]| points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect::<Vec<_>>();
-    for (line, color) in lines.iter().zip(COLORS.into_iter().cycle()) {
-        canvas.line(&places(line), style.em * 0.12, color, rect);
+    for (line, color) in lines.iter().zip(LINES.into_iter().cycle()) {
+        canvas.cased(&places(line), style.em * 0.12, color, rect);
     }
     if let Some(level) = figure.level {
-        canvas.line(&places(&[[from, level], [to, level]]), style.em * 0.16, LEVEL, rect);
+        canvas.cased(&places(&[[from, level], [to, level]]), style.em * 0.16, RED, rect);
     }
     finish(canvas, [&x, &y], [across, up], style, rect);
     Ok(())

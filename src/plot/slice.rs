@@ -1,44 +1,46 @@
 //! One slice: coloured cells, outlines, marks.
 
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
-use super::canvas::{Canvas, Color, GREY, Pen, Rect, WHITE};
-use super::legend::{Entry, Hatch, Heading, Key, Legend, star};
+use super::canvas::{Canvas, Pen, Rect, Sheet};
+use super::legend::{Entry, Hatch, Heading, Key, Legend, Outline, star};
+use super::palette::{Color, GREY, WHITE, edge, region_colors};
 use super::scale::Cells;
-use super::{Region, Slice, grouped, region_colors};
+use super::{Region, Slice, grouped};
 use crate::error::{Error, Result};
-
-/// Colours of outlines, in turn: they stand out from all region colours, and have a white rim on the dark ones.
-const OUTLINES: [Color; 4] = [[190, 30, 30], [0, 0, 0], [120, 60, 160], [0, 100, 190]];
 
 /// Least side of a plot in pixels.
 pub(super) const LEAST_SIDE: i32 = 24;
 
-/// Draws a slice of `size` (width, height) pixels: each node fills the cell of what is nearer to it than to its
+/// Draws a slice on a sheet: each node fills the cell of what is nearer to it than to its
 /// neighbours, in the axis's own spacing. A pixel shows the node of its centre.
 ///
 /// # Errors
 /// [`Error::Domain`] when an axis is empty, not increasing or not finite, a mask has not one entry for each node, a
 /// mark is not finite, or the size is 0, too large, or too small for a plot beside its labels.
-pub fn slice_png(slice: &Slice, size: (u32, u32)) -> Result<Vec<u8>> {
-    drawn(slice, size)?.into_png()
+pub fn slice_png(slice: &Slice, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
+    drawn(slice, sheet.into())?.into_png()
 }
 
-/// Draws slices of unlike regions in rows of `columns`, each `panel` pixels large with its own legend, under one title.
+/// Draws slices of unlike regions in rows of `columns`, each with its own legend, under one title.
 ///
 /// # Errors
 /// As [`slice_png`], and [`Error::Domain`] for no columns.
-pub fn montage_png(title: &str, slices: &[Slice], columns: usize, panel: (u32, u32)) -> Result<Vec<u8>> {
-    if columns == 0 {
-        return Err(Error::Domain("a montage of no columns; it needs at least 1".into()));
+pub fn montage_png(title: &str, slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
+    if columns == 0 || slices.is_empty() {
+        let (slices, columns) = (slices.len(), columns);
+        return Err(Error::Domain(format!("a montage of {slices} slices in {columns} columns; it needs at least 1 of each")));
     }
-    let em = style(panel).em * 1.5;
-    let (rows, head) = (slices.len().div_ceil(columns) as u32, (em * 2.4) as u32);
-    let width = panel.0.saturating_mul(columns as u32);
-    let mut canvas = Canvas::new((width, panel.1.saturating_mul(rows).saturating_add(head)))?;
-    canvas.text([em * 0.8, f64::from(head) * 0.6], Pen::new(em, 0.0), title);
-    for (i, slice) in slices.iter().enumerate() {
-        let (column, row) = ((i % columns) as u32, (i / columns) as u32);
-        canvas.paste(&drawn(slice, panel)?, (column * panel.0, head + row * panel.1));
+    let sheet = sheet.into();
+    let mut canvas = Canvas::new(sheet)?;
+    let (columns, rows) = (columns as u32, slices.len().div_ceil(columns) as u32);
+    let (width, height) = (sheet.size.0 / columns, sheet.size.1 / rows);
+    let em = style((width, height)).em * 1.5;
+    let head = (em * 2.4) as u32;
+    let size = (width, sheet.size.1.saturating_sub(head) / rows);
+    let title = canvas.fit(em, title, f64::from(sheet.size.0) - 1.6 * em);
+    canvas.text([em * 0.8, f64::from(head) * 0.6], Pen::new(em, 0.0), &title);
+    for (slice, i) in slices.iter().zip(0..) {
+        canvas.paste(&drawn(slice, Sheet { size, ..sheet })?, (i % columns * width, head + i / columns * size.1));
     }
     canvas.into_png()
 }
@@ -48,10 +50,10 @@ fn style(size: (u32, u32)) -> Style {
     Style { em: em.max(10.0), slack: em }
 }
 
-fn drawn(slice: &Slice, size: (u32, u32)) -> Result<Canvas> {
-    let mut canvas = Canvas::new(size)?;
+fn drawn(slice: &Slice, sheet: Sheet) -> Result<Canvas> {
+    let mut canvas = Canvas::new(sheet)?;
     let panel = Panel::new(slice)?;
-    let style = style(size);
+    let style = style(sheet.size);
     let sheet = canvas.rect().grown(-style.px(1.2));
     let heading = Heading::new(&canvas, &slice.title, &slice.note, style, sheet.width());
     let entries = entries(&[slice], false);
@@ -71,7 +73,7 @@ fn drawn(slice: &Slice, size: (u32, u32)) -> Result<Canvas> {
     draw_left(&mut canvas, &panel.y.scale, style, rect, true);
     label_below(&mut canvas, style, rect, style.below(), &slice.x.label);
     label_left(&mut canvas, style, rect, left, &slice.y.label);
-    legend.draw(&mut canvas, style, (rect.left, sheet.bottom - legend.height(style)));
+    legend.draw(&mut canvas, style, (sheet.left, sheet.bottom - legend.height(style)));
     Ok(canvas)
 }
 
@@ -123,22 +125,30 @@ impl Panel<'_> {
     /// Draws all but axes; labels of marks only where asked.
     pub fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect, mark_labels: bool) {
         let pixels = Pixels::new(self, rect);
-        self.draw_regions(canvas, &pixels);
-        for (region, color) in self.slice.outlines.iter().zip(OUTLINES.into_iter().cycle()) {
-            pixels.draw_outline(canvas, Hatch::new(style), region, color);
+        self.draw_regions(canvas, style, &pixels);
+        for (i, region) in self.slice.outlines.iter().enumerate() {
+            pixels.draw_outline(canvas, Hatch::new(style), region, Outline::of(i));
         }
         canvas.frame(rect, GREY);
         self.draw_marks(canvas, style, rect, mark_labels);
     }
 
-    fn draw_regions(&self, canvas: &mut Canvas, pixels: &Pixels) {
-        let colors = region_colors(self.slice.regions.len());
-        let regions: Vec<_> = self.slice.regions.iter().zip(colors).collect();
+    /// Fills each pixel with the last region that holds its node. Where two fills of too little contrast meet, the pixels of the earlier
+    /// one have the colour of an edge: the later region keeps all of its own.
+    fn draw_regions(&self, canvas: &mut Canvas, style: Style, pixels: &Pixels) {
+        let regions = &self.slice.regions;
+        let colors = [vec![WHITE], region_colors(regions.len())].concat();
+        let edges: Vec<Vec<Option<Color>>> = colors.iter().map(|a| colors.iter().map(|b| edge(*a, *b)).collect()).collect();
+        let fill = |node: usize| regions.iter().rposition(|region| region.mask[node]).map_or(0, |last| last + 1);
+        let fills: Vec<usize> = (0..self.slice.x.values.len() * self.slice.y.values.len()).map(fill).collect();
+        let width = style.px(0.07).max(1);
         for y in pixels.rect.top..pixels.rect.bottom {
             for x in pixels.rect.left..pixels.rect.right {
-                let node = pixels.node(x, y);
-                let top = regions.iter().rev().find(|(region, _)| region.mask[node]);
-                canvas.blend(x, y, top.map_or(WHITE, |(_, color)| *color), 1.0);
+                let here = fills[pixels.node(x, y)];
+                let beside = (1..=width).flat_map(|by| [(by, 0), (-by, 0), (0, by), (0, -by)]);
+                let later = beside.map(|(dx, dy)| fills[pixels.node(x + dx, y + dy)]).filter(|other| *other > here);
+                let edge = later.max().and_then(|later| edges[here][later]);
+                canvas.blend(x, y, edge.unwrap_or(colors[here]), 1.0);
             }
         }
     }
@@ -195,30 +205,46 @@ impl Pixels {
         self.rows[y as usize] + self.columns[x as usize]
     }
 
-    /// A line along the inside of a region's boundary, stripes further in, a white rim on both sides of the line.
-    fn draw_outline(&self, canvas: &mut Canvas, hatch: Hatch, region: &Region, color: Color) {
-        let inside = |x: i32, y: i32| region.mask[self.node(x, y)];
+    /// A line along the inside of a region's boundary and stripes further in, all in a white casing that parts them from every fill.
+    fn draw_outline(&self, canvas: &mut Canvas, hatch: Hatch, region: &Region, outline: Outline) {
         let (line, rim) = (hatch.line, (hatch.line / 2).max(1));
-        for y in self.rect.top..self.rect.bottom {
-            for x in self.rect.left..self.rect.right {
-                // Whether the other side of the boundary is met at a distance, in one of eight directions.
-                let here = inside(x, y);
-                let crosses = |by: i32| {
-                    let slant = (f64::from(by) * std::f64::consts::FRAC_1_SQRT_2).ceil() as i32;
-                    let straight = [(by, 0), (-by, 0), (0, by), (0, -by)];
-                    let slanted = [(slant, slant), (slant, -slant), (-slant, slant), (-slant, -slant)];
-                    straight.iter().chain(&slanted).any(|(dx, dy)| inside(x + dx, y + dy) != here)
-                };
-                if here && crosses(line) {
-                    canvas.blend(x, y, color, 1.0);
-                } else if crosses(if here { line + rim } else { rim }) {
-                    canvas.blend(x, y, WHITE, 0.8);
-                } else if here && crosses(hatch.band) {
-                    canvas.blend(x, y, color, hatch.stripe(x, y));
-                }
+        let columns = self.columns.len();
+        let inside: Vec<bool> = self.rows.iter().flat_map(|j| self.columns.iter().map(move |i| region.mask[j + i])).collect();
+        for (at, (here, depth)) in inside.iter().zip(depths(&inside, columns)).enumerate() {
+            let (x, y) = (self.rect.left + (at % columns) as i32, self.rect.top + (at / columns) as i32);
+            if *here && depth <= line * STEP {
+                canvas.blend(x, y, outline.color, 1.0);
+            } else if depth <= if *here { line + rim } else { rim } * STEP {
+                canvas.blend(x, y, WHITE, 1.0);
+            } else if *here && depth <= hatch.band * STEP {
+                hatch.draw(canvas, x, y, outline);
             }
         }
     }
+}
+
+/// A pixel's side in the unit of [`depths`].
+const STEP: i32 = 5;
+
+/// How far each pixel of a mask is from the nearest one that is not as it is, in fifths of a pixel, by steps of 1 to the sides and 1.4
+/// across corners: one sweep down and one up (Borgefors 1986). Neighbours differ by one step at most.
+fn depths(inside: &[bool], columns: usize) -> Vec<i32> {
+    const AROUND: [(i32, i32, i32); 8] =
+        [(-1, 0, STEP), (1, 0, STEP), (0, -1, STEP), (0, 1, STEP), (-1, -1, 7), (1, -1, 7), (-1, 1, 7), (1, 1, 7)];
+    let (width, height) = (columns as i32, (inside.len() / columns) as i32);
+    let mut depths = vec![i32::MAX / 2; inside.len()];
+    for at in (0..inside.len()).chain((0..inside.len()).rev()) {
+        let (x, y) = ((at % columns) as i32, (at / columns) as i32);
+        for (dx, dy, step) in AROUND {
+            let (x, y) = (x + dx, y + dy);
+            if (0..width).contains(&x) && (0..height).contains(&y) {
+                let other = y as usize * columns + x as usize;
+                let through = if inside[other] == inside[at] { depths[other] + step } else { step };
+                depths[at] = depths[at].min(through);
+            }
+        }
+    }
+    depths
 }
 
 /// The legend of slices that have the same regions: nodes are counted over all of them.
@@ -239,13 +265,13 @@ pub(super) fn entries(slices: &[&Slice], stars: bool) -> Vec<Entry> {
         let text = text(&region.label, &|s| s.regions.get(i).map_or(0, count));
         entries.push(Entry { key: Key::Fill(color), text });
     }
-    for (i, (region, color)) in first.outlines.iter().zip(OUTLINES.into_iter().cycle()).enumerate() {
+    for (i, region) in first.outlines.iter().enumerate() {
         // What covers everything has no rim to draw.
         if slices.iter().all(|s| s.outlines.get(i).is_some_and(|region| region.mask.iter().all(|inside| *inside))) {
             continue;
         }
         let text = text(&region.label, &|s| s.outlines.get(i).map_or(0, count));
-        entries.push(Entry { key: Key::Hatched(color), text });
+        entries.push(Entry { key: Key::Hatched(Outline::of(i)), text });
     }
     for mark in slices.iter().flat_map(|s| &s.marks).filter(|m| stars && !m.label.is_empty()) {
         let entry = Entry { key: Key::Star, text: mark.label.clone() };

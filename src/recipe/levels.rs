@@ -4,6 +4,9 @@ use super::PictureKind;
 use super::raw::{Fault, RawPicture, unknown};
 use crate::family::Family;
 
+/// What the levels of a picture are.
+pub(super) const LEVELS_RULE: &str = "list of numbers, increasing";
+
 /// Regions where a scalar is at most so much.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Levels {

@@ -18,54 +18,39 @@
 //! y = "kappa1"
 //! at = { phi0 = 0.7, phi1 = 1.4 }  # an axis of one value may be left out
 //! mark = [{ kappa0 = 0.4, kappa1 = 4.0, label = "example 1" }]
-//!
-//! [[atlas.picture]]
-//! kind = "multiples"               # one panel for each combination of the other axes' nodes
-//! x = "kappa0"
-//! y = "kappa1"
-//! at = { phi0 = [0.3, 0.7] }       # an axis left out is sampled evenly, at most 6 nodes
-//! regions = ["ANY_SPIRAL", "SPIRAL"] # flags to fill, each over those before; left out: the family's choice
-//! outlines = ["SOLVABLE"]          # flags to draw as hatched outlines; left out beside `regions`: none
-//!
-//! [[atlas.picture]]
-//! kind = "union"                   # a slice that shows what is true for any of the other axes' nodes
-//! x = "kappa0"
-//! y = "kappa1"
-//!
-//! [[atlas.picture]]
-//! kind = "slice"                   # of a scalar, filled where it is at most each of these, here darkest where at most 0.1
-//! x = "kappa0"
-//! y = "kappa1"
-//! at = { phi0 = 0.7, phi1 = 1.4 }
-//! field = "margin"
-//! levels = [0.1, 0.3, 0.5]
 //! ```
 //!
 //! Angles may be written `"40deg"` or `"40°"` on axes of angles.
+//! [`reference`] has all keys, with their values, defaults and meanings; docs/recipes.md is what it returns.
 
+mod keys;
 mod levels;
+mod look;
+mod panels;
 mod raw;
 
+pub use keys::reference;
 pub use levels::Levels;
+pub use look::{DPI, Look, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, SLICE_SIZE};
 pub use raw::{is_angle, parse_angle, parse_coordinate};
 
 use crate::error::{Error, Result};
 use crate::family::{self, Chart, Family};
 use crate::grid::Lookup;
 use crate::grid::{Axis, Grid, Spacing};
+use panels::PANELS;
 use raw::{Fault, Number, Numbers, RawAtlas, RawAxis, RawPicture, unknown};
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml::Spanned;
-
-/// Most panels along an axis when the recipe does not choose them.
-const PANELS: usize = 6;
 
 /// A recipe, read and looked up.
 #[derive(Clone)]
 pub struct Recipe {
     /// The atlases, at least one.
     pub atlases: Vec<AtlasPlan>,
+    /// How the picture of slices side by side looks.
+    pub look: Look,
     /// The text, with line ends as Unix has them, so that a checkout on any system makes the same atlas.
     pub text: String,
 }
@@ -106,6 +91,8 @@ pub struct PicturePlan {
     pub levels: Option<Levels>,
     /// Points to mark; on slices and unions only.
     pub marks: Vec<Mark>,
+    /// How it looks.
+    pub look: Look,
 }
 
 /// How many slices a picture shows.
@@ -163,6 +150,8 @@ impl Recipe {
 fn resolve(text: &str) -> Result<Recipe, Fault> {
     let raw = raw::parse(text)?;
     let at = raw.atlas.span();
+    let usual = (PANEL_SIZE.0.saturating_mul(raw.atlas.get_ref().len() as u32), PANEL_SIZE.1);
+    let look = look::look(raw.title.as_ref(), raw.size.as_ref(), raw.dpi.as_ref(), usual)?;
     let mut atlases: Vec<AtlasPlan> = Vec::new();
     for atlas in raw.atlas.into_inner() {
         let name = atlas.name.span();
@@ -177,7 +166,7 @@ fn resolve(text: &str) -> Result<Recipe, Fault> {
     if atlases.is_empty() {
         return Err(Fault::new(at, "there is no atlas; add an `[[atlas]]`"));
     }
-    Ok(Recipe { atlases, text: text.to_owned() })
+    Ok(Recipe { atlases, look, text: text.to_owned() })
 }
 
 fn family_of(name: &Spanned<String>) -> Result<&'static dyn Family, Fault> {
@@ -256,13 +245,12 @@ fn new_axis(name: &str, spacing: Spacing) -> Result<Axis, String> {
 }
 
 fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, stored: &[usize]) -> Result<PicturePlan, Fault> {
-    let kinds = ["slice", "union", "multiples", "compare"];
     let kind = match &raw.kind.get_ref()[..] {
         "slice" => PictureKind::Slice,
         "union" => PictureKind::Union,
         "multiples" => PictureKind::Multiples,
         "compare" => PictureKind::Compare { with: compared(raw, family, chart)? },
-        other => return Err(Fault::new(raw.kind.span(), unknown("picture kind", other, &kinds))),
+        other => return Err(Fault::new(raw.kind.span(), unknown("picture kind", other, &keys::KINDS))),
     };
     if let (false, Some(with)) = (matches!(kind, PictureKind::Compare { .. }), &raw.with) {
         return Err(Fault::new(with.span(), "`with` belongs to a picture of the kind `compare`"));
@@ -278,9 +266,12 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, st
         }
     }
     let others = (0..grid.axes().len()).filter(|axis| ![x, y].contains(axis));
-    let at = others.map(|axis| Ok((axis, nodes(raw, kind, &grid.axes()[axis])?))).collect::<Result<_, _>>()?;
+    let at = others.map(|axis| Ok((axis, nodes(raw, kind, &grid.axes()[axis])?))).collect::<Result<Vec<_>, _>>()?;
     if let (PictureKind::Multiples, Some(mark)) = (kind, raw.mark.first()) {
         return Err(Fault::new(mark.span(), "marks belong on a slice; add a picture of that kind"));
+    }
+    if kind == PictureKind::Multiples {
+        panels::check(raw.kind.span(), grid, &at)?;
     }
     let axes = [&grid.axes()[x], &grid.axes()[y]];
     let marks = raw.mark.iter().map(|m| mark(m, axes)).collect::<Result<_, _>>()?;
@@ -289,7 +280,9 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, st
         return Err(Fault::new(outline.span(), "`outlines` go with `regions`; say which flags to fill"));
     }
     let levels = levels::levels(raw, kind, family, stored)?;
-    Ok(PicturePlan { kind, x, y, at, regions, outlines, levels, marks })
+    let usual = if kind == PictureKind::Multiples { MULTIPLES_SIZE } else { SLICE_SIZE };
+    let look = look::look(raw.title.as_ref(), raw.size.as_ref(), raw.dpi.as_ref(), usual)?;
+    Ok(PicturePlan { kind, x, y, at, regions, outlines, levels, marks, look })
 }
 
 /// The family that a picture compares with: both have a `SPIRAL`, and the other a chart of the same axes.

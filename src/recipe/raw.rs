@@ -1,5 +1,6 @@
 //! A recipe as TOML has it, before anything is looked up.
 
+use super::look::Pixels;
 use crate::error::{Error, Result};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -33,6 +34,9 @@ pub(super) struct RawRecipe {
     pub family: Spanned<String>,
     #[serde(default)]
     pub fields: Vec<Spanned<String>>,
+    pub title: Option<String>,
+    pub size: Option<Spanned<Vec<Pixels>>>,
+    pub dpi: Option<Spanned<Pixels>>,
     pub atlas: Spanned<Vec<RawAtlas>>,
 }
 
@@ -73,6 +77,9 @@ pub(super) struct RawPicture {
     pub levels: Option<Spanned<Vec<f64>>>,
     #[serde(default)]
     pub mark: Vec<Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>>,
+    pub title: Option<String>,
+    pub size: Option<Spanned<Vec<Pixels>>>,
+    pub dpi: Option<Spanned<Pixels>>,
 }
 
 /// A number, or a text that may be an angle.
