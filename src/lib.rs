@@ -17,6 +17,8 @@ pub mod plot;
 #[cfg(feature = "recipe")]
 pub mod recipe;
 
+mod steps;
+
 pub use error::{Error, Result};
 
 /// The examples of the pages compile and, where they need no file, run.

@@ -21,6 +21,7 @@
 //! # Ok::<(), spiral_atlas::Error>(())
 //! ```
 
+mod bending;
 mod bezier;
 mod bound;
 mod extrema;
