@@ -18,6 +18,8 @@ pub mod plot;
 pub mod recipe;
 pub mod transition;
 
+mod steps;
+
 pub use error::{Error, Result};
 
 /// The examples of the pages compile and, where they need no file, run.

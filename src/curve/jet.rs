@@ -80,7 +80,7 @@ impl Jet {
 }
 
 /// The point of a Bézier curve, (0, 0) without control points; they are used up.
-pub(super) fn casteljau(p: &mut [Vector], t: f64) -> Vector {
+pub(crate) fn casteljau(p: &mut [Vector], t: f64) -> Vector {
     for last in (1..p.len()).rev() {
         for i in 0..last {
             p[i] = lerp(p[i], p[i + 1], t);

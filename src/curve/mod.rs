@@ -1,6 +1,7 @@
 //! Geometry alone: points, vectors and derivatives, Bézier curves, Pythagorean-hodograph quintics and trigonometric quintics, their length,
 //! extrema, offsets and bending energy. Nothing here asks whether a curve is a spiral.
 
+mod bending;
 mod bezier;
 mod choice;
 mod energy;
@@ -20,6 +21,7 @@ pub(crate) use energy::energy;
 pub use equal_length::{EqualLength, equal_length};
 pub use hermite::{Hermite, hermite};
 pub use jet::Jet;
+pub(crate) use jet::casteljau;
 pub use length::arc_length;
 pub use offset::Offset;
 pub use quintic::PhQuintic;

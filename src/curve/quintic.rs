@@ -3,17 +3,14 @@
 //! With the pre-image `w = w0 (1-t)² + 2 w1 t(1-t) + w2 t²` of complex numbers the curve's derivative is `w²`, so its speed `σ = |w|²`, its
 //! arc length, unit tangent, curvature and offsets are polynomials or quotients of them (Farouki et al., (2)-(9)).
 
-use super::energy::energy;
 use super::extrema::{self, product, sign_changes};
 use super::jet::{Jet, casteljau};
-use crate::num::{Ball, Interval, Real};
 use num_complex::Complex64;
-use serde::Serialize;
 
 /// A Pythagorean-hodograph quintic for t in [0, 1], anywhere in the plane, in any unit of length.
 ///
-/// A pre-image and its negative give the same curve: compare curves by control points.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// A pre-image and its negative give the same curve: compare curves by control points. As JSON it is a [`super::Piece`].
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhQuintic {
     /// The point at t = 0.
     pub start: [f64; 2],
@@ -226,20 +223,6 @@ impl PhQuintic {
         ends.windows(2).map(|w| turned(&roots, w[0], w[1]).abs()).sum()
     }
 
-    /// Bending energy `∫κ² ds`, 1 / length; infinite for a curve that stands still somewhere and is no straight line.
-    ///
-    /// # Accuracy
-    /// 2^-40, relative, proved: an enclosure by Taylor series with remainder in doubles, and where those do not suffice in intervals of up to
-    /// 256 bits. Infinite is also what is closer to a stationary point than these can tell.
-    pub fn bending_energy(&self) -> f64 {
-        let (unit, size) = self.scaled();
-        if unit.turn_coefficients() == [0.0; 3] {
-            return 0.0;
-        }
-        let energy = unit.energy::<Ball>(53).or_else(|| unit.energy::<Interval>(128)).or_else(|| unit.energy::<Interval>(256));
-        energy.map_or(f64::INFINITY, |e| e / size)
-    }
-
     /// An upper bound of |κ|, infinite where the curve nearly stands still: h and σ in Bernstein form on `2^halvings` pieces.
     ///
     /// # Accuracy
@@ -288,7 +271,7 @@ impl PhQuintic {
     }
 
     /// The same shape with coefficients of w near 1, and the power of two that lengths were divided by.
-    fn scaled(&self) -> (PhQuintic, f64) {
+    pub(super) fn scaled(&self) -> (PhQuintic, f64) {
         let most = self.preimage.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
         if !(most.is_finite() && most > 0.0) {
             return (*self, 1.0);
@@ -309,28 +292,6 @@ impl PhQuintic {
         let other = if q == none { none } else { c / q };
         [q / a, if q == none && a == none { q / a } else { other }].into_iter().filter(|z| z.is_finite()).collect()
     }
-
-    /// `∫ h²/σ³`, if known to 2^-40.
-    fn energy<N: Real>(&self, bits: usize) -> Option<f64> {
-        let w = self.preimage.map(|z| z.map(|x| N::of(x, bits)));
-        let re = |i: usize, j: usize| w[i][0].mul(&w[j][0]).add(&w[i][1].mul(&w[j][1]));
-        // By the difference, which for nearly straight curves is small and exact.
-        let im = |i: usize, j: usize| {
-            let step = [0, 1].map(|k| w[j][k].sub(&w[i][k]));
-            w[i][0].mul(&step[1]).sub(&w[i][1].mul(&step[0]))
-        };
-        let middle = re(1, 1).times(2.0).add(&re(0, 2)).over(&N::of(3.0, bits))?;
-        let speed = [re(0, 0), re(0, 1), middle, re(1, 2), re(2, 2)];
-        let turn = [im(0, 1).times(4.0), im(0, 2).times(2.0), im(1, 2).times(4.0)];
-        // The square of a small h would leave the range of doubles, so h is scaled to size 1 by powers of 2 that are doubles themselves.
-        let most = turn.iter().fold(f64::MIN_POSITIVE, |most, h| h.most().max(most));
-        let half = most.log2().floor() * 0.5;
-        let (first, last) = (half.floor().exp2(), half.ceil().exp2());
-        let energy = energy(&speed, &turn.map(|h| h.times(1.0 / first).times(1.0 / last)))?;
-        let value = energy.approx();
-        let known = value.is_finite() && energy.sub(&energy.middle()).most() <= 2f64.powi(-40) * value;
-        known.then_some(value * first * last * first * last)
-    }
 }
 
 pub(super) fn complex(w: &[[f64; 2]; 3]) -> [Complex64; 3] {
@@ -348,7 +309,7 @@ pub(super) fn value(mut c: impl AsMut<[f64]>, t: f64) -> f64 {
     c.first().copied().unwrap_or(0.0)
 }
 
-fn changes(c: &[f64]) -> Vec<f64> {
+pub(super) fn changes(c: &[f64]) -> Vec<f64> {
     let mut roots = Vec::new();
     // A NaN has no sign; infinite coefficients would be halved for ever.
     if c.iter().all(|x| x.is_finite()) {

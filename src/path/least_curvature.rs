@@ -5,6 +5,7 @@ use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::ph_path::{Found, Search};
+use crate::steps::step;
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
@@ -89,9 +90,9 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     let (chord, search) = checked(ends)?;
     let distance = chord.norm();
     // By (10), equal end derivatives of paths of a length S have at least 3/2 (S - 1), for S near 1.
-    let (low, high) = (LEAST.min(0.5 * (search.longest - 1.0)), 9.0 * search.longest);
-    let space = Space { search, free: ends.free };
-    let (best, at_least) = space.least(low, high).ok_or_else(|| {
+    let low = LEAST.min(0.5 * search.beyond);
+    let space = Space::new(search, ends.free, low);
+    let (best, at_least) = space.least().ok_or_else(|| {
         let what =
             format!("no path with these directions is as short as `greatest_length`, {:?}; allow more", ends.greatest_length);
         Error::Domain(format!("least curvature: {what}"))
@@ -105,7 +106,7 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
         at_least: (at_least / distance * (1.0 - 1e-12)).min(greatest_curvature),
         length: curve.length(),
         derivatives: [curve.speed(0.0), curve.speed(1.0)],
-        searched: [low * distance, high * distance],
+        searched: [low * distance, 9.0 * (1.0 + search.beyond) * distance],
     })
 }
 
@@ -138,13 +139,14 @@ fn checked(ends: &Directions) -> Result<(Complex64, Search)> {
     }
     let theta = |direction: f64| (Complex64::cis(direction) * chord.conj()).arg();
     let theta = [theta(start_direction), theta(end_direction)];
-    Ok((chord, Search { theta, longest: greatest_length / distance }))
+    Ok((chord, Search { theta, beyond: (greatest_length - distance) / distance }))
 }
 
-/// The free numbers.
+/// The free numbers, and from where to where each is searched.
 struct Space {
     search: Search,
     free: Free,
+    ranges: [[f64; 2]; 2],
 }
 
 /// A product of ranges, one or two, and what the greatest curvature exceeds there.
@@ -155,28 +157,36 @@ struct Region {
 }
 
 impl Space {
+    fn new(search: Search, free: Free, low: f64) -> Space {
+        let [a, b] = search.sizes();
+        let [a, b] = if free == Free::Length { [a.min(b); 2] } else { [a, b] };
+        Space { search, free, ranges: [a, b].map(|high| [low, high]) }
+    }
+
     fn dimensions(&self) -> usize {
         if self.free == Free::Derivatives { 2 } else { 1 }
     }
 
     /// With one free number both sizes are that.
     fn at(&self, x: [f64; 2]) -> Option<Found> {
+        step();
         self.search.at([x[0], x[self.dimensions() - 1]])
     }
 
     fn region(&self, ranges: [[f64; 2]; 2], least: f64, enough: f64) -> Region {
+        step();
         let found = self.search.least(ranges, self.dimensions() == 1, enough);
         Region { ranges, least: found.max(least) }
     }
 
-    /// The best path for numbers from `low` to `high`, and what is proved of all.
-    fn least(&self, low: f64, high: f64) -> Option<(Found, f64)> {
-        let refined = |(x, found)| self.refined(x, found, [low, high]);
+    /// The best path, and what is proved of all.
+    fn least(&self) -> Option<(Found, f64)> {
+        let refined = |(x, found)| self.refined(x, found);
         // Of straight lines the one at constant speed.
         let plain = [1.0; 2];
-        let mut best = lesser(self.at(plain).map(|found| (plain, found)), self.scanned(low, high)).map(refined);
+        let mut best = lesser(self.at(plain).map(|found| (plain, found)), self.scanned()).map(refined);
         let mut waiting = Queue::new();
-        let whole = self.region([[low, high]; 2], 0.0, f64::INFINITY);
+        let whole = self.region(self.ranges, 0.0, f64::INFINITY);
         waiting.push(whole.least, whole);
         for _ in 0..MOST {
             let most = best.map_or(f64::INFINITY, |(_, found)| found.most);
@@ -195,12 +205,15 @@ impl Space {
     }
 
     /// The best of a coarse grid.
-    fn scanned(&self, low: f64, high: f64) -> Option<([f64; 2], Found)> {
+    fn scanned(&self) -> Option<([f64; 2], Found)> {
         let count = [200, 24][self.dimensions() - 1];
-        let value = |i: usize| low * (high / low).powf(i as f64 / count as f64);
+        let value = |[low, high]: [f64; 2], i: usize| low * (high / low).powf(i as f64 / count as f64);
         let others = if self.dimensions() == 1 { 0 } else { count };
         let places = (0..=count).flat_map(|i| (0..=others).map(move |j| [i, j]));
-        places.map(|place| place.map(value)).filter_map(|x| Some((x, self.at(x)?))).min_by(|a, b| a.1.most.total_cmp(&b.1.most))
+        places
+            .map(|place| [0, 1].map(|k| value(self.ranges[k], place[k])))
+            .filter_map(|x| Some((x, self.at(x)?)))
+            .min_by(|a, b| a.1.most.total_cmp(&b.1.most))
     }
 
     /// Both halves along the range whose ends differ most: by what |w| is there, against that of the chord or more.
@@ -218,13 +231,13 @@ impl Space {
 
     /// Steps in directions all around, turned each time, as long as they help, then shorter ones: between a kink or the greatest length and what is
     /// better there may be little room.
-    fn refined(&self, mut x: [f64; 2], mut found: Found, [low, high]: [f64; 2]) -> ([f64; 2], Found) {
+    fn refined(&self, mut x: [f64; 2], mut found: Found) -> ([f64; 2], Found) {
         let (mut step, mut turn, around) = (0.1, 0.0, if self.dimensions() == 1 { 2 } else { 24 });
         while step > 1e-12 {
             let moved = (0..around).filter_map(|i| {
                 let angle = turn + std::f64::consts::TAU * f64::from(i) / f64::from(around);
                 let way = if self.dimensions() == 1 { [1.0 - 2.0 * f64::from(i); 2] } else { [angle.cos(), angle.sin()] };
-                let next = [0, 1].map(|i| (x[i] * (1.0 + step * way[i])).clamp(low, high));
+                let next = [0, 1].map(|i| (x[i] * (1.0 + step * way[i])).clamp(self.ranges[i][0], self.ranges[i][1]));
                 Some((next, self.at(next)?))
             });
             let best = moved.min_by(|a, b| a.1.most.total_cmp(&b.1.most));
@@ -243,5 +256,38 @@ fn lesser(a: Option<([f64; 2], Found)>, b: Option<([f64; 2], Found)>) -> Option<
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.1.most < a.1.most { b } else { a }),
         (a, b) => a.or(b),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steps::counted;
+    use std::f64::consts::PI;
+
+    /// Lengths that exceed the distance by ulps or much, and directions that are straight, nearly straight, mirrored, equal or opposed.
+    #[test]
+    fn the_work_does_not_depend_on_how_degenerate_the_ends_are() {
+        let angles =
+            [0.0, 5e-324, 1e-300, 1e-16, 1e-9, 1e-8, 1e-5, 1e-3, 0.5, 0.5f64.next_up(), 0.5 * PI, 3.0, PI.next_down(), PI];
+        let lengths = [1.0f64.next_up(), 1.0 + 2.0 * f64::EPSILON, 1.0 + 1e-14, 1.0 + 1e-10, 1.000001, 1.01, 2.0, 1e6];
+        for greatest_length in lengths {
+            for (i, first) in angles.into_iter().enumerate() {
+                for last in [first, -first, -first.next_up(), 2.0 * first, angles[(i + 5) % angles.len()], 0.0] {
+                    for free in [Free::Length, Free::Derivatives] {
+                        let (start, end) = ([0.0, 0.0], [1.0, 0.0]);
+                        let ends = Directions { start, end, start_direction: first, end_direction: last, greatest_length, free };
+                        let t = std::time::Instant::now();
+                        let (steps, found) = counted(|| least_curvature(&ends));
+                        let gap = found.as_ref().map_or(-1.0, |f| f.at_least / f.greatest_curvature);
+                        println!(
+                            "{steps} {:?} {greatest_length:?} {first:e} {last:e} {free:?} {gap} {:?}",
+                            t.elapsed(),
+                            found.map(|f| f.greatest_curvature)
+                        );
+                    }
+                }
+            }
+        }
     }
 }

@@ -8,19 +8,20 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room of `src/` with the rooms that it may import.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("error", &[]),
+    ("steps", &[]),
     ("files", &["error"]),
-    ("num", &["error"]),
+    ("num", &["steps", "error"]),
     ("plot", &["error"]),
     ("grid", &["num", "error"]),
-    ("curve", &["num", "error"]),
-    ("family", &["curve", "grid", "num", "error"]),
+    ("curve", &["num", "steps", "error"]),
+    ("family", &["curve", "grid", "num", "steps", "error"]),
     ("eval", &["family", "grid", "num", "error"]),
     ("recipe", &["family", "grid", "num", "files", "error"]),
     ("atlas", &["eval", "family", "grid", "num", "files", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
-    ("path", &["family", "curve", "num", "error"]),
+    ("path", &["transition", "family", "curve", "num", "steps", "error"]),
     ("picture", &["atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
     (
         "cli",

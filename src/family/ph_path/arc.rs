@@ -233,6 +233,15 @@ impl<N: Real> Arc<N> {
         outer.times(3.0).add(&inner).times(1.0 / 15.0)
     }
 
+    /// `2 ∫ v²` with `w = u + iv`: by how much the curve is longer than its chord, where that is along the first axis. As accurate as
+    /// [`Arc::length`], but relative to itself.
+    pub fn beyond_chord(&self) -> N {
+        let [a, b, c] = [0, 1, 2].map(|i| &self.w[i][1]);
+        let inner = b.mul(b).times(2.0).add(&a.mul(c));
+        let outer = a.mul(a).add(&a.mul(b)).add(&b.mul(c)).add(&c.mul(c));
+        outer.times(3.0).add(&inner).times(2.0 / 15.0)
+    }
+
     /// From t up to the next peak, and how great that is: a guess.
     pub fn climbed(&self, t: f64) -> (f64, f64) {
         self.plain().climbed(t)

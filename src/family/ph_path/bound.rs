@@ -20,10 +20,10 @@ fn parts() -> impl Iterator<Item = f64> {
     (0..=PARTS).map(|i| f64::from(i) / f64::from(PARTS))
 }
 
-/// What the greatest |κ| exceeds in a box wherever the arc is not longer than `longest`; as much as is `enough`, or more.
-pub(super) fn bound(arc: &Arc<Quadratic>, longest: f64, enough: f64) -> f64 {
+/// What the greatest |κ| exceeds in a box wherever the arc is longer than the chord by no more than `beyond`; as much as is `enough`, or more.
+pub(super) fn bound(arc: &Arc<Quadratic>, beyond: f64, enough: f64) -> f64 {
     // Both the length's thirds and fifths and the bound in chords are rounded.
-    let over = arc.length().plus(-longest * (1.0 + 1e-15));
+    let over = arc.beyond_chord().plus(-beyond * (1.0 + 1e-15));
     if over.low() > 0.0 {
         return f64::INFINITY;
     }

@@ -7,37 +7,49 @@ use super::curves::{boxed, curves};
 use super::datum::Datum;
 use crate::num::{Ball, Quadratic};
 
-/// Solutions with end directions (to the chord) whose lengths are at most `longest`, in chords.
+/// Solutions with end directions (to the chord) that are longer than the chord by no more than `beyond`, in chords.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Search {
     pub theta: [f64; 2],
-    pub longest: f64,
+    pub beyond: f64,
 }
 
-/// One solution: its greatest |κ|, as doubles see it, its length and its pre-image, for the chord from 0 to 1.
+/// One solution: its greatest |κ|, as doubles see it, how much longer it is than the chord, and its pre-image, for the chord from 0 to 1.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Found {
     pub most: f64,
-    pub length: f64,
+    pub beyond: f64,
     pub preimage: [[f64; 2]; 3],
 }
 
 impl Search {
+    /// What the sizes of its solutions do not exceed.
+    ///
+    /// With `w = u + iv` such a solution is longer than its chord by `∫ |w|² - Re w² = 2 ∫ v²`, and a polynomial v of degree 2 has `∫ v² >= v²/9`
+    /// at either end, where it is `√l sin(θ/2)`. The same of |w| makes sizes at most nine times the length.
+    pub fn sizes(&self) -> [f64; 2] {
+        self.theta.map(|theta| {
+            let sine = (0.5 * theta).sin();
+            // A little more than the roundings.
+            (4.5 * self.beyond / (sine * sine)).min(9.0 * (1.0 + self.beyond)) * (1.0 + 1e-12)
+        })
+    }
+
     /// The solution at these sizes that bends least.
     pub fn at(&self, size: [f64; 2]) -> Option<Found> {
         let curves = curves::<Ball>(&Datum { kind: Kind::Hermite, theta: self.theta, size }, 53)?;
         if curves.straight {
             let [a, b] = size.map(f64::sqrt);
             let middle = ((120.0 - 15.0 * (a * a + b * b) + 10.0 * a * b).sqrt() - 3.0 * (a + b)) / 4.0;
-            return Some(Found { most: 0.0, length: 1.0, preimage: [[a, 0.0], [middle, 0.0], [b, 0.0]] });
+            return Some(Found { most: 0.0, beyond: 0.0, preimage: [[a, 0.0], [middle, 0.0], [b, 0.0]] });
         }
         let found = |part: Arc<Ball>, whole: &Arc<Ball>| Found {
             most: part.guess().1,
-            length: whole.length().value,
+            beyond: whole.beyond_chord().value,
             preimage: whole.w.map(|z| z.map(|x| x.value)),
         };
         let all = curves.bent.iter().map(|c| found(c.part(), &c.whole));
-        all.filter(|f| f.length <= self.longest * (1.0 + 1e-12) && f.most.is_finite()).min_by(|a, b| a.most.total_cmp(&b.most))
+        all.filter(|f| f.beyond <= self.beyond * (1.0 + 1e-9) && f.most.is_finite()).min_by(|a, b| a.most.total_cmp(&b.most))
     }
 
     /// What the greatest |κ| of every solution that is not too long exceeds, for all sizes in these ranges (`equal`: both the same in the first).
@@ -47,7 +59,7 @@ impl Search {
         let first = Quadratic::along(size[0], 0);
         let last = if equal { first } else { Quadratic::along(size[1], 1) };
         let Some(arcs) = boxed(self.theta, [first, last]) else { return 0.0 };
-        arcs.iter().map(|arc| bound(arc, self.longest, enough)).fold(f64::INFINITY, f64::min)
+        arcs.iter().map(|arc| bound(arc, self.beyond, enough)).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -84,8 +96,8 @@ mod tests {
                 5 => [0.5 * PI, if angle > 0.0 { -0.5 * PI } else { 0.5 * PI }],
                 _ => [angle, other],
             };
-            let longest = if round % 3 == 0 { 1.0 + noise.next() } else { 100.0 };
-            let search = Search { theta, longest };
+            let beyond = if round % 3 == 0 { noise.next() } else { 99.0 };
+            let search = Search { theta, beyond };
             let equal = round % 5 == 0;
             let width = 10f64.powf(-7.0 * noise.next());
             let mut middle = [0, 1].map(|_| 20.0 * 10f64.powf(-3.0 * noise.next()));
@@ -101,7 +113,7 @@ mod tests {
                 let x = size.map(|[low, high]| (low + (high - low) * part(&mut noise)).clamp(low, high));
                 let Some(found) = search.at(if equal { [x[0]; 2] } else { x }) else { continue };
                 // Only those that are certainly not too long.
-                if found.length > longest {
+                if found.beyond > beyond {
                     continue;
                 }
                 assert!(least <= found.most * (1.0 + 1e-9), "{search:?} {size:?} {equal}: {least} {found:?}");
