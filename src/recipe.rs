@@ -41,7 +41,7 @@
 //! levels = [0.1, 0.3, 0.5]
 //! ```
 //!
-//! Angles may be written `"40deg"` on axes of angles.
+//! Angles may be written `"40deg"` or `"40°"` on axes of angles.
 
 mod levels;
 mod raw;

@@ -222,9 +222,11 @@ fn angles() {
     let close = |text: &str, x: f64| assert_eq!(parse_angle(text).unwrap(), x, "{text}");
     close("180deg", PI);
     close(" -90 deg ", -PI / 2.0);
+    close("180°", PI);
+    close("-90 °", -PI / 2.0);
     close("0.7", 0.7);
     close("7e-1rad", 0.7);
-    for bad in ["", "deg", "rad", "1grad", "1 deg rad", "inf", "NaN", "1e400", "infdeg", "0x1"] {
+    for bad in ["", "deg", "rad", "1grad", "1 deg rad", "inf", "NaN", "1e400", "infdeg", "0x1", "°", "1°°", "1°rad"] {
         assert!(matches!(parse_angle(bad), Err(Error::Domain(_))), "{bad}");
     }
 }

@@ -1,7 +1,7 @@
 //! The commands: arguments in, text, JSON and files out. No mathematics here.
 //!
-//! Exit codes: 0 fine, 1 failure or a difference found, 2 wrong usage, 130 interrupted. Reports go to standard output,
-//! progress and errors to standard error.
+//! Exit status: 0 yes or done, 1 no, 2 an error, 130 interrupted. Reports go to standard output, progress and errors to standard
+//! error.
 
 mod adapters;
 mod backend;
@@ -25,13 +25,21 @@ use std::sync::atomic::AtomicBool;
 
 /// Proved atlases of spiral regions: is there a transition curve with monotone curvature between two ends, and which one?
 ///
-/// Angles are radians, or degrees when written like 40deg.
+/// Angles are radians, or degrees when written like 40deg or 40°.
 #[derive(Parser)]
-#[command(name = "spiral-atlas", version, arg_required_else_help = true)]
+#[command(name = "spiral-atlas", version, arg_required_else_help = true, after_help = EXIT_STATUS)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
 }
+
+/// What a command tells by its exit status.
+const EXIT_STATUS: &str = "\
+Exit status:
+  0    yes: what was asked for exists, holds or was done
+  1    no: there is no such curve, or a check found a difference; the output says why
+  2    an error: the command line, a file or a number is wrong, or the system refused; standard error says what
+  130  interrupted by Ctrl-C; nothing is left half-written";
 
 #[derive(Subcommand)]
 enum Command {
@@ -51,12 +59,15 @@ enum Command {
     },
 }
 
-/// How a command ended that did not fail.
+/// How a command ended that has told all it had to tell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
+    /// Yes, or simply done: exit status 0.
     Fine,
-    /// It did its work, and what it found is not as it should be; it has said so itself.
+    /// The answer is no: exit status 1.
     Bad,
+    /// Some of its input was wrong; it went on with the rest and said so: exit status 2.
+    Failed,
 }
 
 /// Runs the program with the process's arguments.
@@ -74,10 +85,11 @@ pub fn main() -> ExitCode {
     };
     match done {
         Ok(Outcome::Fine) => ExitCode::SUCCESS,
-        Ok(Outcome::Bad) => ExitCode::FAILURE,
+        Ok(Outcome::Bad) => ExitCode::from(1),
+        Ok(Outcome::Failed) => ExitCode::from(2),
         Err(error) => {
             output::complain(&error.to_string());
-            ExitCode::from(if matches!(error, Error::Interrupted) { 130 } else { 1 })
+            ExitCode::from(if matches!(error, Error::Interrupted) { 130 } else { 2 })
         }
     }
 }
@@ -88,9 +100,18 @@ fn completions(shell: clap_complete::Shell) -> Result<Outcome> {
     output::print(&String::from_utf8_lossy(&text)).map(|()| Outcome::Fine)
 }
 
-/// Ends the program as for arguments that clap itself refuses.
+/// Ends the program as for arguments that clap itself refuses, with the usage of the command that was given.
 fn refuse(what: &str) -> ! {
-    Cli::command().error(clap::error::ErrorKind::ArgumentConflict, what).exit()
+    let mut command = Cli::command();
+    command.build();
+    // The arguments were parsed once already, so this cannot fail.
+    let matches = command.clone().get_matches();
+    let mut given = &matches;
+    while let Some((name, more)) = given.subcommand() {
+        command = command.find_subcommand(name).cloned().unwrap_or(command);
+        given = more;
+    }
+    command.error(clap::error::ErrorKind::ArgumentConflict, what).exit()
 }
 
 /// A flag that Ctrl-C (and a polite request to end) sets; long work looks at it and cleans up after itself.

@@ -53,7 +53,7 @@ pub fn run(family: &'static dyn Family, path: &Path, atlas: Option<&Atlas>) -> R
         let mut text = match answer {
             Ok(answer) => serde_json::to_vec(&answer),
             Err(error) => {
-                outcome = Outcome::Bad;
+                outcome = Outcome::Failed;
                 serde_json::to_vec(&Bad { line: lines.number, error })
             }
         }

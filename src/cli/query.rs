@@ -18,7 +18,7 @@ use std::path::PathBuf;
 /// With --points, one line of JSON for each row, in order:
 /// {"phi0":..,"phi1":..,"kappa0":..,"kappa1":..,"flags":{"SOLVABLE":true,..},"solutions":[{"f0":..,"f1":..,"theorem31":true,
 /// "spiral":true,"margin":..,"control_points":[[x,y],..]},..],"chosen":0}, where `chosen` is an index into `solutions` or null;
-/// a bad row gives {"line":..,"error":".."}, and the exit code is 1 at the end.
+/// a bad row gives {"line":..,"error":".."}, and the exit status is 2 at the end.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --kappa1 4\n  \
                         spiral-atlas query --family reach-ph --theta 40deg --xi 1.5 --eta 0.35\n  \

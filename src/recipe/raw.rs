@@ -141,7 +141,7 @@ pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
     text.trim().parse().map_err(|_| Error::Domain(format!("{axis}: {text:?} is no number")))
 }
 
-/// Reads an angle: `40deg`, `0.7rad`, or radians alone, `0.7`.
+/// Reads an angle: `40deg` or `40°`, `0.7rad`, or radians alone, `0.7`.
 ///
 /// # Returns
 /// Radians; degrees are divided by 180 and then multiplied by π, each rounded once, so that `180deg` is π's double itself.
@@ -153,18 +153,20 @@ pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
 /// use spiral_atlas::recipe::parse_angle;
 /// assert_eq!(parse_angle("90deg")?, std::f64::consts::FRAC_PI_2);
 /// assert_eq!(parse_angle("0.7 rad")?, 0.7);
-/// assert!(parse_angle("40°").is_err());
+/// assert_eq!(parse_angle("40°")?, parse_angle("40deg")?);
+/// assert!(parse_angle("40%").is_err());
 /// # Ok::<(), spiral_atlas::Error>(())
 /// ```
 pub fn parse_angle(text: &str) -> Result<f64> {
     let trimmed = text.trim();
-    let (number, degrees) = match (trimmed.strip_suffix("deg"), trimmed.strip_suffix("rad")) {
+    let in_degrees = trimmed.strip_suffix("deg").or_else(|| trimmed.strip_suffix('°'));
+    let (number, degrees) = match (in_degrees, trimmed.strip_suffix("rad")) {
         (Some(number), _) => (number, true),
         (None, Some(number)) => (number, false),
         (None, None) => (trimmed, false),
     };
     match number.trim_end().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(if degrees { value / 180.0 * PI } else { value }),
-        _ => Err(Error::Domain(format!("{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg`"))),
+        _ => Err(Error::Domain(format!("{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`"))),
     }
 }

@@ -102,7 +102,7 @@ fn every_family_answers() {
     let folder = Folder::new("");
     std::fs::write(folder.at("ends.csv"), "theta,xi,eta\n45deg,1.5,0.9\n4,1,1\n").unwrap();
     let said = run(["query", "--family", "reach-cubic", "--points", &folder.text("ends.csv")]);
-    assert!(said.code == Some(1) && said.out.contains("CASE2_EXACT\":true") && said.out.contains("theta is 4"), "{}", said.out);
+    assert!(said.code == Some(2) && said.out.contains("CASE2_EXACT\":true") && said.out.contains("theta is 4"), "{}", said.out);
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn a_table_is_answered_line_by_line_in_order() {
                 4,40deg,e,80deg,-1\n1e999,0.7,f,1.4,0.4";
     std::fs::write(folder.at("rows.csv"), rows).unwrap();
     let said = run(["query", "--points", &folder.text("rows.csv")]);
-    assert_eq!((said.code, &said.err[..]), (Some(1), ""));
+    assert_eq!((said.code, &said.err[..]), (Some(2), ""));
     let lines: Vec<serde_json::Value> = said.out.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
     assert_eq!(lines.len(), 7);
     assert!(said.out.starts_with(r#"{"phi0":0.7,"phi1":1.4,"kappa0":0.4,"kappa1":4.0,"flags":{"SOLVABLE":true,"#));

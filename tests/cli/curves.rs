@@ -35,7 +35,7 @@ fn no_curve_is_an_answer_with_numbers() {
     assert!(wavy.code == Some(0) && wavy.out.contains("loses monotone curvature"), "{}", wavy.out);
     assert!(folder.at("wavy.png").exists());
     let none = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--figure", &folder.text("none.png")]);
-    assert!(none.code == Some(1) && none.err.contains("none.png was not drawn"), "{}", none.err);
+    assert!(none.code == Some(2) && none.err.contains("none.png was not drawn"), "{}", none.err);
     assert!(!folder.at("none.png").exists());
 }
 

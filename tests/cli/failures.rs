@@ -16,28 +16,28 @@ fn bad_input_is_named() {
     let (typo, wide, junk) = (folder.text("typo.toml"), folder.text("wide.toml"), folder.text("junk.safetensors"));
     let (head, none, out) = (folder.text("head.csv"), folder.text("none.csv"), folder.text("out"));
     let cases: &[(&[&str], i32, &[&str])] = &[
-        (&["query", "--phi0", "4", "--phi1", "1", "--kappa0", "1", "--kappa1", "2"], 1, &["phi0 is 4", "below pi"]),
-        (&["query", "--phi0", "2", "--phi1", "2", "--kappa0", "1", "--kappa1", "2"], 1, &["phi0 + phi1", "2 + 2"]),
-        (&["query", "--phi0", "1", "--phi1", "1", "--kappa0", "inf", "--kappa1", "2"], 1, &["kappa0 is inf"]),
+        (&["query", "--phi0", "4", "--phi1", "1", "--kappa0", "1", "--kappa1", "2"], 2, &["phi0 is 4", "below pi"]),
+        (&["query", "--phi0", "2", "--phi1", "2", "--kappa0", "1", "--kappa1", "2"], 2, &["phi0 + phi1", "2 + 2"]),
+        (&["query", "--phi0", "1", "--phi1", "1", "--kappa0", "inf", "--kappa1", "2"], 2, &["kappa0 is inf"]),
         (&["query", "--phi0", "40dg", "--phi1", "1", "--kappa0", "1", "--kappa1", "2"], 2, &["40dg", "40deg"]),
         (&["query", "--phi0", "1", "--phi1", "1", "--kappa0", "abc", "--kappa1", "2"], 2, &["abc", "--kappa0"]),
         (&["query", "--phi0", "1"], 2, &["--phi1", "--kappa1"]),
         (&["query", "--points", "-", "--phi0", "1"], 2, &["--points", "--phi0"]),
-        (&["query", "--points", &head], 1, &["head.csv: line 1", "\"phi0,phi1,kappa0\"", "kappa1"]),
-        (&["query", "--points", &none], 1, &["none.csv", "empty"]),
-        (&["query", "--points", "missing.csv"], 1, &["missing.csv", "No such file"]),
-        (&["generate", "missing.toml"], 1, &["missing.toml", "No such file"]),
-        (&["generate", &typo, "--out", &out], 1, &["typo.toml", "line 9", "`kapa0`", "`kappa0`"]),
-        (&["generate", &wide, "--out", &out, "--backend", "cpu"], 1, &["phi0 + phi1", "3.1", "below pi"]),
-        (&["generate", &recipe, "--out", &recipe, "--backend", "cpu"], 1, &["recipe.toml", "File exists"]),
+        (&["query", "--points", &head], 2, &["head.csv: line 1", "\"phi0,phi1,kappa0\"", "kappa1"]),
+        (&["query", "--points", &none], 2, &["none.csv", "empty"]),
+        (&["query", "--points", "missing.csv"], 2, &["missing.csv", "No such file"]),
+        (&["generate", "missing.toml"], 2, &["missing.toml", "No such file"]),
+        (&["generate", &typo, "--out", &out], 2, &["typo.toml", "line 9", "`kapa0`", "`kappa0`"]),
+        (&["generate", &wide, "--out", &out, "--backend", "cpu"], 2, &["phi0 + phi1", "3.1", "below pi"]),
+        (&["generate", &recipe, "--out", &recipe, "--backend", "cpu"], 2, &["recipe.toml", "File exists"]),
         (&["generate", &recipe, "--backend", "cuda"], 2, &["cuda", "cpu"]),
         (&["generate", &recipe, "--threads", "0"], 2, &["'0'", "--threads"]),
         (&["generate", &recipe, "--backend", "cpu", "--adapter", "llvmpipe"], 2, &["--adapter", "--backend cpu"]),
-        (&["generate", &recipe, "--adapter", "no such adapter"], 1, &["GPU"]),
-        (&["verify", &junk], 1, &["junk.safetensors"]),
-        (&["verify", "missing.safetensors"], 1, &["missing.safetensors", "No such file"]),
-        (&["info", &recipe], 1, &["recipe.toml"]),
-        (&["render", &junk], 1, &["junk.safetensors"]),
+        (&["generate", &recipe, "--adapter", "no such adapter"], 2, &["GPU"]),
+        (&["verify", &junk], 2, &["junk.safetensors"]),
+        (&["verify", "missing.safetensors"], 2, &["missing.safetensors", "No such file"]),
+        (&["info", &recipe], 2, &["recipe.toml"]),
+        (&["render", &junk], 2, &["junk.safetensors"]),
         (&["curve", "--from", "0"], 2, &["\"0\" is not two finite numbers"]),
         (&["speak"], 2, &["speak"]),
         (&[], 2, &["Usage"]),
@@ -58,10 +58,10 @@ fn two_pictures_of_one_name_are_refused() {
     let second = TINY[TINY.find("[[atlas]]").unwrap()..].replace("\"tiny\"", "\"tiny-1\"");
     let folder = Folder::new(&format!("{TINY}{}", &second[..second.rfind("[[atlas.picture]]").unwrap()]));
     let said = run(["generate", &folder.text("recipe.toml"), "--out", &folder.text("out"), "--backend", "cpu"]);
-    assert!(said.code == Some(1) && said.err.contains("tiny-1.png"), "{}", said.err);
+    assert!(said.code == Some(2) && said.err.contains("tiny-1.png"), "{}", said.err);
     std::fs::write(folder.at("tiny.toml"), format!("{slice}{second}")).unwrap();
     let said = run(["generate", &folder.text("tiny.toml"), "--out", &folder.text("out"), "--backend", "cpu"]);
-    assert!(said.code == Some(1) && said.err.contains("tiny.png"), "{}", said.err);
+    assert!(said.code == Some(2) && said.err.contains("tiny.png"), "{}", said.err);
     assert!(!folder.at("out").exists());
 }
 
@@ -107,7 +107,7 @@ fn a_disk_that_takes_no_more_leaves_no_file() {
         shell.output().unwrap().into()
     };
     let said = run("8");
-    assert_eq!(said.code, Some(1), "{} {}", said.out, said.err);
+    assert_eq!(said.code, Some(2), "{} {}", said.out, said.err);
     assert!(said.err.contains("tiny.atlas.safetensors: File too large"), "{}", said.err);
     assert_eq!(names(&folder.at("out")), [""; 0]);
     let said = run("unlimited");

@@ -110,7 +110,7 @@ fn a_planned_path_is_input_of_separation() {
     assert!(!toml.is_empty() && toml == piped(&["plan", "-"], json).out);
     std::fs::write(folder.at("scene.toml"), "start = [0, 0").unwrap();
     let said = run(["path", "plan", &folder.text("scene.toml")]);
-    assert!(said.code == Some(1) && said.err.contains("scene.toml") && said.err.contains("line 1"), "{}", said.err);
+    assert!(said.code == Some(2) && said.err.contains("scene.toml") && said.err.contains("line 1"), "{}", said.err);
 }
 
 #[test]
@@ -252,7 +252,7 @@ fn mistakes_are_named() {
     ];
     for (args, input, parts) in cases {
         let said = run_or_pipe(args, input);
-        assert_eq!((said.code, &said.out[..]), (Some(1), ""), "{args:?} {input}");
+        assert_eq!((said.code, &said.out[..]), (Some(2), ""), "{args:?} {input}");
         assert!(parts.iter().all(|part| said.err.contains(part)), "{args:?} {input}: {}", said.err);
     }
 }
@@ -263,7 +263,7 @@ fn mistakes_in_toml_are_named() {
     let says = |tool: &str, text: &str, part: &str| {
         std::fs::write(folder.at("ends.toml"), text).unwrap();
         let said = run(["path", tool, &folder.text("ends.toml")]);
-        assert!(said.code == Some(1) && said.err.contains(&format!("ends.toml: {part}")), "{}", said.err);
+        assert!(said.code == Some(2) && said.err.contains(&format!("ends.toml: {part}")), "{}", said.err);
     };
     let ends = "end = [1, 0]\nstart_derivative = [1, 1]\nend_derivative = [1, -1]";
     says("hermite", &format!("start = [0, 0, 1]\n{ends}"), "start: invalid length 3");
