@@ -8,12 +8,11 @@ use super::jet::{Jet, casteljau};
 use crate::family::ph_quintic::energy_integral;
 use crate::num::{Ball, Interval, Real};
 use num_complex::Complex64;
-use serde::Serialize;
 
 /// A Pythagorean-hodograph quintic for t in [0, 1], anywhere in the plane, in any unit of length.
 ///
-/// A pre-image and its negative give the same curve: compare curves by control points.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// A pre-image and its negative give the same curve: compare curves by control points. As JSON it is a [`super::Piece`].
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhQuintic {
     /// The point at t = 0.
     pub start: [f64; 2],

@@ -6,6 +6,7 @@ mod curve;
 mod equal;
 mod hermite;
 mod least_curvature;
+mod piece;
 mod plan;
 mod separation;
 mod spline;

@@ -104,14 +104,6 @@ fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }
 
-/// A span as it is printed.
-#[derive(Serialize)]
-struct Span {
-    #[serde(flatten)]
-    curve: PhQuintic,
-    control_points: [[f64; 2]; 6],
-}
-
 /// A path as it is printed.
 #[derive(Serialize)]
 struct Found {
@@ -121,7 +113,7 @@ struct Found {
     absolute_rotation: f64,
     /// As of a [`Candidate`].
     greatest_curvature: f64,
-    spans: Vec<Span>,
+    spans: Vec<PhQuintic>,
     #[serde(flatten)]
     choice: Option<Others>,
 }
@@ -159,7 +151,7 @@ impl Found {
             bending_energy: sum(PhQuintic::bending_energy),
             absolute_rotation: sum(PhQuintic::absolute_rotation),
             greatest_curvature: spans.iter().map(greatest_curvature).fold(0.0, most),
-            spans: spans.iter().map(|c| Span { curve: *c, control_points: c.control_points() }).collect(),
+            spans: spans.to_vec(),
             choice: None,
         }
     }
@@ -178,7 +170,7 @@ impl Found {
     }
 
     fn curves(&self) -> Vec<PhQuintic> {
-        self.spans.iter().map(|s| s.curve).collect()
+        self.spans.clone()
     }
 }
 
