@@ -1,11 +1,22 @@
 //! `curve --family ph-quintic`: the Pythagorean-hodograph quintic spiral of least bending energy.
 
 use super::{Found, drawn, end_circles};
-use spiral_atlas::curve::PhAnswer;
+use spiral_atlas::curve::{Ends, PhAnswer, PhOutcome, Piece};
 use spiral_atlas::plot::CurveFigure;
 use spiral_atlas::{Error, Result};
 
 impl Found for PhAnswer {
+    fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
+        match &self.outcome {
+            PhOutcome::Chosen(i) => Ok(self.solutions.get(*i).map(|s| Piece::PhQuintic(s.curve)).into_iter().collect()),
+            PhOutcome::Why(why) => Err(why.sentence("PH quintic spiral")),
+        }
+    }
+
+    fn ends(&self) -> Option<&Ends> {
+        Some(&self.ends)
+    }
+
     fn text(&self) -> String {
         self.to_string()
     }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use spiral_atlas::Result;
 pub use spiral_atlas::curve::trig::Request;
 use spiral_atlas::curve::trig::{Outcome, Path, Template, path};
-use spiral_atlas::curve::{EndCircle, Jet, Sample};
+use spiral_atlas::curve::{EndCircle, Jet, Piece, Sample, TrigPart};
 use spiral_atlas::plot::{self, CurveFigure, Graph};
 
 /// What was asked and what was found.
@@ -39,9 +39,19 @@ impl Told {
 }
 
 impl Found for Told {
+    fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
+        match &self.outcome {
+            Outcome::Spirals(path) => Ok(pieces(path)),
+            Outcome::NoSpirals { why, .. } => Err(why.clone()),
+        }
+    }
+
     fn text(&self) -> String {
         let mut text = match &self.outcome {
-            Outcome::Spirals(_) => self.title() + "\n",
+            Outcome::Spirals(path) => {
+                let length: f64 = pieces(path).iter().map(Piece::length).sum();
+                format!("{}, length {length:?}\n", self.title())
+            }
             Outcome::NoSpirals { why, .. } => format!("{why}\n"),
         };
         for part in &self.outcome.path().parts {
@@ -76,6 +86,10 @@ impl Found for Told {
             joints,
         })
     }
+}
+
+fn pieces(path: &Path) -> Vec<Piece> {
+    path.parts.iter().map(|part| Piece::TrigQuintic(TrigPart { curve: part.curve, from: part.from, to: part.to })).collect()
 }
 
 /// What the path joins, as the figure wants it.
