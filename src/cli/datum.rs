@@ -87,51 +87,11 @@ fn chart(family: &dyn Family, names: &[&str]) -> Option<(usize, &'static Chart)>
     family.charts().iter().enumerate().find(|(_, chart)| chart.axes.iter().all(|axis| names.contains(axis)))
 }
 
-/// Where in the rows of a table the coordinates are.
-#[derive(Debug, PartialEq)]
-pub struct Header {
-    chart: usize,
-    axes: &'static [&'static str],
-    places: Vec<usize>,
-    count: usize,
-}
-
-impl Header {
-    /// Reads the header line.
-    pub fn parse(family: &dyn Family, line: &str) -> std::result::Result<Header, String> {
-        let cells: Vec<&str> = cells(line.trim_start_matches('\u{feff}')).collect();
-        let Some((chart, Chart { axes, .. })) = chart(family, &cells) else {
-            return Err(format!("the header is {:?}; it must have the columns {}", line.trim(), columns(family)));
-        };
-        let place = |axis: &&str| {
-            let mut found = cells.iter().enumerate().filter(|(_, cell)| *cell == axis).map(|(i, _)| i);
-            let first = found.next().unwrap_or_default();
-            if found.next().is_none() { Ok(first) } else { Err(format!("the header has two columns `{axis}`")) }
-        };
-        let places = axes.iter().map(place).collect::<std::result::Result<_, _>>()?;
-        Ok(Header { chart, axes, places, count: cells.len() })
-    }
-
-    /// Reads a row.
-    pub fn datum(&self, line: &str) -> std::result::Result<Datum, String> {
-        let count = cells(line).count();
-        if count != self.count {
-            return Err(format!("the row has {count} values; the header has {}", self.count));
-        }
-        let value = |(axis, place): (&&str, &usize)| parse_coordinate(axis, cells(line).nth(*place).unwrap_or_default());
-        let point = self.axes.iter().zip(&self.places).map(value).collect::<Result<_>>().map_err(|e| e.to_string())?;
-        Ok(Datum { chart: self.chart, point })
-    }
-}
-
-/// The columns that a table of a family's data may have.
-pub fn columns(family: &dyn Family) -> String {
-    family.charts().iter().map(|c| c.axes.join(",")).collect::<Vec<_>>().join(" or ")
-}
-
-/// The cells of a line, without blanks and quotation marks around them.
-fn cells(line: &str) -> impl Iterator<Item = &str> {
-    line.split(',').map(|cell| cell.trim().trim_matches('"').trim())
+/// A datum from the cells of a row, in the order of the chart's axes.
+pub fn from_cells(family: &dyn Family, chart: usize, cells: &[&str]) -> Result<Datum> {
+    let axes = family.charts()[chart].axes;
+    let point = axes.iter().zip(cells).map(|(axis, cell)| parse_coordinate(axis, cell)).collect::<Result<_>>()?;
+    Ok(Datum { chart, point })
 }
 
 /// The family of a name, for an option.
@@ -140,29 +100,4 @@ pub fn parse_family(name: &str) -> Result<&'static dyn Family> {
         let known: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
         Error::Domain(format!("unknown family `{name}`; known are `{}`", known.join("`, `")))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use spiral_atlas::family::cubic::Cubic;
-
-    #[test]
-    fn headers_say_where_columns_are() {
-        let parse = |line| Header::parse(&Cubic, line);
-        let plain = parse("phi0,phi1,kappa0,kappa1\r\n").unwrap();
-        assert_eq!((plain.chart, &plain.places[..], plain.count), (0, &[0, 1, 2, 3][..], 4));
-        let other = parse("\u{feff}\"kappa1\", id ,phi1,\"phi0\",kappa0").unwrap();
-        assert_eq!((&other.places[..], other.count), (&[3, 2, 4, 0][..], 5));
-        let datum = other.datum("4,\"x\",90deg,0.7 , \"-0.4\"").unwrap();
-        assert_eq!(datum.point, [0.7, std::f64::consts::FRAC_PI_2, -0.4, 4.0]);
-        assert_eq!(
-            parse("phi0,phi1,a,k").unwrap().datum("1,1,0.5,0.25").unwrap(),
-            Datum { chart: 1, point: vec![1.0, 1.0, 0.5, 0.25] }
-        );
-        assert!(parse("phi0,phi1,kappa0,kapa1").unwrap_err().contains("kapa1"));
-        assert!(parse("phi0,phi1,kappa0,kappa1,phi0").unwrap_err().contains("two columns"));
-        assert!(plain.datum("1,2,3").unwrap_err().contains("3 values"));
-        assert!(plain.datum("1,2,3deg,4").unwrap_err().contains("kappa0: \"3deg\""));
-    }
 }

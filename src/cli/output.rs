@@ -41,6 +41,11 @@ pub fn complain(what: &str) {
     let _ = writeln!(io::stderr(), "error: {what}");
 }
 
+/// Tells on standard error what is no error, where standard output is for numbers alone.
+pub fn note(what: &str) {
+    let _ = writeln!(io::stderr(), "{what}");
+}
+
 /// A bar on standard error for a number of nodes; silent when that is no terminal.
 pub fn progress(what: String, nodes: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(nodes), ProgressDrawTarget::stderr());

@@ -1,13 +1,9 @@
-//! `query --points`: a CSV file in, a line of JSON out for each row, in order, in bounded memory.
+//! `query --points` and `curve --points`: a CSV file in, a line of JSON out for each row, in order, in bounded memory.
 //!
 //! Rows are numbers, so a row is a line: a stray quotation mark spoils its own row alone, never the rest of the file.
 
 use super::Outcome;
-use super::datum::{Header, columns};
 use super::output::{json_error, stdout_error};
-use super::query::Answer;
-use spiral_atlas::atlas::Atlas;
-use spiral_atlas::family::Family;
 use spiral_atlas::files::size;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
@@ -18,8 +14,13 @@ const MAX_LINE: usize = 1 << 16;
 /// A line that still has no end after so many bytes may have none at all, as in /dev/zero: it is not read on.
 const MAX_SKIPPED: usize = 1 << 26;
 
-/// Answers for every row of a file, or of standard input for `-`.
-pub fn run(family: &'static dyn Family, path: &Path, atlas: Option<&Atlas>) -> Result<Outcome> {
+/// Answers for every row of a file, or of standard input for `-`: with `answer`, from the index of the first set of columns that the header
+/// has, and the cells of a row in the order of that set.
+pub fn run(
+    path: &Path,
+    charts: &[&'static [&'static str]],
+    answer: impl Fn(usize, &[&str]) -> Result<Vec<u8>>,
+) -> Result<Outcome> {
     let io = |source| Error::Io { path: path.to_owned(), source };
     let input: Box<dyn Read> =
         if path == Path::new("-") { Box::new(io::stdin()) } else { Box::new(std::fs::File::open(path).map_err(io)?) };
@@ -30,11 +31,11 @@ pub fn run(family: &'static dyn Family, path: &Path, atlas: Option<&Atlas>) -> R
                 return Err(Error::Domain(format!(
                     "{}: it is empty; its first line must be {}",
                     path.display(),
-                    columns(family)
+                    columns(charts)
                 )));
             }
             Some(Ok(line)) if line.trim().is_empty() => {}
-            Some(line) => break line.and_then(|line| Header::parse(family, line)),
+            Some(line) => break line.and_then(|line| Header::parse(charts, line)),
         }
     };
     let header = header.map_err(|what| Error::Domain(format!("{}: line {}: {what}", path.display(), lines.number)))?;
@@ -46,27 +47,73 @@ pub fn run(family: &'static dyn Family, path: &Path, atlas: Option<&Atlas>) -> R
         if let Some(end) = if waiting { broken(out.flush())? } else { None } {
             return Ok(end);
         }
-        let answer = match lines.next().map_err(io)? {
+        let told = match lines.next().map_err(io)? {
             None => break,
             Some(Ok(line)) if line.trim().is_empty() => continue,
-            Some(line) => {
-                line.and_then(|line| header.datum(line)).and_then(|d| Answer::new(family, d, atlas).map_err(|e| e.to_string()))
-            }
+            Some(line) => line.and_then(|line| {
+                let cells = header.cells(line)?;
+                answer(header.chart, &cells).map_err(|e| e.to_string())
+            }),
         };
-        let mut text = match answer {
-            Ok(answer) => serde_json::to_vec(&answer),
+        let mut text = match told {
+            Ok(text) => text,
             Err(error) => {
                 outcome = Outcome::Failed;
-                serde_json::to_vec(&Bad { line: lines.number, error })
+                serde_json::to_vec(&Bad { line: lines.number, error }).map_err(json_error)?
             }
-        }
-        .map_err(json_error)?;
+        };
         text.push(b'\n');
         if let Some(end) = broken(out.write_all(&text))? {
             return Ok(end);
         }
     }
     broken(out.flush()).map(|end| end.unwrap_or(outcome))
+}
+
+/// Where in the rows of a table the columns are.
+#[derive(Debug, PartialEq)]
+struct Header {
+    /// Index of the set of columns.
+    chart: usize,
+    places: Vec<usize>,
+    count: usize,
+}
+
+impl Header {
+    /// Reads the header line.
+    fn parse(charts: &[&'static [&'static str]], line: &str) -> std::result::Result<Header, String> {
+        let given: Vec<&str> = cells(line.trim_start_matches('\u{feff}')).collect();
+        let has_all = |chart: &&[&str]| chart.iter().all(|name| given.contains(name));
+        let Some(chart) = charts.iter().position(has_all) else {
+            return Err(format!("the header is {:?}; it must have the columns {}", line.trim(), columns(charts)));
+        };
+        let place = |name: &&str| {
+            let mut found = given.iter().enumerate().filter(|(_, cell)| *cell == name).map(|(i, _)| i);
+            let first = found.next().unwrap_or_default();
+            if found.next().is_none() { Ok(first) } else { Err(format!("the header has two columns `{name}`")) }
+        };
+        let places = charts[chart].iter().map(place).collect::<std::result::Result<_, _>>()?;
+        Ok(Header { chart, places, count: given.len() })
+    }
+
+    /// The cells of a row, in the order of the columns.
+    fn cells<'l>(&self, line: &'l str) -> std::result::Result<Vec<&'l str>, String> {
+        let all: Vec<&str> = cells(line).collect();
+        if all.len() != self.count {
+            return Err(format!("the row has {} values; the header has {}", all.len(), self.count));
+        }
+        Ok(self.places.iter().map(|place| all[*place]).collect())
+    }
+}
+
+/// Sets of columns for a message.
+fn columns(charts: &[&'static [&'static str]]) -> String {
+    charts.iter().map(|names| names.join(",")).collect::<Vec<_>>().join(" or ")
+}
+
+/// The cells of a line, without blanks and quotation marks around them.
+fn cells(line: &str) -> impl Iterator<Item = &str> {
+    line.split(',').map(|cell| cell.trim().trim_matches('"').trim())
 }
 
 #[derive(serde::Serialize)]
@@ -148,5 +195,20 @@ mod tests {
     fn a_line_without_end_is_left() {
         let mut lines = Lines { input: BufReader::new(Box::new(io::repeat(b'0'))), number: 0, line: Vec::new() };
         assert!(lines.next().unwrap_err().to_string().contains("line 1 has no end"));
+    }
+
+    #[test]
+    fn headers_say_where_columns_are() {
+        const CHARTS: [&[&str]; 2] = [&["phi0", "phi1", "kappa0", "kappa1"], &["phi0", "phi1", "a", "k"]];
+        let parse = |line| Header::parse(&CHARTS, line);
+        let plain = parse("phi0,phi1,kappa0,kappa1\r\n").unwrap();
+        assert_eq!((plain.chart, &plain.places[..], plain.count), (0, &[0, 1, 2, 3][..], 4));
+        let other = parse("\u{feff}\"kappa1\", id ,phi1,\"phi0\",kappa0").unwrap();
+        assert_eq!((&other.places[..], other.count), (&[3, 2, 4, 0][..], 5));
+        assert_eq!(other.cells("4,\"x\",90deg,0.7 , \"-0.4\"").unwrap(), ["0.7", "90deg", "-0.4", "4"]);
+        assert_eq!(parse("phi0,phi1,a,k").unwrap().chart, 1);
+        assert!(parse("phi0,phi1,kappa0,kapa1").unwrap_err().contains("kapa1"));
+        assert!(parse("phi0,phi1,kappa0,kappa1,phi0").unwrap_err().contains("two columns"));
+        assert!(plain.cells("1,2,3").unwrap_err().contains("3 values"));
     }
 }

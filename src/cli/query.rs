@@ -1,6 +1,6 @@
 //! `query`: the exact answer for one datum of any family, or for many as a stream.
 
-use super::datum::{Coordinates, Datum, parse_family};
+use super::datum::{Coordinates, Datum, from_cells, parse_family};
 use super::output::{self, Object};
 use super::{Outcome, pictures, points};
 use serde::Serialize;
@@ -53,7 +53,11 @@ pub fn run(args: &Args) -> Result<Outcome> {
         return Err(Error::Atlas { path: atlas.path().to_owned(), what });
     }
     if let Some(path) = &args.points {
-        return points::run(family, path, atlas.as_ref());
+        let charts: Vec<&'static [&'static str]> = family.charts().iter().map(|chart| chart.axes).collect();
+        return points::run(path, &charts, |chart, cells| {
+            let answer = Answer::new(family, from_cells(family, chart, cells)?, atlas.as_ref())?;
+            serde_json::to_vec(&answer).map_err(output::json_error)
+        });
     }
     let datum = args.coordinates.datum(family).unwrap_or_else(|what| super::refuse(&what));
     let answer = Answer::new(family, datum, atlas.as_ref())?;

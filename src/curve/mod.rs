@@ -11,7 +11,7 @@ mod hermite;
 mod jet;
 mod length;
 mod offset;
-mod quintic;
+pub(crate) mod quintic;
 mod trig_bezier;
 pub(crate) mod vector;
 

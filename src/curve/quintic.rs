@@ -294,7 +294,7 @@ impl PhQuintic {
     }
 }
 
-pub(super) fn complex(w: &[[f64; 2]; 3]) -> [Complex64; 3] {
+pub(crate) fn complex(w: &[[f64; 2]; 3]) -> [Complex64; 3] {
     w.map(|[re, im]| Complex64::new(re, im))
 }
 

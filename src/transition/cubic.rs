@@ -1,8 +1,10 @@
 //! The transition spiral between two given ends: Habib & Sakai, section 3.2, for data anywhere in the plane.
 
+use super::piece::{Cubic, Piece, of_legs};
 use super::placement::{Ends, Placement};
 use super::why::Why;
 use crate::curve::CubicBezier;
+use crate::curve::arc_length;
 use crate::error::{Error, Result};
 use crate::family::cubic::{Datum, Root, solve};
 use serde::{Serialize, Serializer};
@@ -48,6 +50,8 @@ pub struct Solution {
     pub spiral: bool,
     /// Scale-free distance from losing it; see [`Root::margin`].
     pub margin: f64,
+    /// Arc length, to 1e-13 relative.
+    pub length: f64,
     /// The curve in the user's units, axes and direction of travel; it starts and ends exactly where asked.
     pub control_points: CubicBezier,
     /// The same relative to the start point, for coordinates far from the origin.
@@ -72,7 +76,7 @@ pub struct Solution {
 /// no spiral exists is no error but [`Outcome::Why`].
 pub fn spiral(ends: &Ends) -> Result<Answer> {
     let (datum, placement) = Placement::normalise(ends)?;
-    if let Some(why) = Why::no_convex_arc(&datum, &placement) {
+    if let Some(why) = Why::no_convex_arc(ends, &datum, &placement)? {
         return Ok(Answer { ends: *ends, datum, placement, solutions: Vec::new(), outcome: Outcome::Why(why) });
     }
     let solved = solve(&datum)?;
@@ -91,11 +95,22 @@ impl Answer {
         let outcome = match chosen {
             Some(root) => Outcome::Chosen(index(roots, root)?),
             None => {
-                let arc = Why::no_convex_arc(&datum, &placement);
-                Outcome::Why(arc.unwrap_or_else(|| Why::no_spiral(ends, &datum, &placement, &solutions)))
+                let arc = Why::no_convex_arc(ends, &datum, &placement)?;
+                Outcome::Why(arc.map_or_else(|| Why::no_spiral(ends, &datum, &placement, &solutions), Ok)?)
             }
         };
         Ok(Answer { ends: *ends, datum, placement, solutions, outcome })
+    }
+
+    /// The same where curves longer than this, in the user's unit, count as none.
+    pub fn no_longer_than(mut self, longest: f64) -> Answer {
+        let spirals = || self.solutions.iter().enumerate().filter(|(_, s)| s.spiral);
+        let best = spirals().filter(|(_, s)| s.length <= longest).max_by(|a, b| a.1.margin.total_cmp(&b.1.margin));
+        if let Outcome::Chosen(_) = self.outcome {
+            let length = spirals().map(|(_, s)| s.length).fold(f64::INFINITY, f64::min);
+            self.outcome = best.map_or(Outcome::Why(Why::TooLong { length, longest }), |(i, _)| Outcome::Chosen(i));
+        }
+        self
     }
 
     /// The chosen spiral, if there is one.
@@ -107,6 +122,12 @@ impl Answer {
     }
 }
 
+/// Whether a cubic spiral joins two ends, proved; no where that is not known.
+pub(super) fn exists(ends: &Ends) -> bool {
+    let solved = Placement::normalise(ends).and_then(|(datum, _)| solve(&datum));
+    solved.is_ok_and(|solved| solved.chosen().is_some())
+}
+
 fn index(roots: &[Root], chosen: &Root) -> Result<usize> {
     roots.iter().position(|root| root == chosen).ok_or_else(|| {
         Error::Domain(format!("the chosen root ({:?}, {:?}) is not among the {} roots", chosen.f0, chosen.f1, roots.len()))
@@ -114,6 +135,11 @@ fn index(roots: &[Root], chosen: &Root) -> Result<usize> {
 }
 
 impl Solution {
+    /// The curve as a piece of a path.
+    pub fn piece(&self) -> Piece {
+        Piece::Cubic(Cubic { points: self.control_points, legs: self.legs })
+    }
+
     fn new(datum: &Datum, placement: &Placement, root: &Root) -> Result<Solution> {
         let Root { f0, f1, theorem31, spiral, margin } = *root;
         let control_points = placement.place(datum, f0, f1);
@@ -126,13 +152,14 @@ impl Solution {
             )));
         }
         // A proved spiral has none; rounding must not say otherwise.
+        let length = arc_length(|t| of_legs(&legs, t).speed(), 0.0, 1.0);
         let extrema = if spiral { Vec::new() } else { local_control_points.curvature_extrema() };
-        Ok(Solution { f0, f1, theorem31, spiral, margin, control_points, local_control_points, legs, extrema })
+        Ok(Solution { f0, f1, theorem31, spiral, margin, length, control_points, local_control_points, legs, extrema })
     }
 }
 
 /// The reason's numbers and, as `text`, its words.
-fn with_text<S: Serializer>(why: &Why, serializer: S) -> Result<S::Ok, S::Error> {
+pub(super) fn with_text<S: Serializer>(why: &Why, serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct Told<'a> {
         text: String,
@@ -145,9 +172,9 @@ fn with_text<S: Serializer>(why: &Why, serializer: S) -> Result<S::Ok, S::Error>
 impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.outcome, self.chosen()) {
-            (Outcome::Why(why), _) => writeln!(f, "no cubic spiral: {why}")?,
-            (_, Some(Solution { f0, f1, margin, control_points, .. })) => {
-                writeln!(f, "cubic spiral (f0, f1) = ({f0:?}, {f1:?}), margin {margin:?}; control points")?;
+            (Outcome::Why(why), _) => writeln!(f, "{}", why.sentence("cubic spiral"))?,
+            (_, Some(Solution { f0, f1, margin, length, control_points, .. })) => {
+                writeln!(f, "cubic spiral (f0, f1) = ({f0:?}, {f1:?}), margin {margin:?}, length {length:?}; control points")?;
                 for [x, y] in control_points.p {
                     writeln!(f, "  ({x:?}, {y:?})")?;
                 }

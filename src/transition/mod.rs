@@ -24,17 +24,24 @@
 mod cubic;
 mod figure;
 mod involute;
+mod none;
 mod ph_quintic;
 mod piece;
 mod placement;
+mod remedy;
 pub mod segment;
+mod stations;
 pub mod templates;
 mod why;
+mod words;
 
 pub use cubic::{Answer, Outcome, Solution, spiral};
 pub use figure::{EndCircle, Figure, Sample};
 pub use involute::{Frame, involute_between};
+pub use none::{Bound, Need, NoSpiral};
 pub use ph_quintic::{PhAnswer, PhOutcome, PhSolution, ph_spiral};
 pub use piece::{Arc, At, Cubic, InvoluteBetween, Kind, Line, Piece, TrigPart};
 pub use placement::{Ends, Placement, direction_of};
+pub use remedy::Remedy;
+pub use stations::{Station, stations};
 pub use why::{Turn, Waver, Which, Why};

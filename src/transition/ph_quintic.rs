@@ -1,7 +1,11 @@
 //! The PH quintic spiral between two given ends, anywhere in the plane.
 
+use super::cubic::with_text;
+use super::none::NoSpiral;
 use super::placement::{Ends, Placement};
+use super::remedy::Remedy;
 use super::why::{Why, bends};
+use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
 use crate::family::ph_quintic::{Quintic, solve};
@@ -30,8 +34,9 @@ pub struct PhAnswer {
 pub enum PhOutcome {
     /// Index, into [`PhAnswer::solutions`], of the spiral of least bending energy.
     Chosen(usize),
-    /// There is none; in words, with numbers.
-    Why(String),
+    /// There is none.
+    #[serde(serialize_with = "with_text")]
+    Why(Why),
 }
 
 /// One PH quintic that matches the ends, in the user's units.
@@ -49,6 +54,9 @@ pub struct PhSolution {
     pub length: f64,
     /// Bending energy: the integral of the squared curvature over arc length, 1 / length.
     pub energy: f64,
+    /// The curve itself.
+    #[serde(skip)]
+    pub curve: PhQuintic,
     /// Bézier control points in the user's direction of travel; the curve starts and ends exactly where asked.
     pub control_points: [[f64; 2]; 6],
     /// The same relative to the start point, for coordinates far from the origin.
@@ -73,19 +81,30 @@ pub struct PhSolution {
 pub fn ph_spiral(ends: &Ends) -> Result<PhAnswer> {
     let (datum, placement) = Placement::normalise(ends)?;
     let answer = |solutions, outcome| PhAnswer { ends: *ends, datum, placement, solutions, outcome };
-    if let Some(why) = Why::no_convex_arc(&datum, &placement) {
-        return Ok(answer(Vec::new(), PhOutcome::Why(why.to_string())));
+    if let Some(why) = Why::no_convex_arc(ends, &datum, &placement)? {
+        return Ok(answer(Vec::new(), PhOutcome::Why(why)));
     }
     let solved = solve(&datum)?;
     let solutions = solved.all().iter().map(|q| PhSolution::new(&placement, q)).collect::<Result<Vec<_>>>()?;
     let outcome = match solved.chosen_index() {
         Some(i) => PhOutcome::Chosen(i),
-        None => PhOutcome::Why(why(ends, &datum, &placement, &solutions)),
+        None => PhOutcome::Why(why(ends, &placement, &solutions)?),
     };
     Ok(answer(solutions, outcome))
 }
 
 impl PhAnswer {
+    /// The same where curves longer than this, in the user's unit, count as none.
+    pub fn no_longer_than(mut self, longest: f64) -> PhAnswer {
+        let spirals = || self.solutions.iter().enumerate().filter(|(_, s)| s.spiral);
+        let best = spirals().filter(|(_, s)| s.length <= longest).min_by(|a, b| a.1.energy.total_cmp(&b.1.energy));
+        if let PhOutcome::Chosen(_) = self.outcome {
+            let length = spirals().map(|(_, s)| s.length).fold(f64::INFINITY, f64::min);
+            self.outcome = best.map_or(PhOutcome::Why(Why::TooLong { length, longest }), |(i, _)| PhOutcome::Chosen(i));
+        }
+        self
+    }
+
     /// The chosen spiral, if there is one.
     pub fn chosen(&self) -> Option<&PhSolution> {
         match self.outcome {
@@ -113,6 +132,7 @@ impl PhSolution {
             margin: *margin,
             length: length * placement.unit(),
             energy: energy / placement.unit(),
+            curve: placement.to_user_ph(curve),
             control_points: user,
             local_control_points: local,
             legs: placement.to_user_legs(&curve.legs()),
@@ -120,29 +140,31 @@ impl PhSolution {
     }
 }
 
+/// Whether a PH quintic spiral joins two ends, proved; no where that is not known.
+fn exists(ends: &Ends) -> bool {
+    let solved = Placement::normalise(ends).and_then(|(datum, _)| solve(&datum));
+    solved.is_ok_and(|solved| solved.chosen_index().is_some())
+}
+
 /// Explains a proved "no", in double precision: within rounding of a boundary it may name the neighbouring reason.
-fn why(ends: &Ends, datum: &Datum, placement: &Placement, solutions: &[PhSolution]) -> String {
+fn why(ends: &Ends, placement: &Placement, solutions: &[PhSolution]) -> Result<Why> {
+    if let Some(none) = NoSpiral::of(ends)? {
+        return Ok(Why::NoSpiralOfAnyKind(none));
+    }
     if let Some((which, curvature)) = bends(ends, placement).find(|(_, curvature)| *curvature != 0.0) {
-        let turn = placement.turn();
-        return format!(
-            "the {which} curvature {curvature:?} is against the turn to the {turn} that the directions ask for: the curve would have an inflection, \
-             and this family has none"
-        );
+        return Ok(Why::Inflection { which, curvature, turn: placement.turn() });
     }
-    if let Some(why) = Why::no_spiral_at_all(datum) {
-        return why.to_string();
-    }
+    let remedies = Remedy::nearest(ends, exists)?;
     if solutions.is_empty() {
-        return "some spiral has these ends, but no PH quintic with A, B > 0 (see `--family involute`)".into();
+        return Ok(Why::NoPhQuintic { remedies });
     }
-    let margins: Vec<String> = solutions.iter().map(|s| format!("{:?}", s.margin)).collect();
-    format!("the curvature of no PH quintic with these ends is monotone: margins {}", margins.join(", "))
+    Ok(Why::NoPhSpiral { margins: solutions.iter().map(|s| s.margin).collect(), remedies })
 }
 
 impl fmt::Display for PhAnswer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.outcome, self.chosen()) {
-            (PhOutcome::Why(why), _) => writeln!(f, "no PH quintic spiral: {why}")?,
+            (PhOutcome::Why(why), _) => writeln!(f, "{}", why.sentence("PH quintic spiral"))?,
             (_, Some(PhSolution { a, b, margin, length, energy, control_points, .. })) => {
                 writeln!(
                     f,

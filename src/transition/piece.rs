@@ -20,7 +20,7 @@ use super::{Ends, Frame, involute_between};
 use crate::curve::vector::{Vector, add, length, lerp, scale, sub};
 use crate::curve::{CubicBezier, Jet, PhQuintic, TrigBezier, arc_length, casteljau};
 use crate::error::{Error, Result};
-use crate::family::any_spiral::{Involute, InvoluteOutcome};
+use crate::family::any_spiral::{Involute, InvoluteOutcome, Spiral};
 use serde::{Deserialize, Serialize};
 use told::Told;
 
@@ -111,6 +111,16 @@ impl InvoluteBetween {
             InvoluteOutcome::Curve { curve, .. } => Ok(InvoluteBetween { ends: *ends, turns, curve, frame }),
             InvoluteOutcome::None(why) => Err(Error::Domain(format!("no involute has these ends: {why}"))),
         }
+    }
+
+    /// The curve that [`involute_between`] has found between two ends with these turns asked for, if there is one.
+    pub fn of(ends: &Ends, found: &Spiral, frame: &Frame) -> Option<InvoluteBetween> {
+        Some(InvoluteBetween { ends: *ends, turns: found.turns, curve: *found.curve()?, frame: *frame })
+    }
+
+    /// Its parameter where a share, from 0 to 1, of its length is behind.
+    pub fn parameter_at(&self, share: f64) -> f64 {
+        self.curve.at_length(share).f
     }
 
     /// Half the chord, the unit of the curve's own frame.
@@ -257,7 +267,7 @@ impl Piece {
 }
 
 /// Derivatives of a cubic from the sides of its polygon; the point is from its start.
-fn of_legs(legs: &[Vector; 3], t: f64) -> Jet {
+pub(super) fn of_legs(legs: &[Vector; 3], t: f64) -> Jet {
     let bends = [sub(legs[1], legs[0]), sub(legs[2], legs[1])];
     Jet {
         point: [0.0, 0.0],

@@ -2,10 +2,13 @@
 
 use super::why::Turn;
 use crate::curve::CubicBezier;
+use crate::curve::PhQuintic;
+use crate::curve::quintic::complex;
 use crate::curve::vector::{Vector, add, length, scale, sub, turn};
 use crate::error::{Error, Result};
 use crate::family::any_spiral::Chord;
 use crate::family::cubic::Datum;
+use num_complex::Complex64;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
@@ -173,6 +176,23 @@ impl Placement {
         let mut mapped = legs.map(|leg| scale(self.step(0.0, leg), sign));
         self.put_in_order(&mut mapped);
         mapped
+    }
+
+    /// A PH quintic of the normalised frame, from (-1, 0) to (1, 0), in the user's.
+    ///
+    /// The derivative w² is turned and stretched by half the chord, so w is by its root; a mirrored curve has the conjugate of w, and one run
+    /// backwards i times the coefficients in reverse order.
+    pub(super) fn to_user_ph(&self, curve: &PhQuintic) -> PhQuintic {
+        let [x, y] = self.half_chord;
+        let root = Complex64::new(x, y).sqrt();
+        let mut w = complex(&curve.preimage).map(|w| root * if self.mirrored { w.conj() } else { w });
+        let (mut start, mut end) = (self.start, self.end);
+        if self.reversed {
+            w = w.map(|w| Complex64::i() * w);
+            w.reverse();
+            (start, end) = (end, start);
+        }
+        PhQuintic::between(start, end, w.map(|w| [w.re, w.im]))
     }
 
     /// The normalised datum and what was done to get it, in words.

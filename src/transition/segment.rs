@@ -1,7 +1,9 @@
 //! Adding a spiral segment to the end of a line or of a circle.
 
 use super::Turn;
+use super::piece::{Cubic, Piece};
 use crate::curve::vector::{Vector, add, scale, sub, turn};
+use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::{Error, Result};
 use crate::family::reach::{Datum, Kind, Level, level_of_shape, solve};
 use serde::Serialize;
@@ -71,6 +73,11 @@ pub struct Added {
     pub control_points: Vec<[f64; 2]>,
     /// The same relative to the start: what to differentiate, free of the rounding of far-away coordinates.
     pub local_control_points: Vec<[f64; 2]>,
+    /// Arc length: by the formula for a PH quintic, else to 1e-13 relative.
+    pub length: f64,
+    /// The segment as a piece of a path.
+    #[serde(skip)]
+    pub piece: Piece,
     /// The sides of the control polygon, each to a few ulp of itself: what to differentiate where an end's tangent is short.
     pub legs: Vec<[f64; 2]>,
     /// Direction of travel at the end, radians.
@@ -113,7 +120,7 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
         return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
     }
     positive("radius", radius)?;
-    let frame = Frame { start, along: [direction.cos(), direction.sin()], right: request.turn == Turn::Right, radius };
+    let frame = Frame { start, direction, along: [direction.cos(), direction.sin()], right: request.turn == Turn::Right, radius };
     let case = if request.base == Base::Line { 1 } else { 2 };
     let (xi, eta, m, q, level) = match target {
         Target::Shape { m, q } => {
@@ -138,7 +145,7 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
         at = add(at, *leg);
         local_control_points.push(frame.step(at));
     }
-    let legs = sides.into_iter().map(|leg| frame.step(leg)).collect();
+    let legs: Vec<Vector> = sides.into_iter().map(|leg| frame.step(leg)).collect();
     let mut control_points: Vec<Vector> = local_control_points.iter().map(|p| add(start, *p)).collect();
     if let (Target::Point(point), Some(end)) = (target, control_points.last_mut()) {
         *end = point;
@@ -146,8 +153,23 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
     if let Some([x, y]) = control_points.iter().find(|p| !(p[0].is_finite() && p[1].is_finite())) {
         return Err(Error::Domain(format!("a control point is ({x:?}, {y:?}), outside the range of doubles")));
     }
+    let piece = piece(kind, &frame, preimage(case, theta, m, q), &control_points, &legs);
+    let length = piece.length();
     let end_direction = direction + if frame.right { -theta } else { theta };
-    Ok(Outcome::Segment(Added { case, xi, eta, m, q, level, control_points, local_control_points, legs, end_direction }))
+    Ok(Outcome::Segment(Added {
+        case,
+        xi,
+        eta,
+        m,
+        q,
+        level,
+        control_points,
+        local_control_points,
+        length,
+        piece,
+        legs,
+        end_direction,
+    }))
 }
 
 fn positive(name: &str, value: f64) -> Result<()> {
@@ -172,6 +194,7 @@ fn why(case: u8, theta: f64, xi: f64, eta: f64) -> String {
 /// The start's frame: radius 1, turning left from (0, 0) along (1, 0).
 struct Frame {
     start: Vector,
+    direction: f64,
     along: Vector,
     right: bool,
     radius: f64,
@@ -200,7 +223,7 @@ impl Frame {
 
 /// The sides of the control polygon for r = 1.
 fn legs(kind: Kind, case: u8, theta: f64, m: f64, q: f64) -> Vec<Vector> {
-    let ((s, c), (sh, ch)) = (theta.sin_cos(), (0.5 * theta).sin_cos());
+    let (s, c) = theta.sin_cos();
     match kind {
         Kind::Cubic => {
             // The round end's leg is d = q; curvature 1 makes the middle one d²/(2 sin θ), the flat one m times that.
@@ -212,17 +235,34 @@ fn legs(kind: Kind, case: u8, theta: f64, m: f64, q: f64) -> Vec<Vector> {
             }
         }
         Kind::Ph => {
-            let round = q.sqrt();
-            let middle = q * round / (4.0 * sh);
-            let tilted = |f: f64| [f * ch, f * sh];
-            let [a, b, c] = match case {
-                1 => [[m * middle, 0.0], [middle, 0.0], tilted(round)],
-                _ => [[round, 0.0], tilted(middle), tilted(m * middle)],
-            };
+            let [a, b, c] = preimage(case, theta, m, q);
             let middle = scale(add(scale(turn(b, b), 2.0), turn(a, c)), 1.0 / 3.0);
             [turn(a, a), turn(a, b), middle, turn(b, c), turn(c, c)].map(|leg| scale(leg, 0.2)).to_vec()
         }
     }
+}
+
+/// Bernstein coefficients of the PH quintic's pre-image for r = 1.
+fn preimage(case: u8, theta: f64, m: f64, q: f64) -> [Vector; 3] {
+    let (sh, ch) = (0.5 * theta).sin_cos();
+    let round = q.sqrt();
+    let middle = q * round / (4.0 * sh);
+    let tilted = |f: f64| [f * ch, f * sh];
+    match case {
+        1 => [[m * middle, 0.0], [middle, 0.0], tilted(round)],
+        _ => [[round, 0.0], tilted(middle), tilted(m * middle)],
+    }
+}
+
+/// The segment in the user's frame. A PH quintic is turned and stretched by the root of what its derivative is.
+fn piece(kind: Kind, frame: &Frame, preimage: [Vector; 3], control_points: &[Vector], legs: &[Vector]) -> Piece {
+    if let (Kind::Cubic, [a, b, c, d], [x, y, z]) = (kind, control_points, legs) {
+        return Piece::Cubic(Cubic { points: CubicBezier { p: [*a, *b, *c, *d] }, legs: [*x, *y, *z] });
+    }
+    let half = 0.5 * frame.direction;
+    let root = scale([half.cos(), half.sin()], frame.radius.sqrt());
+    let end = control_points.last().copied().unwrap_or(frame.start);
+    Piece::PhQuintic(PhQuintic::between(frame.start, end, preimage.map(|w| turn(root, frame.mirror(w)))))
 }
 
 fn last(legs: &[Vector]) -> Vector {

@@ -1,8 +1,11 @@
 //! Why two ends have no spiral, with numbers.
 
-use super::Solution;
+use super::cubic::Solution;
+use super::none::NoSpiral;
 use super::placement::{Ends, Placement};
-use crate::family::any_spiral::least_end_curvature;
+use super::remedy::{Remedy, told};
+use super::words::degrees;
+use crate::error::Result;
 use crate::family::cubic::Datum;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -28,12 +31,12 @@ pub enum Turn {
     Right,
 }
 
-/// The first condition that fails; those further down assume the ones above.
-///
-/// Angles and curvatures called φ and κ are those of the normalised datum; the first four variants speak of the user's data.
+/// The first condition that fails; those further down assume the ones above. Angles and curvatures are the user's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "condition", rename_all = "kebab-case")]
 pub enum Why {
+    /// No curve of whatever kind would do.
+    NoSpiralOfAnyKind(NoSpiral),
     /// The end directions do not lie on opposite sides of the chord, so no arc of one turning joins them.
     NotConvex {
         /// Start direction against the chord, radians, positive to the left.
@@ -55,50 +58,48 @@ pub enum Why {
     Inflection {
         /// The end.
         which: Which,
-        /// Its curvature, user units.
+        /// Its curvature.
         curvature: f64,
         /// Where the directions ask the curve to turn.
         turn: Turn,
     },
-    /// `κ0 = κ1`: no spiral but a circle, which has no monotone growth.
-    EqualCurvatures {
-        /// Both.
-        kappa: f64,
-    },
-    /// `φ0 >= φ1`.
-    AnglesOrder {
-        /// φ0, radians.
-        phi0: f64,
-        /// φ1, radians.
-        phi1: f64,
-    },
-    /// `κ0 >= sin φ0`: the circle at the start does not reach round the end point.
-    StartTooSharp {
-        /// κ0.
-        kappa0: f64,
-        /// Its bound, `sin φ0`.
-        bound: f64,
-    },
-    /// Kneser and Kurnosenko: the end circle is not inside the start circle.
-    NotNested {
-        /// κ1.
-        kappa1: f64,
-        /// Its bound, [`least_end_curvature`].
-        bound: f64,
-    },
     /// A spiral of some kind exists, but no cubic: the two curvature equations have no root in (0, 3)².
     NoRoot {
-        /// `κ0 d0² / (4 sin φ0)`.
+        /// `κ0 d0² / (4 sin φ0)` of the normalised datum.
         a: f64,
         /// `κ1 d1² / (4 sin φ1)`; (A.9) asks `k > 1/3`.
         k: f64,
-        /// D of (A.4), to double precision; (A.9) asks `D >= 0`.
+        /// The discriminant `768a²k² - 256ak(a+k) + 96ak - 1` over `max(1,a)² max(1,k)²`: D of (A.4) but for a positive factor, to double
+        /// precision. (A.9) asks that it is not negative.
         discriminant: f64,
+        /// What would help.
+        remedies: Vec<Remedy>,
     },
     /// Cubics with these ends exist, but the curvature of none is monotone.
     NotMonotone {
         /// All of them.
         roots: Vec<Waver>,
+        /// What would help.
+        remedies: Vec<Remedy>,
+    },
+    /// A spiral of some kind exists, but no PH quintic with A, B > 0.
+    NoPhQuintic {
+        /// What would help.
+        remedies: Vec<Remedy>,
+    },
+    /// PH quintics with these ends exist, but the curvature of none is monotone.
+    NoPhSpiral {
+        /// Their margins, negative.
+        margins: Vec<f64>,
+        /// What would help.
+        remedies: Vec<Remedy>,
+    },
+    /// Spirals exist, but all are longer than was asked for.
+    TooLong {
+        /// The shortest one's length.
+        length: f64,
+        /// What was asked for.
+        longest: f64,
     },
 }
 
@@ -116,42 +117,41 @@ pub struct Waver {
 }
 
 impl Why {
-    /// What forbids any C-shaped curve, before curvatures are looked at; [`crate::family::cubic::solve`] asks for data without it.
-    pub(super) fn no_convex_arc(datum: &Datum, placement: &Placement) -> Option<Why> {
-        let [start_angle, end_angle] = placement.against_chord(datum);
-        let turning = datum.phi0 + datum.phi1;
-        if !(datum.phi0 > 0.0 && datum.phi1 > 0.0) {
-            return Some(Why::NotConvex { start_angle, end_angle });
+    /// As a sentence: that there is no curve of a kind, such as "cubic spiral", and why.
+    pub fn sentence(&self, kind: &str) -> String {
+        match self {
+            Why::NoSpiralOfAnyKind(_) => self.to_string(),
+            _ => format!("no {kind}: {self}"),
         }
-        (turning >= PI).then_some(Why::TurnsTooFar { turning })
+    }
+
+    /// What forbids any C-shaped curve, before curvatures are looked at; [`crate::family::cubic::solve`] asks for data without it.
+    pub(super) fn no_convex_arc(ends: &Ends, datum: &Datum, placement: &Placement) -> Result<Option<Why>> {
+        let turning = datum.phi0 + datum.phi1;
+        let convex = datum.phi0 > 0.0 && datum.phi1 > 0.0;
+        if convex && turning < PI {
+            return Ok(None);
+        }
+        let [start_angle, end_angle] = placement.against_chord(datum);
+        let arc = if convex { Why::TurnsTooFar { turning } } else { Why::NotConvex { start_angle, end_angle } };
+        Ok(Some(NoSpiral::of(ends)?.map_or(arc, Why::NoSpiralOfAnyKind)))
     }
 
     /// Explains a proved "no". In double precision, so within rounding of a boundary it may name the neighbouring reason.
-    pub(super) fn no_spiral(ends: &Ends, datum: &Datum, placement: &Placement, solutions: &[Solution]) -> Why {
+    pub(super) fn no_spiral(ends: &Ends, datum: &Datum, placement: &Placement, solutions: &[Solution]) -> Result<Why> {
+        if let Some(none) = NoSpiral::of(ends)? {
+            return Ok(Why::NoSpiralOfAnyKind(none));
+        }
         if let Some((which, curvature)) = bends(ends, placement).next() {
             let turn = placement.turn();
-            return if curvature == 0.0 { Why::Straight { which } } else { Why::Inflection { which, curvature, turn } };
+            return Ok(if curvature == 0.0 { Why::Straight { which } } else { Why::Inflection { which, curvature, turn } });
         }
-        match Why::no_spiral_at_all(datum) {
-            Some(why) => why,
-            None if solutions.is_empty() => no_root(datum),
-            None => Why::NotMonotone { roots: solutions.iter().map(Waver::from).collect() },
+        let found = |ends: &Ends| super::cubic::exists(ends);
+        let remedies = Remedy::nearest(ends, found)?;
+        if solutions.is_empty() {
+            return Ok(no_root(datum, remedies));
         }
-    }
-
-    /// What forbids a spiral of any kind.
-    pub(super) fn no_spiral_at_all(datum: &Datum) -> Option<Why> {
-        let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
-        if kappa0 == kappa1 {
-            return Some(Why::EqualCurvatures { kappa: kappa0 });
-        }
-        if phi0 >= phi1 {
-            return Some(Why::AnglesOrder { phi0, phi1 });
-        }
-        match least_end_curvature(phi0, phi1, kappa0) {
-            None => Some(Why::StartTooSharp { kappa0, bound: phi0.sin() }),
-            Some(bound) => (kappa1 <= bound).then_some(Why::NotNested { kappa1, bound }),
-        }
+        Ok(Why::NotMonotone { roots: solutions.iter().map(Waver::from).collect(), remedies })
     }
 }
 
@@ -169,13 +169,17 @@ pub(super) fn bends(ends: &Ends, placement: &Placement) -> impl Iterator<Item = 
     both.into_iter().filter(move |(_, curvature)| with_turn(*curvature) <= 0.0)
 }
 
-/// The paper's discriminant in the angle-free coordinates: `c0 = (9 - 3/k)/a²`, `c1 = 1/(k a²)`, `c2 = 6/a`, (A.3) to (A.5).
-fn no_root(datum: &Datum) -> Why {
+/// The discriminant in the angle-free coordinates, each term divided by the largest it can be, so that none overflows; D of (A.4) is
+/// `27 / (k⁴ a⁸)` times it.
+fn no_root(datum: &Datum, remedies: Vec<Remedy>) -> Why {
+    // Where d is very long, at tangents that all but run against each other, they may leave the range of doubles.
     let (a, k) = datum.normalised();
-    let (c0, c1, c2) = ((9.0 - 3.0 / k) / (a * a), 1.0 / (k * a * a), 6.0 / a);
-    let lambda = 12.0 * c0 + c2 * c2;
-    let mu = 27.0 * c1 * c1 + 72.0 * c0 * c2 - 2.0 * c2.powi(3);
-    Why::NoRoot { a, k, discriminant: (4.0 * lambda.powi(3) - mu * mu) / 27.0 }
+    let (a, k) = (a.min(f64::MAX), k.min(f64::MAX));
+    let (over, under) = (a.max(1.0), k.max(1.0));
+    let (x, y) = (a / over, k / under);
+    let discriminant = 768.0 * (x * y) * (x * y) - 256.0 * x * y * (x / under + y / over) + 96.0 * x / under * y / over
+        - 1.0 / over / over / under / under;
+    Why::NoRoot { a, k, discriminant, remedies }
 }
 
 impl fmt::Display for Which {
@@ -193,52 +197,54 @@ impl fmt::Display for Turn {
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Why::NoSpiralOfAnyKind(none) => write!(f, "no spiral of any kind joins these ends: {none}"),
             Why::NotConvex { start_angle, end_angle } => write!(
                 f,
-                "no C-shaped curve: against the chord the start direction is {start_angle:?} rad and the end direction \
-                 {end_angle:?} rad (positive to the left); they must lie on opposite sides of it"
+                "no C-shaped curve joins these ends: against the chord the start direction is {} and the end direction {} (positive to the \
+                 left); they must lie on opposite sides of it",
+                degrees(*start_angle),
+                degrees(*end_angle)
             ),
             Why::TurnsTooFar { turning } => {
-                write!(f, "phi0 + phi1 = {turning:?} must be below pi = {PI:?}: the end tangents must meet")
+                write!(
+                    f,
+                    "the directions turn by {} in all, which must be below 180°, so that the end tangents meet",
+                    degrees(*turning)
+                )
             }
             Why::Straight { which } => write!(
                 f,
-                "the {which} curvature is 0: this family is the open box 0 < f0, f1 < 3, whose curves bend at both ends (a straight end \
-                 is its limit f = 3; a small curvature comes as close as you like)"
+                "the {which} curvature is 0, and the curves of this family bend at both ends; a small curvature may come as close as you like"
             ),
             Why::Inflection { which, curvature, turn } => write!(
                 f,
-                "the {which} curvature {curvature:?} is {}, but the directions turn {turn}: the curve would have an inflection, and \
-                 this family (0 < f0, f1 < 3) has none",
-                if *curvature > 0.0 { "to the left" } else { "to the right" }
+                "the {which} curvature {curvature:?} is to the {}, but the directions turn {turn}: the curve would have an inflection, and \
+                 this family has none; it must be {} 0",
+                if *curvature > 0.0 { "left" } else { "right" },
+                if *curvature > 0.0 { "below" } else { "above" },
             ),
-            Why::EqualCurvatures { kappa } => {
-                write!(
-                    f,
-                    "kappa0 = kappa1 = {kappa:?}: curvature that is monotone between equal ends is a circle's, not a spiral's"
-                )
+            Why::NoRoot { a, k, discriminant, remedies } => {
+                write!(f, "no cubic without inflection has these ends and curvatures{}", told(remedies))?;
+                write!(f, " (no root of 3 - f1 = a f0^2, 3 - f0 = k f1^2 with 0 < f0, f1 < 3, a = {a:?}, k = {k:?}: ")?;
+                write!(f, "the discriminant is {discriminant:?})")
             }
-            Why::AnglesOrder { phi0, phi1 } => {
-                write!(f, "phi0 >= phi1: {phi0:?} >= {phi1:?}, so no spiral of increasing curvature")
-            }
-            Why::StartTooSharp { kappa0, bound } => {
-                write!(f, "kappa0 = {kappa0:?} must be below sin(phi0) = {bound:?}: no spiral starts so sharply")
-            }
-            Why::NotNested { kappa1, bound } => write!(
-                f,
-                "Kneser/Kurnosenko bound: kappa1 = {kappa1:?} must exceed {bound:?} = sin(phi1) + sin^2((phi1-phi0)/2)/(sin(phi0)-kappa0)"
-            ),
-            Why::NoRoot { a, k, discriminant } => write!(
-                f,
-                "no root (f0, f1) in (0, 3)^2 of 3 - f1 = a f0^2, 3 - f0 = k f1^2 with a = {a:?}, k = {k:?}: discriminant D = \
-                 {discriminant:?} of (A.4); (A.9) asks D >= 0 and k > 1/3"
-            ),
-            Why::NotMonotone { roots } => {
+            Why::NotMonotone { roots, remedies } => {
+                let how = if let [_] = roots.as_slice() { "the only cubic that has" } else { "every cubic that has" };
+                write!(f, "the curvature of {how} these ends is not monotone{} (", told(remedies))?;
                 for (i, root) in roots.iter().enumerate() {
                     f.write_str(if i == 0 { "" } else { "; " })?;
                     root.fmt(f)?;
                 }
-                Ok(())
+                f.write_str(")")
+            }
+            Why::NoPhQuintic { remedies } => {
+                write!(f, "no PH quintic with A, B > 0 has these ends and curvatures{}", told(remedies))
+            }
+            Why::NoPhSpiral { margins, remedies } => {
+                write!(f, "the curvature of no PH quintic with these ends is monotone{} (margins {margins:?})", told(remedies))
+            }
+            Why::TooLong { length, longest } => {
+                write!(f, "the shortest spiral of this family is {length:?} long, more than the {longest:?} that are allowed")
             }
         }
     }
@@ -247,7 +253,7 @@ impl fmt::Display for Why {
 impl fmt::Display for Waver {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Waver { f0, f1, margin, extrema } = self;
-        write!(f, "root ({f0:?}, {f1:?}) loses monotone curvature: margin {margin:?}, ")?;
+        write!(f, "root ({f0:?}, {f1:?}), margin {margin:?}, ")?;
         match extrema.as_slice() {
             [] => f.write_str("curvature extremum too faint to place in double precision"),
             [t] => write!(f, "curvature extremum at t = {t:?}"),

@@ -4,9 +4,8 @@ use super::{Found, SAMPLES, end_circles};
 use serde::Serialize;
 use spiral_atlas::family::any_spiral::{Involute, InvoluteOutcome, InvolutePoint, Spiral, Split};
 use spiral_atlas::plot::{CurveFigure, Graph};
-use spiral_atlas::transition::{Ends, Frame, involute_between};
+use spiral_atlas::transition::{Ends, Frame, InvoluteBetween, NoSpiral, Piece, involute_between};
 use spiral_atlas::{Error, Result};
-use std::f64::consts::TAU;
 
 /// What is known of two ends, and the curve in the user's units.
 #[derive(Debug, Serialize)]
@@ -17,33 +16,21 @@ pub struct Told {
     /// Length from end to end.
     #[serde(skip_serializing_if = "Option::is_none")]
     length: Option<f64>,
-    /// Points at equal lengths.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    samples: Vec<Sample>,
     #[serde(skip)]
     frame: Frame,
-    /// The library's directions count the turns about the start.
-    #[serde(skip)]
-    turned: f64,
 }
 
-#[derive(Debug, Serialize)]
-struct Sample {
+/// A point for the figure.
+struct Drawn {
     s: f64,
     point: [f64; 2],
-    /// Followed along the curve from the direction at the start, so that full turns show.
-    direction: f64,
     curvature: f64,
 }
 
-pub fn find(ends: &Ends, turns: [u32; 2], samples: u32) -> Result<Told> {
+pub fn find(ends: &Ends, turns: [u32; 2]) -> Result<Told> {
     let (spiral, frame) = involute_between(ends, turns)?;
-    let mut told = Told { ends: *ends, spiral, length: None, samples: Vec::new(), frame, turned: 0.0 };
-    if let Some(curve) = told.spiral.curve().copied() {
-        told.length = Some(curve.length() * told.unit());
-        told.turned = TAU * ((curve.at(0.0).direction - told.spiral.chord.alpha) / TAU).round();
-        told.samples = curve.samples(samples as usize)?.into_iter().map(|(s, at)| told.sample(s, at)).collect();
-    }
+    let mut told = Told { ends: *ends, spiral, length: None, frame };
+    told.length = told.spiral.curve().map(|curve| curve.length() * told.unit());
     Ok(told)
 }
 
@@ -54,36 +41,47 @@ impl Told {
         x.hypot(y)
     }
 
-    /// A point of the chord's frame, at a length in half chords, in the user's frame.
-    fn sample(&self, s: f64, at: InvolutePoint) -> Sample {
-        let (unit, [x, y]) = (self.unit(), self.frame.half_chord);
-        Sample {
-            s: s * unit,
-            point: self.frame.point(at.point),
-            direction: at.direction - self.turned + y.atan2(x),
-            curvature: at.curvature / unit,
-        }
-    }
-
-    /// Samples at equal steps of the involute's parameter, the ends included.
-    fn drawn(&self, curve: &Involute) -> Vec<Sample> {
-        let step = |i: usize| i as f64 / (SAMPLES - 1) as f64;
-        (0..SAMPLES).map(step).map(|f| self.sample(curve.length_to(f), curve.at(f))).collect()
+    /// Points at equal steps of the involute's parameter, the ends included.
+    fn drawn(&self, curve: &Involute) -> Vec<Drawn> {
+        let unit = self.unit();
+        let at = |i: usize| {
+            let InvolutePoint { f, point, curvature, .. } = curve.at(i as f64 / (SAMPLES - 1) as f64);
+            Drawn { s: curve.length_to(f) * unit, point: self.frame.point(point), curvature: curvature / unit }
+        };
+        (0..SAMPLES).map(at).collect()
     }
 }
 
 impl Found for Told {
+    fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
+        if let Some(between) = InvoluteBetween::of(&self.ends, &self.spiral, &self.frame) {
+            return Ok(vec![Piece::Involute(between)]);
+        }
+        // In the user's units; within rounding of a boundary, in those of the chord's frame.
+        let why = match (NoSpiral::of(&self.ends), &self.spiral.outcome) {
+            (Ok(Some(why)), _) => why.to_string(),
+            (_, InvoluteOutcome::None(why)) => why.to_string(),
+            _ => String::new(),
+        };
+        Err(format!("no spiral of any kind joins these ends: {why}"))
+    }
+
+    fn ends(&self) -> Option<&Ends> {
+        Some(&self.ends)
+    }
+
     fn text(&self) -> String {
         let Spiral { q, omega, turns, .. } = self.spiral;
-        let mut text = match &self.spiral.outcome {
-            InvoluteOutcome::None(why) => format!("no spiral of any kind: {why}\n"),
+        let text = match &self.spiral.outcome {
+            InvoluteOutcome::None(_) => self.spirals().err().unwrap_or_default() + "\n",
             InvoluteOutcome::Curve { curve, split } => {
                 let [rho, lambda] = curve.map();
                 let mut text = format!(
-                    "involute's image: theta = {:?}, t0 = {:?}, rho = {rho:?}, lambda = {lambda:?}; length {:?}\n",
+                    "spiral, the image of an involute, length {:?}; it has no control points: ask for points with `--samples 101`\n\
+                     theta = {:?}, t0 = {:?}, rho = {rho:?}, lambda = {lambda:?}\n",
+                    self.length.unwrap_or_default(),
                     curve.theta(),
                     curve.t0(),
-                    self.length.unwrap_or_default(),
                 );
                 let [n1, n2] = curve.turns();
                 text += &match split {
@@ -99,19 +97,16 @@ impl Found for Told {
                         turns[0], turns[1]
                     ),
                 };
-                text + "  s, x, y, direction, curvature\n"
+                text
             }
         };
-        for Sample { s, point: [x, y], direction, curvature } in &self.samples {
-            text += &format!("  {s:?}, {x:?}, {y:?}, {direction:?}, {curvature:?}\n");
-        }
         text + &format!("Q = {q:?}, omega = {omega:?}")
     }
 
     fn figure(&self) -> Result<CurveFigure> {
         let curve = self.spiral.curve().ok_or_else(|| Error::Domain("no spiral of any kind has these ends".into()))?;
         let (samples, q) = (self.drawn(curve), self.spiral.q);
-        let slope = |w: &[Sample]| [0.5 * (w[0].s + w[1].s), (w[1].curvature - w[0].curvature) / (w[1].s - w[0].s)];
+        let slope = |w: &[Drawn]| [0.5 * (w[0].s + w[1].s), (w[1].curvature - w[0].curvature) / (w[1].s - w[0].s)];
         Ok(CurveFigure {
             title: format!("Image of an involute: θ = {:.3}°, t₀ = {:.5}", curve.theta().to_degrees(), curve.t0()),
             note: format!(

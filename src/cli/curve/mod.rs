@@ -4,6 +4,8 @@ mod cubic;
 mod involute;
 mod ph;
 mod reach;
+mod table;
+mod tell;
 mod trig;
 
 use super::{Outcome, output};
@@ -13,9 +15,10 @@ use spiral_atlas::family::reach::Kind;
 use spiral_atlas::plot::{self, CurveFigure, EndCircle, Graph};
 use spiral_atlas::recipe::parse_angle;
 use spiral_atlas::transition::segment::Base;
-use spiral_atlas::transition::{Ends, Turn, direction_of, ph_spiral, spiral};
+use spiral_atlas::transition::{Ends, Piece, Turn, direction_of, ph_spiral, spiral};
 use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
+use tell::{Told, Wish};
 
 const SIZE: (u32, u32) = (1500, 900);
 const SAMPLES: usize = 801;
@@ -32,7 +35,11 @@ const SAMPLES: usize = 801;
 /// From a line or a circle to a line or a circle (`trig-quintic`): quintic trigonometric spirals in one of five templates, each given by
 /// the angle that it turns, its radius and its shape numbers.
 ///
-/// When there is none, says which condition fails, with numbers; that is an answer too, and exits with 0.
+/// Exit status: 0 when there is such a spiral, 1 when there is none, 2 for an error. A no comes with the condition that fails, in your
+/// units, and with the other families that have a spiral there.
+///
+/// With --points, one line of JSON for each row, in order, as of --json; a bad row gives {"line":..,"error":".."}. The exit status is 0 when
+/// every row was answered, whatever the answers, and 2 when one was bad.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  spiral-atlas curve --from 0,0 --to 200,0 --start-direction -40deg --end-direction 80deg \\\n      \
@@ -66,12 +73,13 @@ pub struct Args {
     /// Curvature at the end, 1 / length.
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     end_curvature: Option<f64>,
+    /// A CSV file of ends for `cubic`, `ph-quintic` or `involute`, - for standard input. Columns, in any order: x0, y0, direction0, curvature0,
+    /// x1, y1, direction1, curvature1.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["csv", "figure"])]
+    points: Option<PathBuf>,
     /// How often an involute's image turns about its start and about its end.
     #[arg(long, value_name = "N1,N2", value_parser = parse_turns, help_heading = "For `involute`")]
     turns: Option<[u32; 2]>,
-    /// Number of points to print, at equal lengths along the curve.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000), help_heading = "For `involute`")]
-    samples: Option<u32>,
     /// What the segment is added to.
     #[arg(long, value_parser = ["line", "circle"], help_heading = REACH)]
     base: Option<String>,
@@ -108,6 +116,16 @@ pub struct Args {
     /// Scale the curve as the paper does, which misses the end curvature.
     #[arg(long, help_heading = TRIG)]
     as_printed: bool,
+    /// A curve longer than this counts as none; in your unit of length.
+    #[arg(long, value_name = "LENGTH", value_parser = parse_longest, allow_hyphen_values = true)]
+    longest: Option<f64>,
+    /// Print so many points at equal lengths along the curve too, both ends included: station (length from the start), x, y, heading
+    /// (radians), curvature.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    samples: Option<u32>,
+    /// Print the samples as CSV, and nothing else.
+    #[arg(long, requires = "samples", conflicts_with = "json")]
+    csv: bool,
     /// Draw the curve with its polygon and end circles, its curvature and the derivative of that.
     #[arg(long, value_name = "FILE.png")]
     figure: Option<PathBuf>,
@@ -132,7 +150,13 @@ enum Family {
 
 /// What a family found; told as JSON too.
 trait Found: Serialize {
-    /// In words.
+    /// The spirals that were asked for, in the direction of travel, or why there are none.
+    fn spirals(&self) -> std::result::Result<Vec<Piece>, String>;
+    /// The ends that were to be joined, where any family between two ends could do it.
+    fn ends(&self) -> Option<&Ends> {
+        None
+    }
+    /// In words; of a no what there is to say beside the reason.
     fn text(&self) -> String;
     /// What is drawn.
     ///
@@ -146,13 +170,18 @@ pub fn run(args: &Args) -> Result<Outcome> {
     if let Some(path) = args.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
         return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
     }
-    match args.family {
-        Family::Cubic => args.tell(&spiral(&args.ends(&[]))?),
-        Family::PhQuintic => args.tell(&ph_spiral(&args.ends(&[]))?),
-        Family::Involute => {
-            let ends = args.ends(&["--turns", "--samples"]);
-            args.tell(&involute::find(&ends, args.turns.unwrap_or_default(), args.samples.unwrap_or(101))?)
+    if let Some(path) = &args.points {
+        if !matches!(args.family, Family::Cubic | Family::PhQuintic | Family::Involute) {
+            super::refuse("`--points` is for the families `cubic`, `ph-quintic` and `involute`");
         }
+        args.check(&[], if args.family == Family::Involute { &["--turns"] } else { &[] });
+        return table::run(args, path);
+    }
+    let longest = args.wish().longest();
+    match args.family {
+        Family::Cubic => args.tell(&spiral(&args.ends(&[]))?.no_longer_than(longest)),
+        Family::PhQuintic => args.tell(&ph_spiral(&args.ends(&[]))?.no_longer_than(longest)),
+        Family::Involute => args.tell(&involute::find(&args.ends(&["--turns"]), args.turns.unwrap_or_default())?),
         Family::ReachCubic => args.tell(&reach::find(Kind::Cubic, &args.segment())?),
         Family::ReachPh => args.tell(&reach::find(Kind::Ph, &args.segment())?),
         Family::TrigQuintic => args.tell(&trig::find(&args.template())?),
@@ -162,19 +191,31 @@ pub fn run(args: &Args) -> Result<Outcome> {
 impl Args {
     /// Prints what was found, and draws it where that is asked for.
     fn tell(&self, found: &impl Found) -> Result<Outcome> {
-        output::print(&((if self.json { output::to_json(found)? } else { found.text() }) + "\n"))?;
-        if let Some(path) = &self.figure {
-            let figure = found.figure().map_err(|e| Error::Domain(format!("{} was not drawn: {e}", path.display())))?;
-            spiral_atlas::files::write_file(path, &plot::curve_png(&figure, SIZE)?)?;
-            if !self.json {
-                output::print(&format!("drawn in {}\n", path.display()))?;
-            }
+        let told = Told::new(found, self.wish())?;
+        match (self.json, self.csv) {
+            (true, _) => output::print_json(&told)?,
+            (_, true) => told.csv()?,
+            _ => output::print(&told.text())?,
         }
-        Ok(Outcome::Fine)
+        let Some(path) = &self.figure else { return Ok(told.outcome()) };
+        match found.figure() {
+            Ok(figure) => {
+                spiral_atlas::files::write_file(path, &plot::curve_png(&figure, SIZE)?)?;
+                if !(self.json || self.csv) {
+                    output::print(&format!("drawn in {}\n", path.display()))?;
+                }
+            }
+            Err(e) => output::note(&format!("{} was not drawn: {e}", path.display())),
+        }
+        Ok(told.outcome())
+    }
+
+    fn wish(&self) -> Wish {
+        Wish { family: self.family, longest: self.longest, samples: self.samples }
     }
 
     /// Every option with a value of its own that not all families know, and whether it is given.
-    fn given(&self) -> [(&'static str, bool); 20] {
+    fn given(&self) -> [(&'static str, bool); 19] {
         [
             ("--from", self.from.is_some()),
             ("--to", self.to.is_some()),
@@ -183,7 +224,6 @@ impl Args {
             ("--start-curvature", self.start_curvature.is_some()),
             ("--end-curvature", self.end_curvature.is_some()),
             ("--turns", self.turns.is_some()),
-            ("--samples", self.samples.is_some()),
             ("--base", self.base.is_some()),
             ("--turn", self.turn.is_some()),
             ("--radius", self.radius.is_some()),
@@ -203,6 +243,7 @@ impl Args {
     fn check(&self, needed: &[&str], allowed: &[&str]) {
         let family = || clap::ValueEnum::to_possible_value(&self.family).map(|v| v.get_name().to_owned()).unwrap_or_default();
         let who = match &self.template {
+            _ if self.points.is_some() => "--points".into(),
             Some(name) if needed.contains(&"--template") => format!("--template {name}"),
             _ => format!("--family {}", family()),
         };
@@ -325,6 +366,15 @@ fn drawn([x, y]: [f64; 2], local_control_points: &[[f64; 2]]) -> (Vec<[f64; 2]>,
 fn parse_point(text: &str) -> std::result::Result<[f64; 2], String> {
     let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
     both.filter(|p: &[f64; 2]| p.iter().all(|v| v.is_finite())).ok_or_else(|| format!("{text:?} is not two finite numbers `x,y`"))
+}
+
+/// A length.
+fn parse_longest(text: &str) -> std::result::Result<f64, String> {
+    text.trim()
+        .parse()
+        .ok()
+        .filter(|x: &f64| *x > 0.0 && x.is_finite())
+        .ok_or_else(|| format!("{text:?} is no finite length above 0"))
 }
 
 /// Two whole numbers with a comma between.

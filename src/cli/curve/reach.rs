@@ -5,9 +5,9 @@ use super::{Found, circle, drawn};
 use serde::Serialize;
 use spiral_atlas::family::reach::{Kind, Level};
 use spiral_atlas::plot::CurveFigure;
-use spiral_atlas::transition::Turn;
 pub use spiral_atlas::transition::segment::Request;
 use spiral_atlas::transition::segment::{Added, Base, Outcome, add_segment};
+use spiral_atlas::transition::{Piece, Turn};
 use spiral_atlas::{Error, Result};
 
 /// What was asked and what was found.
@@ -25,12 +25,23 @@ pub fn find(kind: Kind, request: &Request) -> Result<Told> {
 }
 
 impl Found for Told {
+    fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
+        match &self.outcome {
+            Outcome::None { why } => Err(format!("no segment of `{}`: {why}", self.kind.name())),
+            Outcome::Segment(added) if added.level == Level::Exists => {
+                Err("the only segment of this family that ends there is no spiral: its curvature is not monotone".into())
+            }
+            Outcome::Segment(added) => Ok(vec![added.piece]),
+        }
+    }
+
     fn text(&self) -> String {
         match &self.outcome {
             Outcome::None { why } => format!("no segment of `{}`: {why}", self.kind.name()),
             Outcome::Segment(added) => {
-                let Added { case, xi, eta, m, q, level, end_direction, .. } = added;
-                let mut text = format!("{}: case {case}, m = {m:?}, q = {q:?}; control points\n", level_words(*level));
+                let Added { case, xi, eta, m, q, level, length, end_direction, .. } = added;
+                let mut text =
+                    format!("{}: case {case}, m = {m:?}, q = {q:?}, length {length:?}; control points\n", level_words(*level));
                 for [x, y] in &added.control_points {
                     text += &format!("  ({x:?}, {y:?})\n");
                 }

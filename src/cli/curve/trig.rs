@@ -7,7 +7,7 @@ use spiral_atlas::curve::Jet;
 use spiral_atlas::plot::{self, CurveFigure, Graph};
 pub use spiral_atlas::transition::templates::Request;
 use spiral_atlas::transition::templates::{Outcome, Path, Template, path};
-use spiral_atlas::transition::{EndCircle, Sample};
+use spiral_atlas::transition::{EndCircle, Piece, Sample, TrigPart};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
@@ -40,9 +40,19 @@ impl Told {
 }
 
 impl Found for Told {
+    fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
+        match &self.outcome {
+            Outcome::Spirals(path) => Ok(pieces(path)),
+            Outcome::NoSpirals { why, .. } => Err(why.clone()),
+        }
+    }
+
     fn text(&self) -> String {
         let mut text = match &self.outcome {
-            Outcome::Spirals(_) => self.title() + "\n",
+            Outcome::Spirals(path) => {
+                let length: f64 = pieces(path).iter().map(Piece::length).sum();
+                format!("{}, length {length:?}\n", self.title())
+            }
             Outcome::NoSpirals { why, .. } => format!("{why}\n"),
         };
         for part in &self.outcome.path().parts {
@@ -77,6 +87,10 @@ impl Found for Told {
             joints,
         })
     }
+}
+
+fn pieces(path: &Path) -> Vec<Piece> {
+    path.parts.iter().map(|part| Piece::TrigQuintic(TrigPart { curve: part.curve, from: part.from, to: part.to })).collect()
 }
 
 /// What the path joins, as the figure wants it.

@@ -1,0 +1,163 @@
+//! What every family of `curve` tells alike: paths, reasons, other families, samples.
+
+use super::super::{Outcome, output};
+use super::{Family, Found};
+use serde::Serialize;
+use spiral_atlas::transition::{Ends, Piece, Station, involute_between, ph_spiral, spiral, stations};
+use spiral_atlas::{Error, Result};
+
+/// An answer as JSON.
+#[derive(Debug, Serialize)]
+pub struct Told<'f, F: Found> {
+    #[serde(flatten)]
+    pub found: &'f F,
+    /// The path that was asked for; none where there is none.
+    paths: Vec<Path>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// The other families that have a spiral here, best first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    families: Option<Vec<&'static str>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<Vec<Station>>,
+}
+
+/// A path of spirals. Null stands for what is not finite.
+#[derive(Debug, Serialize)]
+struct Path {
+    length: f64,
+    greatest_curvature: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bending_energy: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    absolute_rotation: Option<f64>,
+    pieces: Vec<Piece>,
+}
+
+impl Path {
+    /// Of pieces whose curvature is monotone, so that it is greatest at an end of one.
+    fn new(pieces: Vec<Piece>) -> Path {
+        let ends = pieces.iter().flat_map(|piece| piece.range().map(|t| piece.at(t).curvature.abs()));
+        let only = match pieces.as_slice() {
+            [Piece::PhQuintic(curve)] => Some(*curve),
+            _ => None,
+        };
+        Path {
+            length: pieces.iter().map(Piece::length).sum(),
+            greatest_curvature: ends.fold(0.0, f64::max),
+            bending_energy: only.map(|curve| curve.bending_energy()),
+            absolute_rotation: only.map(|curve| curve.absolute_rotation()),
+            pieces,
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        [self.length, self.greatest_curvature].into_iter().chain(self.bending_energy).all(f64::is_finite)
+    }
+}
+
+/// What is asked of a curve whatever its family.
+#[derive(Debug, Clone, Copy)]
+pub struct Wish {
+    pub family: Family,
+    pub longest: Option<f64>,
+    pub samples: Option<u32>,
+}
+
+impl Wish {
+    /// The greatest length that counts.
+    pub fn longest(self) -> f64 {
+        self.longest.unwrap_or(f64::INFINITY)
+    }
+}
+
+impl<'f, F: Found> Told<'f, F> {
+    /// # Errors
+    /// [`Error::Domain`] where a number leaves the range of doubles.
+    pub fn new(found: &'f F, wish: Wish) -> Result<Told<'f, F>> {
+        let (paths, reason) = match found.spirals() {
+            Err(why) => (Vec::new(), Some(why)),
+            Ok(pieces) => {
+                let path = Path::new(pieces);
+                match wish.longest.filter(|longest| path.length > *longest) {
+                    Some(longest) => (
+                        Vec::new(),
+                        Some(format!("the curve is {:?} long, more than the {longest:?} that are allowed", path.length)),
+                    ),
+                    None => (vec![path], None),
+                }
+            }
+        };
+        if let Some(path) = paths.iter().find(|path| !path.is_finite()) {
+            let Path { length, greatest_curvature, .. } = path;
+            return Err(Error::Domain(format!(
+                "the curve leaves the range of doubles: its length is {length:?}, its greatest curvature {greatest_curvature:?} (change the \
+                 unit of length)"
+            )));
+        }
+        let families = if reason.is_some() { found.ends().map(|ends| others(ends, wish)) } else { None };
+        let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| stations(&path.pieces, n as usize)));
+        Ok(Told { found, paths, reason, families, samples: samples.transpose()? })
+    }
+
+    pub fn outcome(&self) -> Outcome {
+        if self.reason.is_some() { Outcome::Bad } else { Outcome::Fine }
+    }
+
+    /// All of it in words.
+    pub fn text(&self) -> String {
+        let mut text = match &self.reason {
+            Some(reason) if self.found.spirals().is_ok() => format!("{reason}\n"),
+            _ => self.found.text(),
+        };
+        text += &self.families.as_ref().map_or(String::new(), |families| advice(families));
+        if let Some(samples) = self.samples.as_ref().filter(|samples| !samples.is_empty()) {
+            text += "\nstation, x, y, heading, curvature\n";
+            text += rows(samples, ", ").trim_end();
+        }
+        text + "\n"
+    }
+
+    /// The samples alone, as CSV; without any, the reason goes to standard error.
+    pub fn csv(&self) -> Result<()> {
+        match &self.reason {
+            Some(reason) => {
+                output::note(reason);
+                Ok(())
+            }
+            None => output::print(&format!(
+                "station,x,y,heading,curvature\n{}",
+                rows(self.samples.as_deref().unwrap_or_default(), ",")
+            )),
+        }
+    }
+}
+
+fn rows(samples: &[Station], comma: &str) -> String {
+    let row = |s: &Station| [s.station, s.x, s.y, s.heading, s.curvature].map(|x| format!("{x:?}")).join(comma) + "\n";
+    samples.iter().map(row).collect()
+}
+
+/// Which other families to ask for.
+fn advice(families: &[&str]) -> String {
+    let [first, rest @ ..] = families else { return String::new() };
+    let more: Vec<String> = rest.iter().map(|name| format!(" or `--family {name}`")).collect();
+    format!("\nanother kind of curve would do: add `--family {first}`{}", more.concat())
+}
+
+/// The families between two ends that have a spiral, no longer than allowed, where another has none. One that fails counts as none.
+fn others(ends: &Ends, wish: Wish) -> Vec<&'static str> {
+    let longest = wish.longest();
+    let short = |length: Option<f64>| length.is_some_and(|length| length <= longest);
+    let cubic = || short(spiral(ends).ok().and_then(|found| found.no_longer_than(longest).chosen().map(|s| s.length)));
+    let ph = || short(ph_spiral(ends).ok().and_then(|found| found.no_longer_than(longest).chosen().map(|s| s.length)));
+    let involute = || {
+        let found = involute_between(ends, [0, 0]).ok();
+        short(found.and_then(|(spiral, frame)| Some(spiral.curve()?.length() * frame.half_chord[0].hypot(frame.half_chord[1]))))
+    };
+    // Where no involute exists no spiral does.
+    let all: [(Family, &'static str, &dyn Fn() -> bool); 3] =
+        [(Family::Cubic, "cubic", &cubic), (Family::PhQuintic, "ph-quintic", &ph), (Family::Involute, "involute", &involute)];
+    all.into_iter().filter(|(family, _, has)| *family != wish.family && has()).map(|(_, name, _)| name).collect()
+}

@@ -1,0 +1,108 @@
+//! Points at equal arc lengths along a path of pieces.
+
+use super::piece::Piece;
+use crate::curve::arc_length;
+use crate::error::{Error, Result};
+use serde::Serialize;
+
+/// Steps of Newton's method or of bisection, at most. Bisection alone needs 53 to exhaust a double.
+const STEPS: u32 = 60;
+
+/// A point of a path and what is known there, in the user's units.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Station {
+    /// Arc length from the start.
+    pub station: f64,
+    /// The point.
+    pub x: f64,
+    /// The point.
+    pub y: f64,
+    /// Direction of travel, radians from the x axis, counter-clockwise, in [-π, π].
+    pub heading: f64,
+    /// Signed curvature, positive to the left.
+    pub curvature: f64,
+}
+
+/// `count` points at equal arc lengths, both ends included.
+///
+/// # Accuracy
+/// A point's arc length is its `station` to 1e-13 of the path's length; PH quintics, lines and arcs have formulas, and the others are
+/// integrated to 1e-14 by [`arc_length`]. Both ends are exact. Headings and curvatures are those of [`Piece::at`].
+///
+/// # Errors
+/// [`Error::Domain`] for fewer than two points, or where a number leaves the range of doubles.
+pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
+    if count < 2 {
+        return Err(Error::Domain(format!("{count} samples of a curve; it needs at least 2, the ends")));
+    }
+    let lengths: Vec<f64> = pieces.iter().map(Piece::length).collect();
+    let whole: f64 = lengths.iter().sum();
+    let mut all = Vec::with_capacity(count);
+    let (mut before, mut next) = (0.0, 0);
+    for (i, (piece, length)) in pieces.iter().zip(&lengths).enumerate() {
+        let last = i + 1 == pieces.len();
+        let first = next;
+        let wanted = |n: usize| if n + 1 == count { whole } else { whole * (n as f64 / (count - 1) as f64) };
+        while next < count && (last || wanted(next) < before + length) {
+            next += 1;
+        }
+        let inside: Vec<f64> = (first..next).map(|n| (wanted(n) - before).clamp(0.0, *length)).collect();
+        for (n, t) in (first..next).zip(parameters(piece, *length, &inside)) {
+            let at = piece.at(t);
+            let found =
+                Station { station: wanted(n), x: at.point[0], y: at.point[1], heading: at.heading, curvature: at.curvature };
+            let Station { station, x, y, heading, curvature } = found;
+            if ![station, x, y, heading, curvature].iter().all(|x| x.is_finite()) {
+                return Err(Error::Domain(format!(
+                    "the sample {n} of the curve is out of the range of doubles: {found:?} (change the unit of length)"
+                )));
+            }
+            all.push(found);
+        }
+        before += length;
+    }
+    Ok(all)
+}
+
+/// The parameters of a piece at increasing lengths from its start.
+fn parameters(piece: &Piece, length: f64, wanted: &[f64]) -> Vec<f64> {
+    let [from, to] = piece.range();
+    let (mut t, mut s) = (from, 0.0);
+    let mut next = |wanted: f64| {
+        if wanted <= 0.0 || wanted >= length {
+            return if wanted > 0.0 { to } else { from };
+        }
+        match piece {
+            Piece::PhQuintic(curve) => curve.parameter_at(wanted),
+            Piece::Line(_) | Piece::Arc(_) => wanted / length,
+            Piece::Involute(between) => between.parameter_at(wanted / length),
+            Piece::Cubic(_) | Piece::TrigQuintic(_) => {
+                (t, s) = advance(|t| piece.at(t).speed, [t, to], s, wanted, length);
+                t
+            }
+        }
+    };
+    wanted.iter().map(|s| next(*s)).collect()
+}
+
+/// From a parameter whose length is known to the one, not beyond the end, where it is `wanted`: that parameter, and the length there.
+fn advance(speed: impl Fn(f64) -> f64, [from, to]: [f64; 2], known: f64, wanted: f64, whole: f64) -> (f64, f64) {
+    let (mut low, mut high, mut t) = (from, to, from + (wanted - known) / speed(from));
+    let mut s = known;
+    for _ in 0..STEPS {
+        if !(t > low && t < high) {
+            t = 0.5 * (low + high);
+        }
+        s = known + arc_length(&speed, from, t);
+        if (s - wanted).abs() <= 4.0 * f64::EPSILON * whole || low >= high {
+            break;
+        }
+        if s < wanted {
+            low = t;
+        } else {
+            high = t;
+        }
+        t -= (s - wanted) / speed(t);
+    }
+    (t, s)
+}
