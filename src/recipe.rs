@@ -45,6 +45,7 @@
 
 mod levels;
 mod raw;
+mod words;
 
 pub use levels::Levels;
 pub use raw::{is_angle, parse_angle, parse_coordinate};
@@ -246,7 +247,7 @@ fn spacing(name: &str, raw: &RawAxis) -> Result<Spacing, String> {
         (None, Some([lo, hi]), None, Some(count)) => Ok(Spacing::Log { lo: lo.on(name)?, hi: hi.on(name)?, count }),
         (None, None, Some(values), None) => values.iter().map(|v| v.on(name)).collect::<Result<_, _>>().map(Spacing::Values),
         _ => Err(format!(
-            "axis `{name}` is one of `{{ linear = [lo, hi], count = n }}`, `{{ log = [lo, hi], count = n }}`, `{{ values = [..] }}`"
+            "axis `{name}` takes one of `{{ linear = [lo, hi], count = n }}`, `{{ log = [lo, hi], count = n }}`, `{{ values = [..] }}`"
         )),
     }
 }
