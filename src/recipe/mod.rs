@@ -28,6 +28,7 @@ mod levels;
 mod look;
 mod panels;
 mod raw;
+mod words;
 
 pub use keys::reference;
 pub use levels::Levels;
@@ -235,7 +236,7 @@ fn spacing(name: &str, raw: &RawAxis) -> Result<Spacing, String> {
         (None, Some([lo, hi]), None, Some(count)) => Ok(Spacing::Log { lo: lo.on(name)?, hi: hi.on(name)?, count }),
         (None, None, Some(values), None) => values.iter().map(|v| v.on(name)).collect::<Result<_, _>>().map(Spacing::Values),
         _ => Err(format!(
-            "axis `{name}` is one of `{{ linear = [lo, hi], count = n }}`, `{{ log = [lo, hi], count = n }}`, `{{ values = [..] }}`"
+            "axis `{name}` takes one of `{{ linear = [lo, hi], count = n }}`, `{{ log = [lo, hi], count = n }}`, `{{ values = [..] }}`"
         )),
     }
 }

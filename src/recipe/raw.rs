@@ -103,7 +103,7 @@ impl Number {
     pub fn on(&self, axis: &str) -> Result<f64, String> {
         match self {
             Number::Plain(value) => Ok(*value),
-            Number::Text(text) if is_angle(axis) => parse_angle(text).map_err(|e| e.to_string()),
+            Number::Text(text) if is_angle(axis) => parse_angle(text).map_err(|e| format!("`{axis}`: {e}")),
             Number::Text(text) => Err(format!("`{axis}` is no angle, so {text:?} must be a plain number")),
         }
     }
@@ -111,15 +111,7 @@ impl Number {
 
 /// Parses the text; an unknown key is refused with the nearest known one.
 pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
-    toml::from_str(text).map_err(|e| Fault::new(e.span().unwrap_or(0..0), key_hint(e.message())))
-}
-
-/// Serde says "unknown field `a`, expected one of `b`, `c`"; any other message passes unchanged.
-fn key_hint(message: &str) -> String {
-    let Some(rest) = message.strip_prefix("unknown field `") else { return message.to_owned() };
-    let mut names = rest.split('`').step_by(2);
-    let given = names.next().unwrap_or_default();
-    unknown("key", given, &names.filter(|name| !name.is_empty()).collect::<Vec<_>>())
+    toml::from_str(text).map_err(|e| super::words::plain(text, e.span().unwrap_or(0..0), e.message()))
 }
 
 /// The complaint about a name that is not known, with the nearest that is.

@@ -252,7 +252,7 @@ fn mistakes_are_named() {
     let cases = [
         ("family =", "famly =", "line 1, column 1: unknown key `famly`; did you mean `family`?"),
         ("\"cubic\"", "\"cubit\"", "line 1, column 10: unknown family `cubit`; did you mean `cubic`?"),
-        ("\"cubic\"", "3", "line 1, column 10: invalid type: integer `3`"),
+        ("\"cubic\"", "3", "line 1, column 10: `family` has 3, but"),
         ("\"cubic\"", "\"cubic", "line 1"),
         ("\"f0\"", "\"f3\"", "line 2, column 30: unknown field `f3`; did you mean `f0`?"),
         ("\"f0\"", "\"margin\"", "the field `margin` is given twice"),
@@ -265,12 +265,12 @@ fn mistakes_are_named() {
         ("kappa0 = { linear", "kapa0 = { linear", "line 10, column 1: unknown axis `kapa0`; did you mean `kappa0`?"),
         ("kappa0 = { linear", "zzzzzz = { linear", "known are `a`, `k`, `kappa0`"),
         ("kappa0 = { linear", "a = { linear", "`cubic` takes phi0, phi1, kappa0, kappa1 (curvature) or phi0, phi1, a, k"),
-        ("kappa0 = { linear", "kappa1 = { linear", "duplicate key"),
+        ("kappa0 = { linear", "kappa1 = { linear", "is given twice"),
         ("kappa0 = { linear", "kappa0 = { liner", "unknown key `liner`; did you mean `linear`?"),
-        ("[0.02, 1.0], count = 3", "[0.02, 1.0]", "axis `kappa0` is one of"),
-        ("[0.02, 1.0], count = 3", "[0.02, 1.0, 3.0], count = 3", "axis `kappa0` is one of"),
+        ("[0.02, 1.0], count = 3", "[0.02, 1.0]", "axis `kappa0` takes one of"),
+        ("[0.02, 1.0], count = 3", "[0.02, 1.0, 3.0], count = 3", "axis `kappa0` takes one of"),
         ("[0.02, 1.0], count = 3", "[0.02, \"1deg\"], count = 3", "`kappa0` is no angle"),
-        ("[0.02, 1.0], count = 3", "[0.02, true], count = 3", "expected a number"),
+        ("[0.02, 1.0], count = 3", "[0.02, true], count = 3", "`linear` has [0.02, true], but it takes two numbers"),
         ("[0.02, 1.0], count = 3", "[0.02, inf], count = 3", "must be finite"),
         ("[0.02, 1.0], count = 3", "[1.0, 0.02], count = 3", "line 10, column 10: axis `kappa0` runs from 1 to 0.02"),
         ("[0.02, 1.0], count = 3", "[0.02, 1.0], count = -3", "line 10"),
@@ -311,6 +311,37 @@ fn errors_of_a_file_name_it() {
     std::fs::write(&path, "family = 1").unwrap();
     let Err(Error::Recipe(what)) = Recipe::read(&path) else { panic!("was accepted") };
     assert!(what.contains("mine.toml: line 1, column 10"), "{what}");
+}
+
+#[test]
+fn wrong_values_are_told_in_words_of_the_recipe() {
+    let cases = [
+        ("family = \"cubic\"", "family = 1", "`family` has 1, but it takes a text in quotation marks"),
+        ("family = \"cubic\"\n", "", "the recipe lacks the key `family`"),
+        ("fields = [\"margin\"", "fields = [1", "`fields` has 1, but it takes a list of texts"),
+        ("name = \"first-1\"\n", "", "this `[[atlas]]` lacks the key `name`"),
+        ("phi0 = { linear", "phi0 = 3 # {", "`phi0` has 3, but it takes one of `{ linear"),
+        ("phi0 = { linear", "phi0 = {} # {", "axis `phi0` takes one of `{ linear"),
+        ("count = 12", "count = \"many\"", "`count` has \"many\", but it takes a whole number of at least 2"),
+        ("count = 12", "count = -1", "`count` has -1, but"),
+        ("count = 12", "count = 2.5", "`count` has 2.5, but"),
+        ("count = 12", "count = 99999999999", "count 99999999999; it must be 2 to 16777216"),
+        ("[\"5deg\", 1.2]", "\"5deg\"", "`linear` has \"5deg\", but it takes two numbers"),
+        ("[\"5deg\", 1.2]", "[nan, 1.2]", "runs from NaN"),
+        ("[\"5deg\", 1.2]", "[\"5dg\", 1.2]", "`phi0`: \"5dg\" is no angle"),
+        ("values = [0.9, \"80deg\"]", "values = []", "axis `phi1` has 0 values"),
+        ("kind = \"slice\"\n", "", "this `[[atlas.picture]]` lacks the key `kind`"),
+        ("x = \"kappa0\"", "x = 1", "`x` has 1, but it takes a text"),
+        ("phi0 = 0.7", "phi0 = true", "`phi0` has true, but it takes a number or a list of numbers"),
+        ("mark = [{", "mark = 1 # [{", "`mark` has 1, but it takes a list of tables"),
+        ("kind = \"slice\"", "kind = \"slice\"\nkind = \"slice\"", "`kind` is given twice"),
+        ("[[atlas]]", "[[atlas]", "this is not TOML"),
+    ];
+    for (from, to, part) in cases {
+        let what = complaint(from, to);
+        assert!(what.contains(part), "{to}: {what}");
+        assert!(!["invalid type", "struct", "usize", "sequence"].iter().any(|word| what.contains(word)), "{to}: {what}");
+    }
 }
 
 #[test]
