@@ -185,8 +185,12 @@ impl Need {
 /// The bound as one of the radius, in brackets.
 fn radius(bound: Bound) -> String {
     let (arm, told) = match bound {
-        Bound::Above(x) => (1.0 / x, if x > 0.0 { "turning left with a radius of at most" } else { "or, turning right, a radius of at least" }),
-        Bound::Below(x) => (1.0 / x, if x < 0.0 { "turning right with a radius of at most" } else { "or, turning left, a radius of at least" }),
+        Bound::Above(x) => {
+            (1.0 / x, if x > 0.0 { "turning left with a radius of at most" } else { "or, turning right, a radius of at least" })
+        }
+        Bound::Below(x) => {
+            (1.0 / x, if x < 0.0 { "turning right with a radius of at most" } else { "or, turning left, a radius of at least" })
+        }
     };
     if !arm.is_finite() {
         return String::new();
@@ -211,7 +215,11 @@ impl fmt::Display for NoSpiral {
                     degrees(*end_angle),
                     degrees(start_angle + end_angle)
                 )?;
-                if *turned { f.write_str("; only a spiral that goes round an end does: `--family involute --turns 0,1`") } else { Ok(()) }
+                if *turned {
+                    f.write_str("; only a spiral that goes round an end does: `--family involute --turns 0,1`")
+                } else {
+                    Ok(())
+                }
             }
             NoSpiral::CirclesCross { needs, alone } => {
                 f.write_str("the circles of curvature at the ends cross or touch, and those of a spiral do not")?;

@@ -1,11 +1,11 @@
 //! The PH quintic spiral between two given ends, anywhere in the plane.
 
-use super::placement::{Ends, Placement};
+use super::PhQuintic;
 use super::none::NoSpiral;
+use super::placement::{Ends, Placement};
 use super::remedy::Remedy;
 use super::spiral::with_text;
 use super::why::{Why, bends};
-use super::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
 use crate::family::ph_quintic::{Quintic, solve};

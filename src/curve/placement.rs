@@ -1,8 +1,8 @@
 //! From user data anywhere in the plane to the normalised frame, and back.
 
+use super::quintic::complex;
 use super::vector::{Vector, add, length, scale, sub, turn};
 use super::why::Turn;
-use super::quintic::complex;
 use super::{Chord, CubicBezier, PhQuintic};
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;

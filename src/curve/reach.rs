@@ -1,8 +1,8 @@
 //! Adding a spiral segment to the end of a line or of a circle.
 
 use super::piece::{Cubic, Piece};
-use super::{CubicBezier, PhQuintic, Turn};
 use super::vector::{Vector, add, scale, sub, turn};
+use super::{CubicBezier, PhQuintic, Turn};
 use crate::error::{Error, Result};
 use crate::family::reach::{Datum, Kind, Level, level_of_shape, solve};
 use serde::Serialize;
@@ -155,7 +155,20 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
     let piece = piece(kind, &frame, preimage(case, theta, m, q), &control_points, &legs);
     let length = piece.length();
     let end_direction = direction + if frame.right { -theta } else { theta };
-    Ok(Outcome::Segment(Added { case, xi, eta, m, q, level, control_points, local_control_points, length, piece, legs, end_direction }))
+    Ok(Outcome::Segment(Added {
+        case,
+        xi,
+        eta,
+        m,
+        q,
+        level,
+        control_points,
+        local_control_points,
+        length,
+        piece,
+        legs,
+        end_direction,
+    }))
 }
 
 fn positive(name: &str, value: f64) -> Result<()> {

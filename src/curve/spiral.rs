@@ -1,8 +1,8 @@
 //! The transition spiral between two given ends: Habib & Sakai, section 3.2, for data anywhere in the plane.
 
+use super::CubicBezier;
 use super::length::arc_length;
 use super::piece::{Cubic, Piece, of_legs};
-use super::CubicBezier;
 use super::placement::{Ends, Placement};
 use super::why::Why;
 use crate::error::{Error, Result};

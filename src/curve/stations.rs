@@ -49,7 +49,8 @@ pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
         let inside: Vec<f64> = (first..next).map(|n| (wanted(n) - before).clamp(0.0, *length)).collect();
         for (n, t) in (first..next).zip(parameters(piece, *length, &inside)) {
             let at = piece.at(t);
-            let found = Station { station: wanted(n), x: at.point[0], y: at.point[1], heading: at.heading, curvature: at.curvature };
+            let found =
+                Station { station: wanted(n), x: at.point[0], y: at.point[1], heading: at.heading, curvature: at.curvature };
             let Station { station, x, y, heading, curvature } = found;
             if ![station, x, y, heading, curvature].iter().all(|x| x.is_finite()) {
                 return Err(Error::Domain(format!(

@@ -177,8 +177,8 @@ fn no_root(datum: &Datum, remedies: Vec<Remedy>) -> Why {
     let (a, k) = (a.min(f64::MAX), k.min(f64::MAX));
     let (over, under) = (a.max(1.0), k.max(1.0));
     let (x, y) = (a / over, k / under);
-    let discriminant =
-        768.0 * (x * y) * (x * y) - 256.0 * x * y * (x / under + y / over) + 96.0 * x / under * y / over - 1.0 / over / over / under / under;
+    let discriminant = 768.0 * (x * y) * (x * y) - 256.0 * x * y * (x / under + y / over) + 96.0 * x / under * y / over
+        - 1.0 / over / over / under / under;
     Why::NoRoot { a, k, discriminant, remedies }
 }
 
@@ -206,7 +206,11 @@ impl fmt::Display for Why {
                 degrees(*end_angle)
             ),
             Why::TurnsTooFar { turning } => {
-                write!(f, "the directions turn by {} in all, which must be below 180°, so that the end tangents meet", degrees(*turning))
+                write!(
+                    f,
+                    "the directions turn by {} in all, which must be below 180°, so that the end tangents meet",
+                    degrees(*turning)
+                )
             }
             Why::Straight { which } => write!(
                 f,
@@ -233,7 +237,9 @@ impl fmt::Display for Why {
                 }
                 f.write_str(")")
             }
-            Why::NoPhQuintic { remedies } => write!(f, "no PH quintic with A, B > 0 has these ends and curvatures{}", told(remedies)),
+            Why::NoPhQuintic { remedies } => {
+                write!(f, "no PH quintic with A, B > 0 has these ends and curvatures{}", told(remedies))
+            }
             Why::NoPhSpiral { margins, remedies } => {
                 write!(f, "the curvature of no PH quintic with these ends is monotone{} (margins {margins:?})", told(remedies))
             }

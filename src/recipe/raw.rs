@@ -167,6 +167,8 @@ pub fn parse_angle(text: &str) -> Result<f64> {
     };
     match number.trim_end().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(if degrees { value / 180.0 * PI } else { value }),
-        _ => Err(Error::Domain(format!("{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`"))),
+        _ => {
+            Err(Error::Domain(format!("{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`")))
+        }
     }
 }

@@ -367,7 +367,11 @@ fn parse_point(text: &str) -> std::result::Result<[f64; 2], String> {
 
 /// A length.
 fn parse_longest(text: &str) -> std::result::Result<f64, String> {
-    text.trim().parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite()).ok_or_else(|| format!("{text:?} is no finite length above 0"))
+    text.trim()
+        .parse()
+        .ok()
+        .filter(|x: &f64| *x > 0.0 && x.is_finite())
+        .ok_or_else(|| format!("{text:?} is no finite length above 0"))
 }
 
 /// Two whole numbers with a comma between.

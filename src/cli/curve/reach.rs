@@ -3,9 +3,9 @@
 use super::super::output;
 use super::{Found, circle, drawn};
 use serde::Serialize;
-use spiral_atlas::curve::{Piece, Turn};
 pub use spiral_atlas::curve::reach::Request;
 use spiral_atlas::curve::reach::{Added, Base, Outcome, add_segment};
+use spiral_atlas::curve::{Piece, Turn};
 use spiral_atlas::family::reach::{Kind, Level};
 use spiral_atlas::plot::CurveFigure;
 use spiral_atlas::{Error, Result};
@@ -40,7 +40,8 @@ impl Found for Told {
             Outcome::None { why } => format!("no segment of `{}`: {why}", self.kind.name()),
             Outcome::Segment(added) => {
                 let Added { case, xi, eta, m, q, level, length, end_direction, .. } = added;
-                let mut text = format!("{}: case {case}, m = {m:?}, q = {q:?}, length {length:?}; control points\n", level_words(*level));
+                let mut text =
+                    format!("{}: case {case}, m = {m:?}, q = {q:?}, length {length:?}; control points\n", level_words(*level));
                 for [x, y] in &added.control_points {
                     text += &format!("  ({x:?}, {y:?})\n");
                 }

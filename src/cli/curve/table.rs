@@ -1,8 +1,8 @@
 //! `curve --points`: ends from a CSV file, one answer a line.
 
+use super::super::{Outcome, output, points};
 use super::tell::{Told, Wish};
 use super::{Args, Family, Found, involute};
-use super::super::{Outcome, output, points};
 use spiral_atlas::curve::{Ends, ph_spiral, spiral};
 use spiral_atlas::recipe::parse_angle;
 use spiral_atlas::{Error, Result};

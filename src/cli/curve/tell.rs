@@ -1,7 +1,7 @@
 //! What every family of `curve` tells alike: paths, reasons, other families, samples.
 
-use super::{Family, Found};
 use super::super::{Outcome, output};
+use super::{Family, Found};
 use serde::Serialize;
 use spiral_atlas::curve::{Ends, Piece, Station, involute_between, ph_spiral, spiral, stations};
 use spiral_atlas::{Error, Result};
@@ -81,7 +81,10 @@ impl<'f, F: Found> Told<'f, F> {
             Ok(pieces) => {
                 let path = Path::new(pieces);
                 match wish.longest.filter(|longest| path.length > *longest) {
-                    Some(longest) => (Vec::new(), Some(format!("the curve is {:?} long, more than the {longest:?} that are allowed", path.length))),
+                    Some(longest) => (
+                        Vec::new(),
+                        Some(format!("the curve is {:?} long, more than the {longest:?} that are allowed", path.length)),
+                    ),
                     None => (vec![path], None),
                 }
             }
@@ -123,7 +126,10 @@ impl<'f, F: Found> Told<'f, F> {
                 output::note(reason);
                 Ok(())
             }
-            None => output::print(&format!("station,x,y,heading,curvature\n{}", rows(self.samples.as_deref().unwrap_or_default(), ","))),
+            None => output::print(&format!(
+                "station,x,y,heading,curvature\n{}",
+                rows(self.samples.as_deref().unwrap_or_default(), ",")
+            )),
         }
     }
 }
