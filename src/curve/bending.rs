@@ -28,7 +28,8 @@ impl PhQuintic {
             return f64::INFINITY;
         }
         let plain = || energy(&rates(&unit.preimage.map(|z| z.map(|x| Ball::of(x, 53))))?);
-        let known = |e: &Ball| e.value.is_finite() && e.error <= 2f64.powi(-40) * e.value;
+        // Underflow adds to errors what only nearly straight curves notice.
+        let known = |e: &Ball| e.value.is_finite() && e.error <= 2f64.powi(-40) * e.value + 1e-300;
         let energy = plain().filter(known).or_else(|| unit.energy_from_slow_places().filter(known)).or_else(|| {
             // What cancels in a nearly straight curve; regular, it has few pieces.
             let w = unit.preimage.map(|z| z.map(|x| Interval::new(x, BITS)));
