@@ -480,3 +480,28 @@ fn a_list_is_no_scene() {
     let error = serde_json::from_str::<Scene>("[[0, 0]]").unwrap_err().to_string();
     assert!(error.contains("an object with start, goal, obstacles, clearance and greatest_curvature"), "{error}");
 }
+
+/// Copies in either direction, from any vertex, and polygons inside of others change nothing.
+#[test]
+fn copies_and_what_lies_inside_change_nothing() {
+    let square = vec![[1.0, -1.0], [2.0, -1.0], [2.0, 1.0], [1.0, 1.0]];
+    let scene = |obstacles: Vec<Vec<[f64; 2]>>| Scene {
+        start: [0.0, 0.0],
+        goal: [3.0, 0.0],
+        obstacles,
+        clearance: 0.1,
+        greatest_curvature: 5.0,
+    };
+    let alone = plan(&scene(vec![square.clone()])).unwrap();
+    let copies = (0..100).map(|i| {
+        let mut copy = square.clone();
+        copy.rotate_left(i % 4);
+        if i % 3 == 1 {
+            copy.reverse();
+        }
+        copy
+    });
+    let nested = (1..100)
+        .map(|i| square.iter().map(|p| [1.5 + (p[0] - 1.5) * f64::from(i) / 100.0, p[1] * f64::from(i) / 100.0]).collect());
+    assert_eq!(plan(&scene([square.clone()].into_iter().chain(copies).chain(nested).collect())).unwrap(), alone);
+}

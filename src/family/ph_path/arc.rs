@@ -224,21 +224,12 @@ impl<N: Real> Arc<N> {
         [0.0, best, 1.0].map(|t| self.climbed(t)).into_iter().fold((0.0, 0.0), better)
     }
 
-    /// `∫ σ`.
-    pub fn length(&self) -> N {
-        let [w0, w1, w2] = &self.w;
-        let inner = re(w1, w1).times(2.0).add(&re(w0, w2));
-        let outer = re(w0, w0).add(&re(w0, w1)).add(&re(w1, w2)).add(&re(w2, w2));
-        // A third and a fifth, to a rounding: not for proofs of more than doubles' digits.
-        outer.times(3.0).add(&inner).times(1.0 / 15.0)
-    }
-
-    /// `2 ∫ v²` with `w = u + iv`: by how much the curve is longer than its chord, where that is along the first axis. As accurate as
-    /// [`Arc::length`], but relative to itself.
+    /// `2 ∫ v²` with `w = u + iv`: by how much the curve is longer than its chord, where that is along the first axis.
     pub fn beyond_chord(&self) -> N {
         let [a, b, c] = [0, 1, 2].map(|i| &self.w[i][1]);
         let inner = b.mul(b).times(2.0).add(&a.mul(c));
         let outer = a.mul(a).add(&a.mul(b)).add(&b.mul(c)).add(&c.mul(c));
+        // Fifteenths to a rounding: not for proofs of more than doubles' digits.
         outer.times(3.0).add(&inner).times(2.0 / 15.0)
     }
 

@@ -3,7 +3,8 @@
 use super::{fail, minus};
 use crate::error::Result;
 use robust::{Coord, orient2d};
-use rstar::{AABB, PointDistance, RTree, RTreeObject, SelectionFunction};
+use rstar::{AABB, Envelope, PointDistance, RTree, RTreeObject, SelectionFunction};
+use std::collections::HashSet;
 
 /// Most vertices of all obstacles together: beyond them the search would take hours.
 pub const MOST_VERTICES: usize = 10_000;
@@ -37,7 +38,7 @@ impl PointDistance for Side {
 /// Simple polygons, seen as their boundaries.
 #[derive(Debug)]
 pub struct Obstacles {
-    /// Vertices without repetition, counterclockwise.
+    /// Vertices without repetition, counterclockwise; none of obstacles that do not matter.
     pub rings: Vec<Vec<Point>>,
     /// The largest coordinate.
     pub size: f64,
@@ -57,7 +58,33 @@ impl Obstacles {
         let obstacles = Obstacles { rings: vec![], size, tree: RTree::bulk_load(sides) };
         obstacles.check_simple(&rings)?;
         rings.iter_mut().for_each(|ring| counterclockwise(ring));
-        Ok(Obstacles { rings, ..obstacles })
+        let needed = obstacles.needed(&rings);
+        rings.iter_mut().zip(&needed).filter(|(_, needed)| !**needed).for_each(|(ring, _)| ring.clear());
+        let sides = obstacles.tree.iter().filter(|side| needed[side.obstacle]).copied().collect();
+        Ok(Obstacles { rings, size, tree: RTree::bulk_load(sides) })
+    }
+
+    /// Which polygons matter: not a copy of an earlier one, and none that lies wholly inside of another.
+    ///
+    /// From a point outside of that one it is no nearer than that, and a path that starts outside and touches no side never gets in. So what
+    /// is left parts and blocks the same, and the work does not grow with what is redundant.
+    fn needed(&self, rings: &[Vec<Point>]) -> Vec<bool> {
+        let mut seen = HashSet::new();
+        let mut needed: Vec<bool> = rings.iter().map(|ring| seen.insert(canonical(ring))).collect();
+        let bounds: Vec<AABB<Point>> = rings.iter().map(|ring| AABB::from_points(ring)).collect();
+        let within = |i: usize, j: usize| {
+            let (inner, outer) = (&bounds[i], &bounds[j]);
+            let meets = |side: Side| {
+                let others = self.tree.locate_in_envelope_intersecting(side.envelope());
+                others.filter(|other| other.obstacle == j).any(|other| cross(side.ends, other.ends))
+            };
+            outer.contains_envelope(inner) && holds(&rings[j], rings[i][0]) && !sides(i, &rings[i]).any(meets)
+        };
+        for i in 0..rings.len() {
+            // An outermost polygon is within none, so that what holds a polygon is never dropped for good.
+            needed[i] = needed[i] && !(0..rings.len()).any(|j| j != i && within(i, j));
+        }
+        needed
     }
 
     /// All sides.
@@ -123,11 +150,23 @@ fn sides(obstacle: usize, ring: &[Point]) -> impl Iterator<Item = Side> {
     (0..ring.len()).map(move |index| Side { ends: [ring[index], ring[(index + 1) % ring.len()]], obstacle, index })
 }
 
+/// The bits of a counterclockwise ring from its lowest, then leftmost, vertex on: the same for copies, wherever their lists begin.
+fn canonical(ring: &[Point]) -> Vec<[u64; 2]> {
+    let mut all = ring.to_vec();
+    all.rotate_left(lowest(ring));
+    // Adding 0 makes -0 the ordinary 0.
+    all.into_iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect()
+}
+
+/// The lowest, then leftmost, vertex.
+fn lowest(ring: &[Point]) -> usize {
+    let key = |p: &Point| (p[1], p[0]);
+    (0..ring.len()).fold(0, |best, i| if key(&ring[i]) < key(&ring[best]) { i } else { best })
+}
+
 /// Turns the ring round where it runs clockwise. Its lowest, then leftmost, vertex is convex, so its turn there tells.
 fn counterclockwise(ring: &mut [Point]) {
-    let key = |p: &Point| (p[1], p[0]);
-    let n = ring.len();
-    let lowest = (0..n).fold(0, |best, i| if key(&ring[i]) < key(&ring[best]) { i } else { best });
+    let (n, lowest) = (ring.len(), lowest(ring));
     if turn([ring[(lowest + n - 1) % n], ring[lowest]], ring[(lowest + 1) % n]) < 0.0 {
         ring.reverse();
     }
