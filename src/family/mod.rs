@@ -1,6 +1,6 @@
 //! What a family is: axes, flags, counts, scalars, a fast filter, the exact truth, a shader.
 //!
-//! DESIGN.md lists what adding one touches; here it is the list in [`all`].
+//! ARCHITECTURE.md lists what adding one touches; here it is the list in [`all`].
 
 mod answer;
 pub mod any_spiral;

@@ -21,7 +21,7 @@
 //! ```
 //!
 //! Angles may be written `"40deg"` or `"40°"` on axes of angles.
-//! [`reference`] has all keys, with their values, defaults and meanings; docs/recipes.md is what it returns.
+//! [`reference()`] has all keys, with their values, defaults and meanings; docs/recipes.md is what it returns.
 
 mod keys;
 mod levels;

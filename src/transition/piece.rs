@@ -170,7 +170,7 @@ pub struct At {
     pub heading: f64,
     /// Signed curvature, positive to the left; NaN where the curve stands still.
     pub curvature: f64,
-    /// Length for each unit of the parameter; NaN for an involute, whose lengths [`Piece::step`] knows.
+    /// Length for each unit of the parameter; NaN for an involute, whose lengths [`super::stations`] knows.
     pub speed: f64,
 }
 

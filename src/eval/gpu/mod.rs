@@ -58,7 +58,7 @@ fn caught<T>(call: impl FnOnce() -> T) -> Option<T> {
     outcome.ok()
 }
 
-/// How work is cut up. It changes speed, never a bit of the result; the defaults are measured (see DESIGN.md).
+/// How work is cut up. It changes speed, never a bit of the result; the defaults are measured (see ARCHITECTURE.md).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Settings {
     /// Words (of two codes) that one invocation produces, 1 to 64.

@@ -69,7 +69,7 @@ struct Cases {
     known: u64,
 }
 
-/// Descartes' rule and the signs of F at 0 and √(3/a) give the count; see DESIGN.md, "Counting roots".
+/// Descartes' rule and the signs of F at 0 and √(3/a) give the count; see the documentation of the module, "Counting roots".
 #[inline(always)]
 fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
     let (a, k) = (d.a, d.k);

@@ -1,4 +1,12 @@
 //! Pythagorean-hodograph quintic spirals matching G² Hermite data: all of them, counted with proof.
+//!
+//! # How it is done
+//! - The two equations, taken across the two end tangents, have positive terms only, for all φ0 + φ1 < π: level lines of posynomials, so in (ln(B/A), ln A²) two graphs
+//!   of concave functions (`curves.rs`). Values and slopes at two points prove "no meeting" (chord against tent) or "at most one" (monotone distance); `march.rs`
+//!   halves until one of them holds. No resultant of degree 18, nothing cancels, and f32, f64 and intervals run the same steps.
+//! - `num::Ball` is a double with its error; `num::Real` is what it shares with `Interval`, so the algorithm is written once. The shader is its twin.
+//! - `narrow.rs` has more certificates for nearly parallel tangents, where both equations almost coincide.
+//! - Curvature is positive for A, B > 0, so a spiral is the sign of one quintic, as in `cubic`. Energies are Taylor series on pieces with a remainder bound.
 
 mod curves;
 mod fork;

@@ -1,4 +1,13 @@
 //! Reachable end points of a spiral segment with given angle and end radius (Habib & Sakai, CGIV 2004): cubic and PH quintic.
+//!
+//! # How it is done
+//! - One module for both; `Kind` chooses the polynomials (`poly.rs`). With u = L/q, L = sin θ or tan(θ/2), nothing of the angle is left in the quintic but
+//!   g = cos θ or cos²(θ/2), so a small angle is no special case.
+//! - Case 2 is the mirror of case 1 with (a, b) exchanged: one code for both, four bits each.
+//! - The cubic's inverse is explicit. That of the PH quintic is one root of a function that is monotone where m > -0.37 (proof in `poly.rs`), so one certified
+//!   bracket both finds and counts it.
+//! - The four terms of the theorems are `c0..c3 >= 0`; the exact test is the sign of the same quintic, as in `cubic`.
+//! - Cases 3 and 4 are unions over angles: a kind of picture (`union`), not flags, because a flag must be a fact about its node.
 
 mod angle;
 mod exact;

@@ -1,4 +1,10 @@
 //! Spirals among the quintic trigonometric Bézier curves of Misro, Ramli and Ali, from a straight line to a circle.
+//!
+//! # How it is done
+//! - With τ = tan(πt/4) the curve is rational and κ' has the sign of a polynomial of degree 38 in τ whose coefficients are sums of products of the hodograph's
+//!   (positive) ones (`poly.rs`); θ enters through cos θ alone. Its sign on [0, 1] is decided by Bernstein halving, as everywhere.
+//! - The ratio s / tan(θ/2) is an axis, not a parameter: a fifth one. Shaders keep four digits; the two slowest axes are one digit to them (`gpu/slot.rs`).
+//! - `threshold.rs` proves the least ratio from which all up to 64 give spirals; that a spiral stays one for larger ratios is false in general.
 
 mod curve;
 mod exact;
