@@ -9,7 +9,7 @@ use num_complex::Complex64;
 
 /// A Pythagorean-hodograph quintic for t in [0, 1], anywhere in the plane, in any unit of length.
 ///
-/// A pre-image and its negative give the same curve: compare curves by control points. As JSON it is a [`super::Piece`].
+/// A pre-image and its negative give the same curve: compare curves by control points. As JSON it is a [`crate::transition::Piece`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhQuintic {
     /// The point at t = 0.

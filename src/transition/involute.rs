@@ -9,7 +9,7 @@ use serde::Serialize;
 /// [`involute`] for ends anywhere in the plane, with what places the result there.
 ///
 /// # Errors
-/// Those of [`involute`], and [`Error::Domain`] for coincident ends or lengths outside the range of doubles.
+/// Those of [`involute`], and [`crate::Error::Domain`] for coincident ends or lengths outside the range of doubles.
 pub fn involute_between(ends: &Ends, turns: [u32; 2]) -> Result<(Spiral, Frame)> {
     let (chord, half_chord) = ends.chord()?;
     Ok((involute(&chord, turns)?, Frame { start: ends.start, end: ends.end, half_chord }))

@@ -130,7 +130,7 @@ impl NoSpiral {
     /// The reason, as far as double precision can tell: none within rounding of a boundary where a spiral seems to exist.
     ///
     /// Seen so that curvature rises, a spiral exists exactly where `ω > 0`, `room > 0`, `over > 0` and `room over > sin² ω`: that is Q < 0;
-    /// see [`super::least_end_curvature`] for why both cannot be negative.
+    /// see [`crate::family::any_spiral::least_end_curvature`] for why both cannot be negative.
     ///
     /// # Errors
     /// Those of [`super::Placement::normalise`].
