@@ -76,7 +76,7 @@ fn draw_key(canvas: &mut Canvas, style: Style, rect: Rect, key: Key) {
     match key {
         Key::Fill(color) => {
             canvas.fill(rect, color);
-            canvas.frame(rect, GREY);
+            canvas.frame(rect, INK);
         }
         Key::Hatched(outline) => {
             let hatch = Hatch::new(style);
