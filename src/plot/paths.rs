@@ -168,11 +168,12 @@ fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
     let rect = narrowed(canvas, &y, style, area)?;
     canvas.frame(rect, INK);
     let places = |points: &[Point]| points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect::<Vec<_>>();
-    for (line, color) in lines.iter().zip(LINES.into_iter().cycle()) {
-        canvas.cased(&places(line), style.em * 0.12, color, rect);
-    }
+    // Under the graphs, so that one that touches it is seen to.
     if let Some(level) = figure.level {
         canvas.cased(&places(&[[from, level], [to, level]]), style.em * 0.16, RED, rect);
+    }
+    for (line, color) in lines.iter().zip(LINES.into_iter().cycle()) {
+        canvas.cased(&places(line), style.em * 0.12, color, rect);
     }
     finish(canvas, [&x, &y], [across, up], style, rect);
     Ok(())

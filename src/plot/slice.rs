@@ -216,8 +216,8 @@ impl Pixels {
                 canvas.blend(x, y, outline.color, 1.0);
             } else if depth <= if *here { line + rim } else { rim } * STEP {
                 canvas.blend(x, y, WHITE, 1.0);
-            } else if *here && depth <= hatch.band * STEP {
-                hatch.draw(canvas, x, y, outline);
+            } else if *here && depth <= (hatch.band + rim) * STEP {
+                hatch.draw(canvas, (x, y), outline, depth <= hatch.band * STEP);
             }
         }
     }

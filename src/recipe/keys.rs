@@ -285,7 +285,12 @@ pub fn reference() -> String {
         );
         for key in table.keys {
             let name = if key.name.contains(' ') { key.name.into() } else { format!("`{}`", key.name) };
-            page += &format!("| {name} | {} | {} | {} |\n", key.value, key.default.as_deref().unwrap_or("must be there"), key.meaning);
+            page += &format!(
+                "| {name} | {} | {} | {} |\n",
+                key.value,
+                key.default.as_deref().unwrap_or("must be there"),
+                key.meaning
+            );
         }
     }
     page += "\n## Families\n\nThe axes, flags and scalars that a recipe may name.\n";
