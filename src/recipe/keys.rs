@@ -124,7 +124,7 @@ fn picture() -> Table {
         "slices: needed for each axis of several values; unions: all nodes; multiples: up to {PANELS} nodes of each axis, evenly"
     );
     let mut keys = vec![
-        needed("kind", &kinds, "What the picture shows; see below."),
+        needed("kind", &kinds, "What the picture shows; see above."),
         optional("with", "name of a family", "needed for `compare`", "The other family of a comparison, and of no other kind."),
         needed("x", "name of an axis", "The axis to the right."),
         needed("y", "name of another axis", "The axis upwards."),
@@ -271,13 +271,13 @@ pub fn reference() -> String {
         "# Recipes\n\nThis page is made from the code of the reader: a test compares the two, so what stands here is what the program does.\n\n\
          A recipe is a [TOML](https://toml.io) file. It says which atlases to make and which pictures to draw of them:\n\n\
          ```sh\nspiral-atlas generate recipe.toml\n```\n\n\
-         A mistake in a recipe is told with its line and column before any work is done, and the exit status is 2.\n",
+         A mistake in a recipe is told with its line and column, and the exit status is 2.\n",
     );
     page += "\n## Examples\n";
     for (about, recipe) in EXAMPLES {
         page += &format!("\n{about}\n\n```toml\n{recipe}```\n");
     }
-    page += "\n## Keys\n\nA key without a default must be there. Other keys than these are refused.\n";
+    page += "\n## Keys\n\nKeys with a default may be left out. Other keys than these are refused.\n";
     for table in tables() {
         page += &format!(
             "\n### {}\n{}\n\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n",
@@ -285,7 +285,12 @@ pub fn reference() -> String {
         );
         for key in table.keys {
             let name = if key.name.contains(' ') { key.name.into() } else { format!("`{}`", key.name) };
-            page += &format!("| {name} | {} | {} | {} |\n", key.value, key.default.as_deref().unwrap_or("none"), key.meaning);
+            page += &format!(
+                "| {name} | {} | {} | {} |\n",
+                key.value,
+                key.default.as_deref().unwrap_or("must be there"),
+                key.meaning
+            );
         }
     }
     page += "\n## Families\n\nThe axes, flags and scalars that a recipe may name.\n";
