@@ -221,13 +221,13 @@ fn errors_of_a_file_name_it() {
 #[test]
 fn wrong_values_are_told_in_words_of_the_recipe() {
     let cases = [
-        ("family = \"cubic\"", "family = 1", "`family` has 1, but it takes a text in quotation marks"),
+        ("family = \"cubic\"", "family = 1", "`family` has 1, but it takes the name of a family in quotation marks"),
         ("family = \"cubic\"\n", "", "the recipe lacks the key `family`"),
-        ("fields = [\"margin\"", "fields = [1", "`fields` has 1, but it takes a list of texts"),
+        ("fields = [\"margin\"", "fields = [1", "`fields` has 1, but it takes a list of names of fields such as"),
         ("name = \"first-1\"\n", "", "this `[[atlas]]` lacks the key `name`"),
         ("phi0 = { linear", "phi0 = 3 # {", "`phi0` has 3, but it takes one of `{ linear"),
         ("phi0 = { linear", "phi0 = {} # {", "axis `phi0` takes one of `{ linear"),
-        ("count = 12", "count = \"many\"", "`count` has \"many\", but it takes a whole number of at least 2"),
+        ("count = 12", "count = \"many\"", "`count` has \"many\", but it takes a whole number from 2 to"),
         ("count = 12", "count = -1", "`count` has -1, but"),
         ("count = 12", "count = 2.5", "`count` has 2.5, but"),
         ("count = 12", "count = 99999999999", "count 99999999999; it must be 2 to 16777216"),
@@ -236,7 +236,7 @@ fn wrong_values_are_told_in_words_of_the_recipe() {
         ("[\"5deg\", 1.2]", "[\"5dg\", 1.2]", "`phi0`: \"5dg\" is no angle"),
         ("values = [0.9, \"80deg\"]", "values = []", "axis `phi1` has 0 values"),
         ("kind = \"slice\"\n", "", "this `[[atlas.picture]]` lacks the key `kind`"),
-        ("x = \"kappa0\"", "x = 1", "`x` has 1, but it takes a text"),
+        ("x = \"kappa0\"", "x = 1", "`x` has 1, but it takes the name of an axis in quotation marks"),
         ("phi0 = 0.7", "phi0 = true", "`phi0` has true, but it takes a number or a list of numbers"),
         ("mark = [{", "mark = 1 # [{", "`mark` has 1, but it takes a list of tables"),
         ("kind = \"slice\"", "kind = \"slice\"\nkind = \"slice\"", "`kind` is given twice"),

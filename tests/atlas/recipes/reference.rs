@@ -21,12 +21,12 @@ fn looks_are_read_or_refused() {
         ("size = [800, 600, 2]", "`size` has 3 numbers"),
         ("size = [800, 0]", "`size` is 800 x 0 pixels; it must be at least 240 x 180"),
         ("size = [100000, 100000]", "100000 x 100000 pixels; the product must be at most 33554432"),
-        ("size = [800, -600]", "expected a whole number that is not negative"),
-        ("size = [800, 600.5]", "expected a whole number that is not negative"),
+        ("size = [800, -600]", "`size` has [800, -600], but it takes two whole numbers of pixels such as `[800, 600]`"),
+        ("size = [800, 600.5]", "`size` has [800, 600.5], but it takes two whole numbers of pixels"),
         ("dpi = 0", "`dpi` is 0; it must be 24 to 2400"),
         ("dpi = 2401", "`dpi` is 2401; it must be 24 to 2400"),
         ("dpi = 2400", "25000 x 21500 pixels; the product must be at most 33554432, so take a smaller `size` or `dpi`"),
-        ("dpi = \"96\"", "expected a whole number that is not negative"),
+        ("dpi = \"96\"", "`dpi` has \"96\", but it takes a whole number from 24 to 2400"),
     ];
     for (line, what) in cases {
         let message = complaint("kind = \"slice\"", &format!("kind = \"slice\"\n{line}"));
