@@ -311,3 +311,55 @@ fn value(axis: &Axis, node: usize) -> String {
     let x = axis.values()[node];
     if is_angle(axis.name()) { angle(x) } else { short(x) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An atlas of `any-spiral` whose outer axes have two and three nodes, and one plan.
+    fn atlas_and_plan(folder: &Path, picture: &str) -> (Atlas, PicturePlan) {
+        use spiral_atlas::atlas::{Spec, Writer};
+        let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = { values = [1, 2] }";
+        let text =
+            format!("family = \"any-spiral\"\n[[atlas]]\nname = \"a\"\n[atlas.axes]\n{axes}\n[[atlas.picture]]\n{picture}");
+        let recipe = Recipe::parse(&text).unwrap();
+        let plan = &recipe.atlases[0];
+        let path = folder.join("a.safetensors");
+        let spec = Spec { name: "a", family: plan.family, grid: &plan.grid, scalars: &[], recipe: &text };
+        let mut writer = Writer::create(&path, &spec).unwrap();
+        let job = Job { family: plan.family, grid: &plan.grid, scalars: &[] };
+        evaluate(&job, &Backend::Cpu, 1, &AtomicBool::new(false), |chunk| writer.put(&chunk)).unwrap();
+        writer.finish().unwrap();
+        (Atlas::open(&path).unwrap(), plan.pictures[0].clone())
+    }
+
+    #[test]
+    fn captions_tell_the_nodes_of_their_panels() {
+        let folder = tempfile::tempdir().unwrap();
+        let (atlas, plan) = atlas_and_plan(folder.path(), "kind = \"multiples\"\nx = \"k1\"\ny = \"k2\"");
+        let figure = multiples(&atlas, &plan).unwrap();
+        assert_eq!(figure.rows, ["α = 0.5", "α = −1"]);
+        assert_eq!(figure.columns, ["β = 0.25", "β = 0.75", "β = 1.5"]);
+        assert_eq!((&figure.title[..], &figure.note[..]), ("a", "6 panels (2 of 2 α, 3 of 3 β), 24 nodes, each proved"));
+        let more = "at = { beta = 0.75 }\ntitle = \"Mine\"";
+        let (atlas, plan) = atlas_and_plan(folder.path(), &format!("kind = \"multiples\"\nx = \"k1\"\ny = \"k2\"\n{more}"));
+        let figure = multiples(&atlas, &plan).unwrap();
+        assert_eq!((&figure.rows[..], &figure.columns[..]), (&[String::new()][..], &["α = −1".to_owned(), "α = 0.5".into()][..]));
+        assert_eq!(figure.title, "Mine");
+        let untitled = PicturePlan { look: Look::default(), ..plan };
+        assert_eq!(multiples(&atlas, &untitled).unwrap().title, "a: β = 0.75");
+        let (atlas, plan) =
+            atlas_and_plan(folder.path(), "kind = \"multiples\"\nx = \"alpha\"\ny = \"beta\"\nat = { k1 = 0, k2 = [1, 2] }");
+        let one = PicturePlan { at: vec![(2, vec![0]), (3, vec![1])], ..plan };
+        assert_eq!(multiples(&atlas, &one).unwrap().note, "1 panel, 6 nodes, each proved");
+    }
+
+    #[test]
+    fn combinations_run_through_the_last_axis_first() {
+        let nodes = |ways: Vec<Vec<Chosen>>| {
+            ways.into_iter().map(|way| way.into_iter().map(|(_, n)| n[0]).collect()).collect::<Vec<Vec<_>>>()
+        };
+        assert_eq!(nodes(combinations(&[(0, vec![3, 5]), (4, vec![1, 2])])), [[3, 1], [3, 2], [5, 1], [5, 2]]);
+        assert_eq!(combinations(&[]), [vec![]]);
+    }
+}

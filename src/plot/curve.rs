@@ -160,7 +160,7 @@ fn draw_curve(canvas: &mut Canvas, figure: &CurveFigure, style: Style, area: Rec
     let [x, y] = window(figure, rect)?;
     let to_sheet =
         |points: &[Point]| -> Vec<Point> { points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect() };
-    canvas.frame(rect, GREY);
+    canvas.frame(rect, INK);
     let em = style.em;
     let diagonal = f64::from(rect.width() + rect.height()) / unit(&x, rect);
     for (circle, color) in figure.circles.iter().zip(LINES.into_iter().cycle()) {
@@ -262,7 +262,7 @@ fn draw_graph(canvas: &mut Canvas, graph: &Graph, [x, y]: [Scale; 2], style: Sty
     if (0.0..1.0).contains(&zero) {
         canvas.line(&[rect.at(0.0, zero), rect.at(1.0, zero)], 1.0, PALE, rect);
     }
-    canvas.frame(rect, GREY);
+    canvas.frame(rect, INK);
     let places: Vec<Point> = graph.points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect();
     canvas.line(&places, style.em * 0.16, INK, rect);
     // Points that are not finite interrupt a line.

@@ -76,13 +76,13 @@ fn draw_key(canvas: &mut Canvas, style: Style, rect: Rect, key: Key) {
     match key {
         Key::Fill(color) => {
             canvas.fill(rect, color);
-            canvas.frame(rect, GREY);
+            canvas.frame(rect, INK);
         }
         Key::Hatched(outline) => {
             let hatch = Hatch::new(style);
             for y in rect.top..rect.bottom {
                 for x in rect.left..rect.right {
-                    hatch.draw(canvas, x, y, outline);
+                    hatch.draw(canvas, (x, y), outline, true);
                 }
             }
             canvas.fill(Rect { bottom: rect.top + hatch.line, ..rect }, outline.color);
@@ -123,18 +123,20 @@ pub(super) struct Hatch {
 impl Hatch {
     pub fn new(style: Style) -> Hatch {
         let line = style.px(0.13).max(1);
-        Hatch { line, band: style.px(0.8).max(4), period: style.em * 0.7, half: style.em * 0.04 + 0.1, casing: style.em * 0.06 }
+        Hatch { line, band: style.px(0.7).max(3), period: style.em * 0.7, half: style.em * 0.04 + 0.1, casing: style.em * 0.06 }
     }
 
-    /// Draws as much of the stripes and their casing as lies on this pixel.
-    pub fn draw(&self, canvas: &mut Canvas, x: i32, y: i32, outline: Outline) {
+    /// Draws as much of the stripes and their casing as lies on this pixel; of the casing alone where the stripes have ended.
+    pub fn draw(&self, canvas: &mut Canvas, (x, y): (i32, i32), outline: Outline, stripes: bool) {
         // Distance from the nearest of the lines x - y, or x + y, = multiple of the period.
         let off = f64::from(if outline.rising { x + y } else { x - y }).rem_euclid(self.period);
         let distance = off.min(self.period - off) / std::f64::consts::SQRT_2;
         let cover = |half: f64| (half + 0.5 - distance).clamp(0.0, 1.0);
         // A pixel that the stripe touches at all is white under it.
         canvas.blend(x, y, WHITE, cover(self.half + self.casing.max(1.0) + 0.5));
-        canvas.blend(x, y, outline.color, cover(self.half));
+        if stripes {
+            canvas.blend(x, y, outline.color, cover(self.half));
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_l
 use super::canvas::{Canvas, Point, Rect};
 use super::curve::{bounds, same_scales};
 use super::legend::Heading;
-use super::palette::{GREY, GROWN, LINES, OBSTACLE, RED};
+use super::palette::{GREY, GROWN, INK, LINES, OBSTACLE, RED};
 use super::scale::Scale;
 use super::slice::check_room;
 use crate::error::{Error, Result};
@@ -116,7 +116,7 @@ fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
     let [_, y] = same_scales(values(0), values(1), area)?;
     let rect = narrowed(canvas, &y, style, area)?;
     let [x, y] = same_scales(values(0), values(1), rect)?;
-    canvas.frame(rect, GREY);
+    canvas.frame(rect, INK);
     let place = |p: &Point| rect.at(x.fraction(p[0]), y.fraction(p[1]));
     if let Some(backdrop) = &figure.backdrop {
         let pixels = (place(&[backdrop.grown, 0.0])[0] - place(&[0.0, 0.0])[0]).abs();
@@ -166,13 +166,14 @@ fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
     let air = if hi - lo > 1e-9 * most { (hi - lo) * 0.07 } else { flat };
     let y = Scale::new(up, lo - air, hi + air, false)?;
     let rect = narrowed(canvas, &y, style, area)?;
-    canvas.frame(rect, GREY);
+    canvas.frame(rect, INK);
     let places = |points: &[Point]| points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect::<Vec<_>>();
-    for (line, color) in lines.iter().zip(LINES.into_iter().cycle()) {
-        canvas.cased(&places(line), style.em * 0.12, color, rect);
-    }
+    // Under the graphs, so that one that touches it is seen to.
     if let Some(level) = figure.level {
         canvas.cased(&places(&[[from, level], [to, level]]), style.em * 0.16, RED, rect);
+    }
+    for (line, color) in lines.iter().zip(LINES.into_iter().cycle()) {
+        canvas.cased(&places(line), style.em * 0.12, color, rect);
     }
     finish(canvas, [&x, &y], [across, up], style, rect);
     Ok(())

@@ -3,7 +3,7 @@
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
 use super::canvas::{Canvas, Pen, Rect, Sheet};
 use super::legend::{Entry, Hatch, Heading, Key, Legend, Outline, star};
-use super::palette::{Color, GREY, WHITE, edge, region_colors};
+use super::palette::{Color, INK, WHITE, edge, region_colors};
 use super::scale::Cells;
 use super::{Region, Slice, grouped};
 use crate::error::{Error, Result};
@@ -129,7 +129,7 @@ impl Panel<'_> {
         for (i, region) in self.slice.outlines.iter().enumerate() {
             pixels.draw_outline(canvas, Hatch::new(style), region, Outline::of(i));
         }
-        canvas.frame(rect, GREY);
+        canvas.frame(rect, INK);
         self.draw_marks(canvas, style, rect, mark_labels);
     }
 
@@ -216,8 +216,8 @@ impl Pixels {
                 canvas.blend(x, y, outline.color, 1.0);
             } else if depth <= if *here { line + rim } else { rim } * STEP {
                 canvas.blend(x, y, WHITE, 1.0);
-            } else if *here && depth <= hatch.band * STEP {
-                hatch.draw(canvas, x, y, outline);
+            } else if *here && depth <= (hatch.band + rim) * STEP {
+                hatch.draw(canvas, (x, y), outline, depth <= hatch.band * STEP);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! All keys of a recipe, from which the page docs/recipes.md is made.
+//! All keys of a recipe, from which the page docs/recipes.md is made, and from which the reader takes its words for a value of the wrong kind.
 //!
 //! Tests hold this list to what the reader does: each table has just the keys that the reader knows, in its order; keys without a
 //! default are those that it misses; every example is accepted.
@@ -6,17 +6,19 @@
 use super::levels::LEVELS_RULE;
 use super::look::{DPI, LEAST_SIZE, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, RESOLUTIONS, SLICE_SIZE};
 use super::panels::{MOST_PANELS, PANELS};
-use crate::family;
 use crate::grid::{MAX_AXES, MAX_COUNT};
-use std::fmt::Write;
 
 /// The kinds of pictures.
 pub(super) const KINDS: [&str; 4] = ["slice", "union", "multiples", "compare"];
 
+/// What a line of `[atlas.axes]` takes.
+pub(super) const AXIS: &str =
+    "one of `{ linear = [first, last], count = n }`, `{ log = [first, last], count = n }`, `{ values = [..] }`";
+
 /// One key.
 pub(super) struct Key {
     pub name: &'static str,
-    /// What may stand on the right of `=`.
+    /// What may stand on the right of `=`, as it goes on after "it takes".
     pub value: String,
     /// What holds where the key is left out; `None`: it must be there.
     pub default: Option<String>,
@@ -46,14 +48,14 @@ fn size((width, height): (u32, u32)) -> String {
 /// The keys `title`, `size` and `dpi`.
 fn look(title: &str, usual: &str, whose: &str) -> [Key; 3] {
     let ((width, height), [least, most]) = (LEAST_SIZE, RESOLUTIONS);
-    let of_size = format!("two whole numbers of pixels, at least `[{width}, {height}]`");
+    let of_size = format!("two whole numbers of pixels such as `[800, 600]`, at least `[{width}, {height}]`");
     let meaning = format!("Width and height of {whose} at {DPI} dpi. The picture may have at most {MAX_PIXELS} pixels.");
     [
-        optional("title", "text", title, &format!("The heading of {whose}.")),
+        optional("title", "a text in quotation marks", title, &format!("The heading of {whose}.")),
         optional("size", &of_size, usual, &meaning),
         optional(
             "dpi",
-            &format!("whole number, {least} to {most}"),
+            &format!("a whole number from {least} to {most}"),
             &format!("`{DPI}`"),
             &format!(
                 "Pixels per inch. At {} dpi the same picture has twice as many pixels each way. \
@@ -71,10 +73,14 @@ pub(super) fn tables() -> Vec<Table> {
 
 fn recipe() -> Table {
     let mut keys = vec![
-        needed("family", "name of a family", "The family of all atlases that have none of their own. See [Families](#families)."),
+        needed(
+            "family",
+            "the name of a family in quotation marks",
+            "The family of all atlases that have none of their own. See [Families](#families).",
+        ),
         optional(
             "fields",
-            "list of names of fields",
+            "a list of names of fields such as `[\"margin\"]`",
             "`[]`",
             "What to store of each node. `flags` and `solutions` are always stored and may be named here. The scalars of the \
              family are stored where they are named.",
@@ -82,7 +88,11 @@ fn recipe() -> Table {
     ];
     let each = format!("{} for each slice", size(PANEL_SIZE));
     keys.extend(look("the recipe's file name", &each, "the picture of slices side by side"));
-    keys.push(needed("atlas", "`[[atlas]]` tables, at least one", "The atlases, each with a file of its own."));
+    keys.push(needed(
+        "atlas",
+        "a section `[[atlas]]`, in double brackets; at least one",
+        "The atlases, each with a file of its own.",
+    ));
     let about = "At the top of the file. Where several atlases begin with a slice or a comparison, these are also drawn side by side, \
                  in a picture with the recipe's name; `title`, `size` and `dpi` here are about that picture.";
     Table { heading: "The recipe", about: about.into(), keys }
@@ -92,26 +102,50 @@ fn atlas() -> Table {
     let keys = vec![
         needed(
             "name",
-            "1 to 64 small letters, digits and hyphens",
+            "a text of 1 to 64 small letters, digits and hyphens",
             "The name of the atlas and of its files. No two atlases of a recipe have the same.",
         ),
-        optional("family", "name of a family", "the recipe's", "The family of this atlas."),
-        needed("axes", "table of axes", "The grid. The names of the axes are those of one chart of the family."),
-        optional("picture", "`[[atlas.picture]]` tables", "no picture", "The pictures, drawn in this order."),
+        optional("family", "the name of a family in quotation marks", "the recipe's", "The family of this atlas."),
+        needed(
+            "axes",
+            "a section `[atlas.axes]`, in single brackets, with a line for each axis",
+            "The grid. The names of the axes are those of one chart of the family.",
+        ),
+        optional(
+            "picture",
+            "a section `[[atlas.picture]]`, in double brackets, for each picture",
+            "no picture",
+            "The pictures, drawn in this order.",
+        ),
     ];
     Table { heading: "`[[atlas]]`", about: "One atlas: a grid, and the pictures of it.".into(), keys }
 }
 
 fn axis() -> Table {
-    let count = format!("whole number, 2 to {MAX_COUNT}");
+    let count = format!("a whole number from 2 to {MAX_COUNT}, such as `41`");
     let keys = vec![
-        optional("linear", "`[first, last]`", "another spacing", "Values in even steps. It goes with `count`."),
-        optional("log", "`[first, last]`, both above 0", "another spacing", "Values in even ratios. It goes with `count`."),
-        optional("values", "list of numbers", "another spacing", "The values themselves, increasing. It goes without `count`."),
+        optional(
+            "linear",
+            "two numbers, `[first, last]`, such as `[0, 1.5]`",
+            "another spacing",
+            "Values in even steps. It goes with `count`.",
+        ),
+        optional(
+            "log",
+            "two numbers above 0, `[first, last]`, such as `[1, 100]`",
+            "another spacing",
+            "Values in even ratios. It goes with `count`.",
+        ),
+        optional(
+            "values",
+            "a list of numbers such as `[0.5, 1]`",
+            "another spacing",
+            "The values themselves, increasing. It goes without `count`.",
+        ),
         optional("count", &count, "needed with `linear` and `log`", "How many values there are, both ends included."),
     ];
     let about = format!(
-        "Each line of `[atlas.axes]` is `name = {{ .. }}` with just one of the three spacings. A grid has up to {MAX_AXES} axes, \
+        "Each line of `[atlas.axes]` is the name of an axis, `=`, and {AXIS}. A grid has up to {MAX_AXES} axes, \
          in the order of the family's chart, however the recipe orders them. An angle may be written as a text: `\"40deg\"`, \
          `\"0.7rad\"`; a plain number is in radians."
     );
@@ -119,37 +153,52 @@ fn axis() -> Table {
 }
 
 fn picture() -> Table {
-    let kinds = format!("`\"{}\"`", KINDS.join("\"`, `\""));
+    let kinds = format!("one of `\"{}\"`", KINDS.join("\"`, `\""));
     let at = format!(
         "slices: needed for each axis of several values; unions: all nodes; multiples: up to {PANELS} nodes of each axis, evenly"
     );
     let mut keys = vec![
-        needed("kind", &kinds, "What the picture shows; see below."),
-        optional("with", "name of a family", "needed for `compare`", "The other family of a comparison, and of no other kind."),
-        needed("x", "name of an axis", "The axis to the right."),
-        needed("y", "name of another axis", "The axis upwards."),
+        needed("kind", &kinds, "What the picture shows; see above."),
+        optional(
+            "with",
+            "the name of a family in quotation marks",
+            "needed for `compare`",
+            "The other family of a comparison, and of no other kind.",
+        ),
+        needed("x", "the name of an axis in quotation marks", "The axis to the right."),
+        needed("y", "the name of another axis in quotation marks", "The axis upwards."),
         optional(
             "at",
-            "table: `axis = number`, or a list of numbers",
+            "a table such as `{ phi0 = 0.7 }`, with a number or a list of numbers for each axis",
             &at,
             "Which nodes of the axes that are not drawn. A number stands for the nearest node and must lie within the axis; \
              the numbers of a list must increase. A slice takes one number for each axis.",
         ),
         optional(
             "regions",
-            "list of flags",
+            "a list of flags such as `[\"SPIRAL\"]`",
             "the family's nested flags, and all others as outlines",
             "Which flags to fill. Each region is drawn over those before it, so the largest comes first.",
         ),
         optional(
             "outlines",
-            "list of flags",
+            "a list of flags such as `[\"SPIRAL\"]`",
             "none, beside `regions`",
             "Which flags to draw as a line with stripes on its inner side, which hides nothing. It goes with `regions`.",
         ),
-        optional("field", "name of a stored scalar", "flags are drawn", "Which scalar to fill by `levels`, in place of flags."),
+        optional(
+            "field",
+            "the name of a stored scalar in quotation marks",
+            "flags are drawn",
+            "Which scalar to fill by `levels`, in place of flags.",
+        ),
         optional("levels", LEVELS_RULE, "flags are drawn", "Fills where the scalar is at most so much, the least level darkest."),
-        optional("mark", "list of marks", "no mark", "Points to point out with a star. They belong on any kind but multiples."),
+        optional(
+            "mark",
+            "a list of tables such as `[{ kappa0 = 0.4, kappa1 = 4, label = \"mine\" }]`",
+            "no mark",
+            "Points to point out with a star. They belong on any kind but multiples.",
+        ),
     ];
     let usual = format!("{}; multiples: {}", size(SLICE_SIZE), size(MULTIPLES_SIZE));
     keys.extend(look("the atlas's name and the fixed coordinates", &usual, "the picture"));
@@ -166,148 +215,29 @@ fn picture() -> Table {
 
 fn mark() -> Table {
     let keys = vec![
-        needed("the name of `x`", "number", "Where the mark is along the axis to the right, within the axis."),
-        needed("the name of `y`", "number", "Where it is along the axis upwards, within the axis."),
-        needed("label", "text", "A few words beside the star."),
+        needed("the name of `x`", "a number", "Where the mark is along the axis to the right, within the axis."),
+        needed("the name of `y`", "a number", "Where it is along the axis upwards, within the axis."),
+        needed("label", "a text in quotation marks", "A few words beside the star."),
     ];
     let about = "For example `mark = [{ kappa0 = 0.4, kappa1 = 4, label = \"example 1\" }]` on a picture with `x = \"kappa0\"` and \
                  `y = \"kappa1\"`.";
     Table { heading: "A mark", about: about.into(), keys }
 }
 
-/// Two recipes that together have every key.
-pub(super) const EXAMPLES: [(&str, &str); 2] = [
-    (
-        "Two atlases of one family. Each has a slice, so these are also drawn side by side. The first has small multiples over both \
-         angles as well, and a slice of a scalar.",
-        r#"family = "cubic"
-fields = ["flags", "solutions", "margin"]
-title = "Two pairs of angles"
-size = [1240, 700]
-dpi = 96
-
-[[atlas]]
-name = "first"
-[atlas.axes]
-phi0 = { values = [0.3, 0.7] }
-phi1 = { linear = ["40deg", "80deg"], count = 3 }
-kappa0 = { linear = [0.05, 0.65], count = 25 }
-kappa1 = { log = [0.8, 20], count = 21 }
-
-[[atlas.picture]]
-kind = "slice"
-x = "kappa0"
-y = "kappa1"
-at = { phi0 = 0.7, phi1 = "80deg" }
-mark = [{ kappa0 = 0.4, kappa1 = 4, label = "example 1" }]
-title = "Which end curvatures a cubic spiral joins"
-size = [800, 600]
-dpi = 192
-
-[[atlas.picture]]
-kind = "multiples"
-x = "kappa0"
-y = "kappa1"
-at = { phi0 = [0.3, 0.7] }
-regions = ["ANY_SPIRAL", "SPIRAL"]
-outlines = ["SOLVABLE"]
-
-[[atlas.picture]]
-kind = "slice"
-x = "kappa0"
-y = "kappa1"
-at = { phi0 = 0.7, phi1 = "80deg" }
-field = "margin"
-levels = [0.1, 0.3, 0.5]
-
-[[atlas]]
-name = "second"
-[atlas.axes]
-phi0 = { values = [0.8] }
-phi1 = { values = [0.9] }
-kappa0 = { linear = [0.5, 0.7], count = 25 }
-kappa1 = { log = [0.8, 1.3], count = 21 }
-[[atlas.picture]]
-kind = "slice"
-x = "kappa0"
-y = "kappa1"
-"#,
-    ),
-    (
-        "Two atlases of different families: a comparison, and a union over an angle.",
-        r#"family = "cubic"
-
-[[atlas]]
-name = "cubic-or-ph-quintic"
-[atlas.axes]
-phi0 = { values = [0.7] }
-phi1 = { values = [1.4] }
-kappa0 = { linear = [0.2, 0.64], count = 30 }
-kappa1 = { log = [1, 20], count = 31 }
-[[atlas.picture]]
-kind = "compare"
-with = "ph-quintic"
-x = "kappa0"
-y = "kappa1"
-
-[[atlas]]
-name = "reached-at-any-angle"
-family = "reach-cubic"
-[atlas.axes]
-theta = { linear = ["5deg", "85deg"], count = 17 }
-xi = { linear = [0.1, 4], count = 40 }
-eta = { linear = [0.1, 3], count = 30 }
-[[atlas.picture]]
-kind = "union"
-x = "xi"
-y = "eta"
-"#,
-    ),
-];
-
-/// The reference of recipes in Markdown, with examples: all keys and, of each family, its axes, flags and scalars.
-pub fn reference() -> String {
-    let mut page = String::from(
-        "# Recipes\n\nThis page is made from the code of the reader: a test compares the two, so what stands here is what the program does.\n\n\
-         A recipe is a [TOML](https://toml.io) file. It says which atlases to make and which pictures to draw of them:\n\n\
-         ```sh\nspiral-atlas generate recipe.toml\n```\n\n\
-         A mistake in a recipe is told with its line and column before any work is done, and the exit status is 2.\n",
-    );
-    page += "\n## Examples\n";
-    for (about, recipe) in EXAMPLES {
-        page += &format!("\n{about}\n\n```toml\n{recipe}```\n");
-    }
-    page += "\n## Keys\n\nA key without a default must be there. Other keys than these are refused.\n";
-    for table in tables() {
-        page += &format!(
-            "\n### {}\n{}\n\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n",
-            table.heading, table.about
-        );
-        for key in table.keys {
-            let name = if key.name.contains(' ') { key.name.into() } else { format!("`{}`", key.name) };
-            page += &format!("| {name} | {} | {} | {} |\n", key.value, key.default.as_deref().unwrap_or("none"), key.meaning);
-        }
-    }
-    page += "\n## Families\n\nThe axes, flags and scalars that a recipe may name.\n";
-    for family in family::all() {
-        page += &format!("\n### `{}`\n{}\n\n", family.name(), family.title());
-        for chart in family.charts() {
-            page += &format!("- axes `{}`: {}\n", chart.axes.join("`, `"), chart.doc);
-        }
-        let _ = writeln!(page, "- filled unless a picture chooses: `{}`", family.nested().join("`, `"));
-        page += "\n| flag | is true where |\n| --- | --- |\n";
-        family.flags().iter().for_each(|flag| page += &format!("| `{}` | {} |\n", flag.name, cell(flag.doc)));
-        if !family.scalars().is_empty() {
-            page += "\n| scalar | is |\n| --- | --- |\n";
-            family.scalars().iter().for_each(|scalar| page += &format!("| `{}` | {} |\n", scalar.name, cell(scalar.doc)));
-        }
-    }
-    page
-}
-
-/// A text within a table of Markdown.
-fn cell(text: &str) -> String {
-    text.replace('|', "\\|")
+/// What the value at the end of these keys may be; `None` where it is no value of a recipe.
+pub(super) fn takes(path: &[&str]) -> Option<String> {
+    let (table, name) = match path {
+        ["atlas", "axes", _] => return Some(AXIS.into()),
+        ["atlas", "picture", "at", _] => return Some("a number or a list of numbers".into()),
+        ["atlas", "picture", "mark", "label"] => (mark(), "label"),
+        ["atlas", "picture", "mark", _] => return Some("a number".into()),
+        ["atlas", "axes", _, name] => (axis(), *name),
+        ["atlas", "picture", name] => (picture(), *name),
+        ["atlas", name] => (atlas(), *name),
+        [name] => (recipe(), *name),
+        _ => return None,
+    };
+    table.keys.into_iter().find(|key| key.name == name).map(|key| key.value)
 }
 
 #[cfg(test)]
@@ -315,6 +245,7 @@ mod tests {
     use super::*;
     use crate::Error;
     use crate::recipe::Recipe;
+    use crate::recipe::reference::EXAMPLES;
 
     /// Small recipes in which every table stands, with the line after which another key would belong to each.
     fn good() -> Vec<(&'static str, usize)> {
@@ -371,6 +302,42 @@ mod tests {
         assert_eq!(needed, expected);
         for part in ["kappa0 = 0.4, ", "kappa1 = 4, ", ", label = \"example 1\""] {
             assert!(complaint(&recipe.replacen(part, "", 1)).contains("the mark lacks"), "{part}");
+        }
+    }
+
+    /// The complaint about `true`, which no key takes, in place of each value of the examples.
+    #[test]
+    fn wrong_values_are_answered_in_the_words_of_the_table() {
+        let sections = ["", "[[atlas]]", "[atlas.axes]", "[[atlas.picture]]"];
+        let mut compared = 0;
+        for (_, recipe) in EXAMPLES {
+            let mut section = 0;
+            for line in recipe.lines() {
+                section = sections.iter().position(|s| *s == line).unwrap_or(section);
+                let Some((name, _)) = line.split_once(" = ") else { continue };
+                let value = match section {
+                    2 => AXIS.to_owned(),
+                    at => tables().swap_remove(at).keys.into_iter().find(|key| key.name == name).unwrap().value,
+                };
+                let message = complaint(&recipe.replacen(line, &format!("{name} = true"), 1));
+                let what = format!("`{name}` has true, but it takes {value}");
+                assert!(message.ends_with(&what), "{line}: {message}");
+                compared += 1;
+            }
+        }
+        assert!(compared > 50, "{compared}");
+        let within = [
+            ("[\"40deg\", \"80deg\"]", "true", "`linear` has true, but it takes two numbers"),
+            ("[0.8, 20]", "true", "`log` has true, but it takes two numbers above 0"),
+            ("[0.3, 0.7]", "true", "`values` has true, but it takes a list of numbers"),
+            ("count = 3", "count = true", "`count` has true, but it takes a whole number"),
+            ("phi0 = 0.7,", "phi0 = true,", "`phi0` has true, but it takes a number or a list of numbers"),
+            ("kappa0 = 0.4,", "kappa0 = true,", "`kappa0` has true, but it takes a number"),
+            ("\"example 1\"", "true", "`label` has true, but it takes a text"),
+        ];
+        for (from, to, what) in within {
+            let message = complaint(&EXAMPLES[0].1.replacen(from, to, 1));
+            assert!(message.contains(what), "{from}: {message}");
         }
     }
 

@@ -5,7 +5,7 @@ use super::raw::{Fault, RawPicture, unknown};
 use crate::family::Family;
 
 /// What the levels of a picture are.
-pub(super) const LEVELS_RULE: &str = "list of numbers, increasing";
+pub(super) const LEVELS_RULE: &str = "a list of increasing numbers such as `[0.5, 1]`";
 
 /// Regions where a scalar is at most so much.
 #[derive(Debug, Clone, PartialEq)]

@@ -28,12 +28,13 @@ mod levels;
 mod look;
 mod panels;
 mod raw;
+mod reference;
 mod words;
 
-pub use keys::reference;
 pub use levels::Levels;
 pub use look::{DPI, Look, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, SLICE_SIZE};
 pub use raw::{is_angle, parse_angle, parse_coordinate};
+pub use reference::reference;
 
 use crate::error::{Error, Result};
 use crate::family::{self, Chart, Family};
@@ -235,9 +236,7 @@ fn spacing(name: &str, raw: &RawAxis) -> Result<Spacing, String> {
         (Some([lo, hi]), None, None, Some(count)) => Ok(Spacing::Linear { lo: lo.on(name)?, hi: hi.on(name)?, count }),
         (None, Some([lo, hi]), None, Some(count)) => Ok(Spacing::Log { lo: lo.on(name)?, hi: hi.on(name)?, count }),
         (None, None, Some(values), None) => values.iter().map(|v| v.on(name)).collect::<Result<_, _>>().map(Spacing::Values),
-        _ => Err(format!(
-            "axis `{name}` takes one of `{{ linear = [lo, hi], count = n }}`, `{{ log = [lo, hi], count = n }}`, `{{ values = [..] }}`"
-        )),
+        _ => Err(format!("axis `{name}` takes {}", keys::AXIS)),
     }
 }
 

@@ -3,6 +3,8 @@
 #[cfg(feature = "cli")]
 mod crude;
 mod file;
+#[cfg(feature = "cli")]
+mod panels;
 mod pipeline;
 #[cfg(feature = "cli")]
 mod plot;
