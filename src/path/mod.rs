@@ -6,6 +6,7 @@
 //! Source: Farouki et al., Pythagorean-hodograph curves for path planning of unmanned vehicles.
 
 mod corner;
+mod course;
 mod least_curvature;
 mod plan;
 mod queue;
@@ -14,6 +15,7 @@ mod spline;
 mod tridiagonal;
 
 pub use corner::Turn;
+pub use course::{Course, OffsetCurve, Spot};
 pub use least_curvature::{Directions, Free, LeastCurvature, least_curvature};
 pub use plan::{Clearance, Corner, Plan, Proof, Scene, plan, prove};
 pub use separation::{Closest, Motion, Separation, Verdict, separation, separations};

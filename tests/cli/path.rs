@@ -61,11 +61,11 @@ fn interpolants_and_splines() {
     let found = piped(&["hermite", "-", "--figure", &figure], ends).json();
     let path = &found["paths"][0];
     assert!((number(&path["absolute_rotation"]) - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
-    assert_eq!((&path["spans"][0]["control_points"][5], &path["best"]), (&json!([1.0, 0.0]), &json!(0)));
+    assert_eq!((&path["pieces"][0]["control_points"][5], &path["best"]), (&json!([1.0, 0.0]), &json!(0)));
     std::fs::remove_file(&figure).unwrap();
     std::fs::write(folder.at("points.json"), r#"{"points": [[0, 0], [1, 1], [2, 0]], "closed": true}"#).unwrap();
     let found = fine(["path", "spline", &folder.text("points.json"), "--figure", &figure]).json();
-    assert_eq!(found["paths"][0]["spans"].as_array().unwrap().len(), 3);
+    assert_eq!(found["paths"][0]["pieces"].as_array().unwrap().len(), 3);
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     // Degrees and radians say the same.
     let swarm = |angle: &str| {
@@ -84,14 +84,14 @@ fn a_planned_path_is_input_of_separation() {
     let found = said.json();
     let path = &found["paths"][0];
     assert!(number(&path["clearance"]["at_least"]) >= 0.2 && number(&path["curvature_at_most"]) <= 5.0);
-    let (corners, spans) = (path["corners"].as_array().unwrap(), path["spans"].as_array().unwrap());
-    assert!(corners.len() >= 4 && spans.len() == 2 * corners.len() + 1);
-    assert_eq!(spans[number(&corners[1]["span"]) as usize]["preimage"][1], json!([0.0, 0.0]));
+    let (corners, pieces) = (path["corners"].as_array().unwrap(), path["pieces"].as_array().unwrap());
+    assert!(corners.len() >= 4 && pieces.len() == 2 * corners.len() + 1);
+    assert_eq!(pieces[number(&corners[1]["piece"]) as usize]["preimage"][1], json!([0.0, 0.0]));
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     // A second vehicle in step with it, 0.5 beside; and one that starts later and so waits in its way.
     let mut beside = path.clone();
-    for (span, end) in (0..spans.len()).flat_map(|i| [(i, "start"), (i, "end")]) {
-        let point = &mut beside["spans"][span][end];
+    for (span, end) in (0..pieces.len()).flat_map(|i| [(i, "start"), (i, "end")]) {
+        let point = &mut beside["pieces"][span][end];
         *point = json!([number(&point[0]) + 0.3, number(&point[1]) + 0.4]);
     }
     let mut later = path.clone();
@@ -118,20 +118,22 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     let spline = piped(&["spline", "-"], r#"{"points": [[0, 0], [1, 1], [2, 0], [3, 1], [4, 0]]}"#).out;
     let folder = Folder::new("");
     let figure = folder.text("measured.png");
-    let measured = piped(&["measure", "-", "--samples", "40", "--offset", "-0.25", "--figure", &figure], &spline).json();
+    let measured = piped(&["measure", "-", "--samples", "41", "--offset", "-0.25", "--figure", &figure], &spline).json();
     let path = &measured["paths"][0];
     let given: Value = serde_json::from_str(&spline).unwrap();
     assert_eq!((&path["length"], &path["bending_energy"]), (&given["paths"][0]["length"], &given["paths"][0]["bending_energy"]));
     let list = |name: &str| path[name].as_array().unwrap().clone();
-    let point = |at: &Value| [number(&at["point"][0]), number(&at["point"][1])];
+    let point = |at: &Value| [number(&at["x"]), number(&at["y"])];
     let samples = list("samples");
     assert_eq!(samples.len(), 41);
     assert_eq!((point(&samples[0]), point(&samples[40])), ([0.0, 0.0], [4.0, 0.0]));
     let step = number(&path["length"]) / 40.0;
     for w in samples.windows(2) {
-        let ([p, q], turn) = ([point(&w[0]), point(&w[1])], number(&w[1]["direction"]) - number(&w[0]["direction"]));
+        let ([p, q], turn) = ([point(&w[0]), point(&w[1])], number(&w[1]["heading"]) - number(&w[0]["heading"]));
         let chord = (q[0] - p[0]).hypot(q[1] - p[1]);
-        assert!((number(&w[1]["length"]) - number(&w[0]["length"]) - step).abs() < 1e-12 && chord <= step && chord > 0.97 * step);
+        assert!(
+            (number(&w[1]["station"]) - number(&w[0]["station"]) - step).abs() < 1e-12 && chord <= step && chord > 0.97 * step
+        );
         // The mean of the curvatures is about the turn over the length.
         let mean = 0.5 * (number(&w[0]["curvature"]) + number(&w[1]["curvature"]));
         assert!((turn / step - mean).abs() < 0.2, "{turn} {step} {mean}");
@@ -145,7 +147,7 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     // The ends of the offset curve are 0.25 to the right.
     let offset = &path["offset"].as_array().unwrap()[0];
     let (first, weight) = (&offset["numerator"][0], number(&offset["weight"][0]));
-    let direction = number(&samples[0]["direction"]);
+    let direction = number(&samples[0]["heading"]);
     let apart = [number(&first[0]) / weight - 0.25 * direction.sin(), number(&first[1]) / weight + 0.25 * direction.cos()];
     assert!(apart[0].hypot(apart[1]) < 1e-14 && offset["numerator"].as_array().unwrap().len() == 10, "{apart:?}");
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
@@ -170,19 +172,19 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
 fn mistakes_are_named() {
     let cases: &[(&[&str], &str, &[&str])] = &[
         (&["hermite", "-"], "{", &["standard input: EOF", "line 1"]),
-        (&["measure", "-"], r#"{"paths": [{"spans": []}]}"#, &["paths[0]: `spans` is empty"]),
+        (&["measure", "-"], r#"{"paths": [{"pieces": []}]}"#, &["paths[0]: `pieces` is empty"]),
         (
             &["measure", "-"],
-            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}, {"start": [7, 7], "preimage": [[1, 0], [1, 0], [1, 0]]}]}]}"#,
-            &["paths[0]: spans[0] ends at [1.0, 0.0], spans[1] starts at [7.0, 7.0]"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}, {"kind": "ph-quintic", "start": [7, 7], "preimage": [[1, 0], [1, 0], [1, 0]]}]}]}"#,
+            &["paths[0]: pieces[0] ends at [1.0, 0.0], pieces[1] starts at [7.0, 7.0]"],
         ),
         (
             &["measure", "-", "--offset", "1e308"],
-            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[100, 0], [50, 60], [1, 90]]}]}]}"#,
-            &["paths[0]: spans[0]: its offset at distance 1e308"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[100, 0], [50, 60], [1, 90]]}]}]}"#,
+            &["paths[0]: pieces[0]: its offset at distance 1e308"],
         ),
         (&["measure", "-", "--offset", "inf"], r#"{"paths": []}"#, &["--offset is inf"]),
-        (&["measure", "-", "--samples", "1000001"], r#"{"paths": []}"#, &["--samples is 1000001", "1000000"]),
+        (&["measure", "-", "--samples", "1000001"], r#"{"paths": []}"#, &["1000001 is not in 2..=1000000", "--samples"]),
         (&["hermite", "-"], r#"{"start": [0, 0]}"#, &["standard input", "missing field `end`"]),
         (
             &["hermite", "-"],
@@ -216,13 +218,13 @@ fn mistakes_are_named() {
         ),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"spans": [[[0, 0], null, [[1, 0], [1, 0], [1, 0]]]]}]}"#,
-            &["paths[0].spans[0]: invalid type: sequence, expected an object with start, end, preimage"],
+            r#"{"paths": [{"pieces": [[[0, 0], null, [[1, 0], [1, 0], [1, 0]]]]}]}"#,
+            &["paths[0].pieces[0]: invalid type: sequence, expected an object with kind, start, end, start_direction"],
         ),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
-            &["paths[1]: `spans` is empty"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            &["paths[1]: `pieces` is empty"],
         ),
         (
             &["plan", "-"],
@@ -233,12 +235,12 @@ fn mistakes_are_named() {
         (&["separation", "-", "--minimum", "0"], r#"{"paths": []}"#, &["0 paths"]),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"spans": [{"start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
-            &["paths[0]", "spans[0]", "`end` is [7.0, 0.0]", "[1.0, 0.0]"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            &["paths[0]", "pieces[0]", "`end` is [7.0, 0.0]", "[1.0, 0.0]"],
         ),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"speed": 0, "spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
+            r#"{"paths": [{"speed": 0, "pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
             &["paths[0]", "`speed` is 0.0"],
         ),
         (

@@ -68,7 +68,8 @@ pub struct Corner {
     pub turning_angle: f64,
     /// Distance from the corner to the ends of its curve.
     pub reach: f64,
-    /// Index of the curve among the spans.
+    /// Index of the curve among the spans; among the pieces in JSON.
+    #[serde(rename = "piece")]
     pub span: usize,
 }
 
