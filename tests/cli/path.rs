@@ -168,6 +168,74 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     assert!(bare["paths"][0]["samples"] == json!([]) && bare["paths"][0].get("offset").is_none());
 }
 
+/// Pieces of all kinds, as `curve` prints them.
+const KINDS: &str = r#"{"paths": [
+    {"pieces": [{"kind": "cubic", "control_points": [[0, 0], [1, 0], [2, 1], [1.5, 2]]}]},
+    {"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0.1], [0.9, 0.5], [0.4, 1.0]]}]},
+    {"pieces": [{"kind": "trig-quintic", "p": -0.5, "q": 0.75,
+        "control_points": [[0, 0], [0.2, 0], [0.5, 0.1], [0.9, 0.2], [1.3, 0.6], [1.4, 1.1]]}]},
+    {"pieces": [{"kind": "involute", "start": [0, 0], "end": [2, 0], "start_direction": -0.9, "end_direction": 1.2,
+        "start_curvature": -0.3, "end_curvature": 3}]},
+    {"pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0]},
+        {"kind": "arc", "start": [1, 0], "start_direction": 0, "curvature": 1, "length": 1}]}]}"#;
+
+#[test]
+fn every_kind_of_piece_is_measured() {
+    let folder = Folder::new("");
+    let figure = folder.text("kinds.png");
+    let said = piped(&["measure", "-", "--samples", "3", "--offset", "0.1", "--figure", &figure], KINDS);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let (measured, given) = (said.json(), serde_json::from_str::<Value>(KINDS).unwrap());
+    let counts = |name: &str| {
+        let of = |path: &Value| path[name].as_array().unwrap().len();
+        measured["paths"].as_array().unwrap().iter().map(of).collect::<Vec<_>>()
+    };
+    assert_eq!((counts("curvature_extrema"), counts("inflections")), (vec![2, 1, 2, 0, 0], vec![0, 0, 0, 1, 0]));
+    assert_eq!((counts("samples"), counts("offset")), (vec![3; 5], vec![1, 1, 1, 1, 2]));
+    for (path, given) in measured["paths"].as_array().unwrap().iter().zip(given["paths"].as_array().unwrap()) {
+        let known = path.get("bending_energy").is_some() && path.get("absolute_rotation").is_some();
+        let kind = given["pieces"][0]["kind"].as_str().unwrap();
+        assert_eq!(known, ["ph-quintic", "line"].contains(&kind), "{kind}");
+        assert_eq!(path["offset"][0].get("points").is_none(), kind == "ph-quintic", "{kind}");
+    }
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    // The same samples as CSV.
+    let csv = piped(&["measure", "-", "--samples", "3", "--csv"], KINDS).out;
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!((lines[0], lines.len()), ("path,station,x,y,heading,curvature", 16));
+    let sample = &measured["paths"][2]["samples"][1];
+    let cells = ["station", "x", "y", "heading", "curvature"].map(|name| sample[name].to_string()).join(",");
+    assert_eq!(lines[8], format!("2,{cells}"));
+    // A path that stands still at its start has no heading there.
+    let still = r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[0, 0], [1, 1], [2, 0]]}]}]}"#;
+    let sample = piped(&["measure", "-", "--samples", "2"], still).json()["paths"][0]["samples"][0].clone();
+    assert_eq!(sample, json!({"station": 0.0, "x": 0.0, "y": 0.0, "heading": null, "curvature": null}));
+    assert!(piped(&["measure", "-", "--samples", "2", "--csv"], still).out.contains("\n0,0.0,0.0,0.0,,\n"));
+    // Separation has proofs for some kinds alone.
+    let said = piped(&["separation", "-", "--minimum", "0.1"], KINDS);
+    let parts = ["paths[0]: pieces[0] is of the kind `cubic`", "`ph-quintic` and `line`", "path spline"];
+    assert!(said.code == Some(2) && parts.iter().all(|part| said.err.contains(part)), "{}", said.err);
+    let lines = r#"{"paths": [{"pieces": [{"kind": "line", "start": [0, 0], "end": [3, 4]}]},
+        {"pieces": [{"kind": "line", "start": [0, 1], "end": [3, 5]}]}]}"#;
+    let said = piped(&["separation", "-", "--minimum", "0.999"], lines);
+    assert!(said.code == Some(0) && number(&said.json()["pairs"][0]["closest"]["at_most"]) < 1.0 + 1e-9, "{}", said.out);
+}
+
+#[test]
+fn where_there_is_no_path_the_answer_is_no() {
+    let wall = "[[1, -9], [2, -9], [2, 9], [1, 9]], [[-9, 8], [9, 8], [9, 9], [-9, 9]], [[-9, -9], [9, -9], [9, -8], [-9, -8]],
+        [[8, -9], [9, -9], [9, 9], [8, 9]]";
+    let scene = |curvature: f64| {
+        format!(
+            r#"{{"start": [0, 0], "goal": [3, 0], "obstacles": [{wall}], "clearance": 0.1, "greatest_curvature": {curvature}}}"#
+        )
+    };
+    let said = piped(&["plan", "-"], &scene(5.0));
+    assert_eq!((said.code, &said.err[..], &said.json()["paths"]), (Some(1), "", &json!([])));
+    assert!(said.json()["reason"].as_str().unwrap().starts_with("every way is blocked"), "{}", said.out);
+    assert_eq!(piped(&["plan", "-"], &scene(-1.0)).code, Some(2));
+}
+
 #[test]
 fn mistakes_are_named() {
     let cases: &[(&[&str], &str, &[&str])] = &[

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 /// among obstacles, and apart from each other.
 ///
 /// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others print has `paths`,
-/// which `separation` and `measure` read. Any unit of length; angles are radians, or degrees when written like "40deg".
+/// which `separation` and `measure` read; `measure` reads what `curve --json` prints, too. Any unit of length; angles are radians, or degrees when written like "40deg".
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
@@ -172,6 +172,22 @@ impl Found {
 
     fn curves(&self) -> Vec<PhQuintic> {
         self.pieces.clone()
+    }
+}
+
+/// The answer that there is no path.
+#[derive(Serialize)]
+struct NoPath {
+    paths: [Found; 0],
+    reason: String,
+}
+
+/// What was found; where there is no path, that is printed with the reason, and nothing is left to do.
+fn found<T>(found: Result<T>, files: &Files) -> Result<std::result::Result<T, Outcome>> {
+    match found {
+        Ok(found) => Ok(Ok(found)),
+        Err(Error::NoPath(reason)) => output::print_json(&NoPath { paths: [], reason }).map(|()| Err(Outcome::Bad)),
+        Err(e) => Err(files.blame(e)),
     }
 }
 
