@@ -99,6 +99,14 @@ impl CubicBezier {
     pub fn curvature_extrema(&self) -> Vec<f64> {
         extrema::curvature_extrema(&self.p)
     }
+
+    /// The parameters in (0, 1), increasing, where the curvature changes its sign.
+    ///
+    /// # Accuracy
+    /// As [`CubicBezier::curvature_extrema`].
+    pub fn inflections(&self) -> Vec<f64> {
+        extrema::inflections(&self.p)
+    }
 }
 
 /// Lengths of the outer sides of the control polygon.

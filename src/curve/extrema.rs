@@ -17,6 +17,20 @@ pub(super) fn curvature_extrema(p: &[Vector; 4]) -> Vec<f64> {
     roots
 }
 
+/// Parameters in (0, 1), increasing, where the curvature of the cubic with these control points changes its sign: as that of `P' × P''`.
+pub(super) fn inflections(p: &[Vector; 4]) -> Vec<f64> {
+    let mut roots = Vec::new();
+    if let Some(q) = sides(p) {
+        sign_changes(&turning(&q), 0.0, 1.0, DEPTH, &mut roots);
+    }
+    roots
+}
+
+/// Bernstein coefficients of `(P' × P'') / 18`, where those of `P' / 3` are q.
+fn turning(q: &[Vector; 3]) -> [f64; 3] {
+    [cross(q[0], q[1]), 0.5 * cross(q[0], q[2]), cross(q[1], q[2])]
+}
+
 /// Sides of the control polygon in units of the longest; `None` when there is none.
 fn sides(p: &[Vector; 4]) -> Option<[Vector; 3]> {
     let q = [sub(p[1], p[0]), sub(p[2], p[1]), sub(p[3], p[2])];
@@ -26,8 +40,7 @@ fn sides(p: &[Vector; 4]) -> Option<[Vector; 3]> {
 
 /// Bernstein coefficients of the numerator of dκ/dt, up to a positive factor.
 fn numerator(q: &[Vector; 3]) -> Vec<f64> {
-    // P' / 3 has the Bernstein coefficients q. With them (P' × P'') / 18 has those of `turning`.
-    let turning = [cross(q[0], q[1]), 0.5 * cross(q[0], q[2]), cross(q[1], q[2])];
+    let turning = turning(q);
     let coordinate = |i: usize| q.map(|v| v[i]);
     let (x, y) = (product(&coordinate(0), &coordinate(0)), product(&coordinate(1), &coordinate(1)));
     let squared: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x + y).collect();

@@ -40,6 +40,12 @@ impl PhQuintic {
         PhQuintic { start, end, preimage }
     }
 
+    /// The straight line between two points, at constant speed.
+    pub fn straight(start: [f64; 2], end: [f64; 2]) -> PhQuintic {
+        let root = Complex64::new(end[0] - start[0], end[1] - start[1]).sqrt();
+        PhQuintic::between(start, end, [[root.re, root.im]; 3])
+    }
+
     /// Whether no number in it is infinite or NaN.
     pub fn is_finite(&self) -> bool {
         let numbers = self.preimage.iter().flatten().chain(&self.start).chain(&self.end);

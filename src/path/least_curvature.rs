@@ -76,7 +76,7 @@ const LEAST: f64 = 1e-2;
 ///
 /// # Errors
 /// [`Error::Domain`] naming a number that is not finite, ends that coincide, a greatest length not above their distance or beyond a million times
-/// that, or that no searched path is short enough.
+/// that. [`Error::NoPath`] where no searched path is short enough.
 ///
 /// ```
 /// use spiral_atlas::path::{Directions, Free, least_curvature};
@@ -95,9 +95,8 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     let low = LEAST.min(0.5 * search.beyond);
     let space = Space::new(search, ends.free, low);
     let (best, at_least) = space.least().ok_or_else(|| {
-        let what =
-            format!("no path with these directions is as short as `greatest_length`, {:?}; allow more", ends.greatest_length);
-        Error::Domain(format!("least curvature: {what}"))
+        let length = ends.greatest_length;
+        Error::NoPath(format!("no path with these directions is as short as `greatest_length`, {length:?}; allow more"))
     })?;
     let back = chord.sqrt();
     let curve = PhQuintic::between(ends.start, ends.end, best.preimage.map(|w| pair(complex(w) * back)));

@@ -28,6 +28,7 @@
 //! - `num-complex` for complex numbers: w has square roots and quotients throughout.
 
 mod corner;
+mod course;
 mod least_curvature;
 mod plan;
 mod queue;
@@ -36,6 +37,7 @@ mod spline;
 mod tridiagonal;
 
 pub use corner::Turn;
+pub use course::{Course, OffsetCurve, Spot};
 pub use least_curvature::{Directions, Free, LeastCurvature, least_curvature};
 pub use plan::{Clearance, Corner, Plan, Proof, Scene, plan, prove};
 pub use separation::{Closest, Motion, Separation, Verdict, separation, separations};

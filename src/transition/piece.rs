@@ -211,14 +211,24 @@ impl Piece {
     /// A few roundings where there is a formula (`ph-quintic`, `line`, `arc`), else 1e-13 relative.
     pub fn length(&self) -> f64 {
         match self {
-            Piece::Cubic(_) | Piece::TrigQuintic(_) => {
-                let [from, to] = self.range();
-                arc_length(|t| self.at(t).speed, from, to)
-            }
+            Piece::Cubic(_) | Piece::TrigQuintic(_) => self.length_to(self.range()[1]),
             Piece::PhQuintic(curve) => curve.length(),
             Piece::Involute(between) => between.curve.length() * between.unit(),
             Piece::Line(Line { start, end }) => length(sub(*end, *start)),
             Piece::Arc(arc) => arc.length,
+        }
+    }
+
+    /// Arc length from the start to a parameter of [`Piece::range`].
+    ///
+    /// # Accuracy
+    /// As [`Piece::length`].
+    pub fn length_to(&self, t: f64) -> f64 {
+        match self {
+            Piece::Cubic(_) | Piece::TrigQuintic(_) => arc_length(|t| self.at(t).speed, self.range()[0], t),
+            Piece::PhQuintic(curve) => curve.length_to(t),
+            Piece::Involute(between) => between.curve.length_to(t) * between.unit(),
+            Piece::Line(_) | Piece::Arc(_) => self.length() * t,
         }
     }
 

@@ -8,7 +8,7 @@ use serde::Serialize;
 /// Steps of Newton's method or of bisection, at most. Bisection alone needs 53 to exhaust a double.
 const STEPS: u32 = 60;
 
-/// A point of a path and what is known there, in the user's units.
+/// A point of a path and what is known there, in the user's units. As JSON, heading and curvature are null where the path stands still.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Station {
     /// Arc length from the start.
@@ -17,10 +17,18 @@ pub struct Station {
     pub x: f64,
     /// The point.
     pub y: f64,
-    /// Direction of travel, radians from the x axis, counter-clockwise, in [-π, π].
+    /// Direction of travel, radians from the x axis, counter-clockwise, in [-π, π]; NaN where the path stands still.
     pub heading: f64,
-    /// Signed curvature, positive to the left.
+    /// Signed curvature, positive to the left; NaN where the path stands still.
     pub curvature: f64,
+}
+
+impl Station {
+    /// The point at signed distance `d` to the left of this one.
+    pub fn beside(&self, d: f64) -> [f64; 2] {
+        let (sin, cos) = self.heading.sin_cos();
+        [self.x - d * sin, self.y + d * cos]
+    }
 }
 
 /// `count` points at equal arc lengths, both ends included.
@@ -49,10 +57,10 @@ pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
         let inside: Vec<f64> = (first..next).map(|n| (wanted(n) - before).clamp(0.0, *length)).collect();
         for (n, t) in (first..next).zip(parameters(piece, *length, &inside)) {
             let at = piece.at(t);
-            let found =
-                Station { station: wanted(n), x: at.point[0], y: at.point[1], heading: at.heading, curvature: at.curvature };
-            let Station { station, x, y, heading, curvature } = found;
-            if ![station, x, y, heading, curvature].iter().all(|x| x.is_finite()) {
+            let curvature = if at.heading.is_nan() { f64::NAN } else { at.curvature };
+            let found = Station { station: wanted(n), x: at.point[0], y: at.point[1], heading: at.heading, curvature };
+            let Station { station, x, y, heading, .. } = found;
+            if ![station, x, y].iter().all(|x| x.is_finite()) || (!heading.is_nan() && !curvature.is_finite()) {
                 return Err(Error::Domain(format!(
                     "the sample {n} of the curve is out of the range of doubles: {found:?} (change the unit of length)"
                 )));

@@ -61,11 +61,11 @@ fn interpolants_and_splines() {
     let found = piped(&["hermite", "-", "--figure", &figure], ends).json();
     let path = &found["paths"][0];
     assert!((number(&path["absolute_rotation"]) - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
-    assert_eq!((&path["spans"][0]["control_points"][5], &path["best"]), (&json!([1.0, 0.0]), &json!(0)));
+    assert_eq!((&path["pieces"][0]["control_points"][5], &path["best"]), (&json!([1.0, 0.0]), &json!(0)));
     std::fs::remove_file(&figure).unwrap();
     std::fs::write(folder.at("points.json"), r#"{"points": [[0, 0], [1, 1], [2, 0]], "closed": true}"#).unwrap();
     let found = fine(["path", "spline", &folder.text("points.json"), "--figure", &figure]).json();
-    assert_eq!(found["paths"][0]["spans"].as_array().unwrap().len(), 3);
+    assert_eq!(found["paths"][0]["pieces"].as_array().unwrap().len(), 3);
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     // Degrees and radians say the same.
     let swarm = |angle: &str| {
@@ -84,14 +84,14 @@ fn a_planned_path_is_input_of_separation() {
     let found = said.json();
     let path = &found["paths"][0];
     assert!(number(&path["clearance"]["at_least"]) >= 0.2 && number(&path["curvature_at_most"]) <= 5.0);
-    let (corners, spans) = (path["corners"].as_array().unwrap(), path["spans"].as_array().unwrap());
-    assert!(corners.len() >= 4 && spans.len() == 2 * corners.len() + 1);
-    assert_eq!(spans[number(&corners[1]["span"]) as usize]["preimage"][1], json!([0.0, 0.0]));
+    let (corners, pieces) = (path["corners"].as_array().unwrap(), path["pieces"].as_array().unwrap());
+    assert!(corners.len() >= 4 && pieces.len() == 2 * corners.len() + 1);
+    assert_eq!(pieces[number(&corners[1]["piece"]) as usize]["preimage"][1], json!([0.0, 0.0]));
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     // A second vehicle in step with it, 0.5 beside; and one that starts later and so waits in its way.
     let mut beside = path.clone();
-    for (span, end) in (0..spans.len()).flat_map(|i| [(i, "start"), (i, "end")]) {
-        let point = &mut beside["spans"][span][end];
+    for (span, end) in (0..pieces.len()).flat_map(|i| [(i, "start"), (i, "end")]) {
+        let point = &mut beside["pieces"][span][end];
         *point = json!([number(&point[0]) + 0.3, number(&point[1]) + 0.4]);
     }
     let mut later = path.clone();
@@ -118,20 +118,22 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     let spline = piped(&["spline", "-"], r#"{"points": [[0, 0], [1, 1], [2, 0], [3, 1], [4, 0]]}"#).out;
     let folder = Folder::new("");
     let figure = folder.text("measured.png");
-    let measured = piped(&["measure", "-", "--samples", "40", "--offset", "-0.25", "--figure", &figure], &spline).json();
+    let measured = piped(&["measure", "-", "--samples", "41", "--offset", "-0.25", "--figure", &figure], &spline).json();
     let path = &measured["paths"][0];
     let given: Value = serde_json::from_str(&spline).unwrap();
     assert_eq!((&path["length"], &path["bending_energy"]), (&given["paths"][0]["length"], &given["paths"][0]["bending_energy"]));
     let list = |name: &str| path[name].as_array().unwrap().clone();
-    let point = |at: &Value| [number(&at["point"][0]), number(&at["point"][1])];
+    let point = |at: &Value| [number(&at["x"]), number(&at["y"])];
     let samples = list("samples");
     assert_eq!(samples.len(), 41);
     assert_eq!((point(&samples[0]), point(&samples[40])), ([0.0, 0.0], [4.0, 0.0]));
     let step = number(&path["length"]) / 40.0;
     for w in samples.windows(2) {
-        let ([p, q], turn) = ([point(&w[0]), point(&w[1])], number(&w[1]["direction"]) - number(&w[0]["direction"]));
+        let ([p, q], turn) = ([point(&w[0]), point(&w[1])], number(&w[1]["heading"]) - number(&w[0]["heading"]));
         let chord = (q[0] - p[0]).hypot(q[1] - p[1]);
-        assert!((number(&w[1]["length"]) - number(&w[0]["length"]) - step).abs() < 1e-12 && chord <= step && chord > 0.97 * step);
+        assert!(
+            (number(&w[1]["station"]) - number(&w[0]["station"]) - step).abs() < 1e-12 && chord <= step && chord > 0.97 * step
+        );
         // The mean of the curvatures is about the turn over the length.
         let mean = 0.5 * (number(&w[0]["curvature"]) + number(&w[1]["curvature"]));
         assert!((turn / step - mean).abs() < 0.2, "{turn} {step} {mean}");
@@ -145,7 +147,7 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     // The ends of the offset curve are 0.25 to the right.
     let offset = &path["offset"].as_array().unwrap()[0];
     let (first, weight) = (&offset["numerator"][0], number(&offset["weight"][0]));
-    let direction = number(&samples[0]["direction"]);
+    let direction = number(&samples[0]["heading"]);
     let apart = [number(&first[0]) / weight - 0.25 * direction.sin(), number(&first[1]) / weight + 0.25 * direction.cos()];
     assert!(apart[0].hypot(apart[1]) < 1e-14 && offset["numerator"].as_array().unwrap().len() == 10, "{apart:?}");
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
@@ -166,23 +168,91 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     assert!(bare["paths"][0]["samples"] == json!([]) && bare["paths"][0].get("offset").is_none());
 }
 
+/// Pieces of all kinds, as `curve` prints them.
+const KINDS: &str = r#"{"paths": [
+    {"pieces": [{"kind": "cubic", "control_points": [[0, 0], [1, 0], [2, 1], [1.5, 2]]}]},
+    {"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0.1], [0.9, 0.5], [0.4, 1.0]]}]},
+    {"pieces": [{"kind": "trig-quintic", "p": -0.5, "q": 0.75,
+        "control_points": [[0, 0], [0.2, 0], [0.5, 0.1], [0.9, 0.2], [1.3, 0.6], [1.4, 1.1]]}]},
+    {"pieces": [{"kind": "involute", "start": [0, 0], "end": [2, 0], "start_direction": -0.9, "end_direction": 1.2,
+        "start_curvature": -0.3, "end_curvature": 3}]},
+    {"pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0]},
+        {"kind": "arc", "start": [1, 0], "start_direction": 0, "curvature": 1, "length": 1}]}]}"#;
+
+#[test]
+fn every_kind_of_piece_is_measured() {
+    let folder = Folder::new("");
+    let figure = folder.text("kinds.png");
+    let said = piped(&["measure", "-", "--samples", "3", "--offset", "0.1", "--figure", &figure], KINDS);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let (measured, given) = (said.json(), serde_json::from_str::<Value>(KINDS).unwrap());
+    let counts = |name: &str| {
+        let of = |path: &Value| path[name].as_array().unwrap().len();
+        measured["paths"].as_array().unwrap().iter().map(of).collect::<Vec<_>>()
+    };
+    assert_eq!((counts("curvature_extrema"), counts("inflections")), (vec![2, 1, 2, 0, 0], vec![0, 0, 0, 1, 0]));
+    assert_eq!((counts("samples"), counts("offset")), (vec![3; 5], vec![1, 1, 1, 1, 2]));
+    for (path, given) in measured["paths"].as_array().unwrap().iter().zip(given["paths"].as_array().unwrap()) {
+        let known = path.get("bending_energy").is_some() && path.get("absolute_rotation").is_some();
+        let kind = given["pieces"][0]["kind"].as_str().unwrap();
+        assert_eq!(known, ["ph-quintic", "line"].contains(&kind), "{kind}");
+        assert_eq!(path["offset"][0].get("points").is_none(), kind == "ph-quintic", "{kind}");
+    }
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    // The same samples as CSV.
+    let csv = piped(&["measure", "-", "--samples", "3", "--csv"], KINDS).out;
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!((lines[0], lines.len()), ("path,station,x,y,heading,curvature", 16));
+    let sample = &measured["paths"][2]["samples"][1];
+    let cells = ["station", "x", "y", "heading", "curvature"].map(|name| sample[name].to_string()).join(",");
+    assert_eq!(lines[8], format!("2,{cells}"));
+    // A path that stands still at its start has no heading there.
+    let still = r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[0, 0], [1, 1], [2, 0]]}]}]}"#;
+    let sample = piped(&["measure", "-", "--samples", "2"], still).json()["paths"][0]["samples"][0].clone();
+    assert_eq!(sample, json!({"station": 0.0, "x": 0.0, "y": 0.0, "heading": null, "curvature": null}));
+    assert!(piped(&["measure", "-", "--samples", "2", "--csv"], still).out.contains("\n0,0.0,0.0,0.0,,\n"));
+    // Separation has proofs for some kinds alone.
+    let said = piped(&["separation", "-", "--minimum", "0.1"], KINDS);
+    let parts = ["paths[0]: pieces[0] is of the kind `cubic`", "`ph-quintic` and `line`", "path spline"];
+    assert!(said.code == Some(2) && parts.iter().all(|part| said.err.contains(part)), "{}", said.err);
+    let lines = r#"{"paths": [{"pieces": [{"kind": "line", "start": [0, 0], "end": [3, 4]}]},
+        {"pieces": [{"kind": "line", "start": [0, 1], "end": [3, 5]}]}]}"#;
+    let said = piped(&["separation", "-", "--minimum", "0.999"], lines);
+    assert!(said.code == Some(0) && number(&said.json()["pairs"][0]["closest"]["at_most"]) < 1.0 + 1e-9, "{}", said.out);
+}
+
+#[test]
+fn where_there_is_no_path_the_answer_is_no() {
+    let wall = "[[1, -9], [2, -9], [2, 9], [1, 9]], [[-9, 8], [9, 8], [9, 9], [-9, 9]], [[-9, -9], [9, -9], [9, -8], [-9, -8]],
+        [[8, -9], [9, -9], [9, 9], [8, 9]]";
+    let scene = |curvature: f64| {
+        format!(
+            r#"{{"start": [0, 0], "goal": [3, 0], "obstacles": [{wall}], "clearance": 0.1, "greatest_curvature": {curvature}}}"#
+        )
+    };
+    let said = piped(&["plan", "-"], &scene(5.0));
+    assert_eq!((said.code, &said.err[..], &said.json()["paths"]), (Some(1), "", &json!([])));
+    assert!(said.json()["reason"].as_str().unwrap().starts_with("every way is blocked"), "{}", said.out);
+    assert_eq!(piped(&["plan", "-"], &scene(-1.0)).code, Some(2));
+}
+
 #[test]
 fn mistakes_are_named() {
     let cases: &[(&[&str], &str, &[&str])] = &[
         (&["hermite", "-"], "{", &["standard input: EOF", "line 1"]),
-        (&["measure", "-"], r#"{"paths": [{"spans": []}]}"#, &["paths[0]: `spans` is empty"]),
+        (&["measure", "-"], r#"{"paths": [{"pieces": []}]}"#, &["paths[0]: `pieces` is empty"]),
         (
             &["measure", "-"],
-            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}, {"start": [7, 7], "preimage": [[1, 0], [1, 0], [1, 0]]}]}]}"#,
-            &["paths[0]: spans[0] ends at [1.0, 0.0], spans[1] starts at [7.0, 7.0]"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}, {"kind": "ph-quintic", "start": [7, 7], "preimage": [[1, 0], [1, 0], [1, 0]]}]}]}"#,
+            &["paths[0]: pieces[0] ends at [1.0, 0.0], pieces[1] starts at [7.0, 7.0]"],
         ),
         (
             &["measure", "-", "--offset", "1e308"],
-            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[100, 0], [50, 60], [1, 90]]}]}]}"#,
-            &["paths[0]: spans[0]: its offset at distance 1e308"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[100, 0], [50, 60], [1, 90]]}]}]}"#,
+            &["paths[0]: pieces[0]: its offset at distance 1e308"],
         ),
         (&["measure", "-", "--offset", "inf"], r#"{"paths": []}"#, &["--offset is inf"]),
-        (&["measure", "-", "--samples", "1000001"], r#"{"paths": []}"#, &["--samples is 1000001", "1000000"]),
+        (&["measure", "-", "--samples", "1000001"], r#"{"paths": []}"#, &["1000001 is not in 2..=1000000", "--samples"]),
         (&["hermite", "-"], r#"{"start": [0, 0]}"#, &["standard input", "missing field `end`"]),
         (
             &["hermite", "-"],
@@ -216,13 +286,13 @@ fn mistakes_are_named() {
         ),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"spans": [[[0, 0], null, [[1, 0], [1, 0], [1, 0]]]]}]}"#,
-            &["paths[0].spans[0]: invalid type: sequence, expected an object with start, end, preimage"],
+            r#"{"paths": [{"pieces": [[[0, 0], null, [[1, 0], [1, 0], [1, 0]]]]}]}"#,
+            &["paths[0].pieces[0]: invalid type: sequence, expected an object with kind, start, end, start_direction"],
         ),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
-            &["paths[1]: `spans` is empty"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            &["paths[1]: `pieces` is empty"],
         ),
         (
             &["plan", "-"],
@@ -233,12 +303,12 @@ fn mistakes_are_named() {
         (&["separation", "-", "--minimum", "0"], r#"{"paths": []}"#, &["0 paths"]),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"spans": [{"start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
-            &["paths[0]", "spans[0]", "`end` is [7.0, 0.0]", "[1.0, 0.0]"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            &["paths[0]", "pieces[0]", "`end` is [7.0, 0.0]", "[1.0, 0.0]"],
         ),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"speed": 0, "spans": [{"start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"spans": []}]}"#,
+            r#"{"paths": [{"speed": 0, "pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
             &["paths[0]", "`speed` is 0.0"],
         ),
         (

@@ -2,6 +2,7 @@
 
 mod audit;
 mod corner;
+mod course;
 mod curve;
 mod equal;
 mod hermite;

@@ -2,14 +2,17 @@
 
 use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
-use spiral_atlas::path::{Motion, Plan, Scene};
+use spiral_atlas::path::{Course, Motion, Plan, Scene};
 use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
+use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 
 const SIZE: (u32, u32) = (1500, 900);
 const TALL: (u32, u32) = (1300, 1300);
 /// Samples of a path, about.
 const SAMPLES: usize = 2000;
+
+type Line = Vec<[f64; 2]>;
 
 /// Parameters of a span.
 fn steps(spans: usize) -> impl Iterator<Item = f64> + Clone {
@@ -38,19 +41,14 @@ pub fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
 }
 
 /// Paths with their curvatures and offset curves.
-pub fn measured(paths: &[Vec<PhQuintic>], offset: Option<f64>) -> Result<Vec<u8>> {
-    let beside = |spans: &Vec<PhQuintic>, d: f64| {
-        let points = |c: &PhQuintic| {
-            let offset = c.offset(d);
-            steps(spans.len()).map(|t| offset.point(t)).collect::<Vec<_>>()
-        };
-        spans.iter().flat_map(points).collect()
-    };
-    let offsets = offset.map_or(vec![], |d| paths.iter().map(|spans| beside(spans, d)).collect());
-    let length: f64 = paths.iter().map(|spans| length(spans)).sum();
-    let title = if let [_] = paths { format!("A path of length {length:.6}") } else { format!("{} paths", paths.len()) };
+pub fn measured(courses: &[Course], offset: Option<f64>) -> Result<Vec<u8>> {
+    let all = courses.iter().map(|course| course.stations(SAMPLES)).collect::<Result<Vec<_>>>()?;
+    let each = |f: &dyn Fn(&Station) -> [f64; 2]| all.iter().map(|path| path.iter().map(f).collect()).collect();
+    let offsets = offset.map_or(vec![], |d| each(&|s| s.beside(d)));
+    let length: f64 = courses.iter().map(Course::length).sum();
+    let title = if let [_] = courses { format!("A path of length {length:.6}") } else { format!("{} paths", courses.len()) };
     let note = offset.map_or("dots: starts".into(), |d| format!("dots: starts; the other colours: at distance {d}"));
-    beside_others(paths, offsets, &title, &note)
+    drawn(each(&|s| [s.x, s.y]), each(&|s| [s.station, s.curvature]), offsets, &title, &note)
 }
 
 /// The curve taken, its curvature, and the others there are.
@@ -64,14 +62,19 @@ pub fn choice(choice: &Choice) -> Result<Vec<u8>> {
 
 /// Paths and their curvatures, and points of other curves.
 fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &str, note: &str) -> Result<Vec<u8>> {
-    let lines: Vec<_> = paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect();
+    let lines = paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect();
+    drawn(paths.iter().map(|spans| points(spans)).collect(), lines, others, title, note)
+}
+
+/// Points of paths, their curvatures over the length, and points of other curves.
+fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Vec<u8>> {
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
         return Err(Error::Domain("a path stands still somewhere, where it has no curvature".into()));
     }
     let figure = PathsFigure {
         title: title.into(),
         note: note.into(),
-        paths: paths.iter().map(|spans| points(spans)).chain(others).collect(),
+        paths: paths.into_iter().chain(others).collect(),
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
         level: None,
         backdrop: None,

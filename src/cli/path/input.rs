@@ -3,9 +3,7 @@
 use serde::de::value::{Error as Unread, MapAccessDeserializer};
 use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
-use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::recipe::parse_angle;
-use spiral_atlas::{Error, Result};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -102,42 +100,4 @@ pub fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::
         Angle::Number(x) => Ok(x),
         Angle::Text(text) => parse_angle(&text).map_err(serde::de::Error::custom),
     }
-}
-
-/// A span of a path as the tools print it.
-#[derive(Deserialize)]
-pub struct Span {
-    start: [f64; 2],
-    end: Option<[f64; 2]>,
-    preimage: [[f64; 2]; 3],
-}
-
-/// The spans of a path, if it has some, they join, and their ends are where their pre-images lead.
-pub fn curves(spans: &[Span]) -> Result<Vec<PhQuintic>> {
-    if spans.is_empty() {
-        return Err(Error::Domain("`spans` is empty; a path has one at least".into()));
-    }
-    let named = |(i, span): (usize, &Span)| curve(span).map_err(|e| Error::Domain(format!("spans[{i}]: {e}")));
-    let curves = spans.iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
-    match curves.windows(2).position(|w| w[0].end != w[1].start) {
-        Some(i) => {
-            let (end, start) = (curves[i].end, curves[i + 1].start);
-            Err(Error::Domain(format!("spans[{i}] ends at {end:?}, spans[{}] starts at {start:?}; they must join", i + 1)))
-        }
-        None => Ok(curves),
-    }
-}
-
-fn curve(span: &Span) -> Result<PhQuintic> {
-    let curve = PhQuintic::new(span.start, span.preimage);
-    if !curve.is_finite() {
-        return Err(Error::Domain(format!("it is not finite: {curve:?}")));
-    }
-    let Some(end) = span.end else { return Ok(curve) };
-    let size = span.preimage.iter().flatten().map(|x| x * x).sum::<f64>() + span.start.iter().map(|x| x.abs()).sum::<f64>();
-    let off = (curve.end[0] - end[0]).hypot(curve.end[1] - end[1]);
-    if off <= 1e-10 * size {
-        return Ok(PhQuintic::between(span.start, end, span.preimage));
-    }
-    Err(Error::Domain(format!("`end` is {end:?}, but the pre-image leads to {:?}", curve.end)))
 }

@@ -1,7 +1,7 @@
 //! `path least-curvature`.
 
 use super::input::angle;
-use super::{Files, Found, Outcome, figure};
+use super::{Files, Found, Outcome, figure, found};
 use serde::{Deserialize, Serialize};
 use spiral_atlas::path::{Directions, Free, least_curvature};
 use spiral_atlas::{Error, Result};
@@ -12,6 +12,8 @@ use spiral_atlas::{Error, Result};
 ///
 /// `free` is what is varied: `length`, of paths whose end derivatives are of one length, or `derivatives`, the length of each. Without
 /// `greatest_length` the path is at most twice as long as the distance of the ends. No searched path bends less than `at_least`: that is proved.
+///
+/// The exit status is 0 with a path. It is 1 when no searched path is short enough: then `paths` is empty, and `reason` tells why.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path least-curvature examples/least-curvature.json --figure least.png")]
 pub struct Args {
@@ -54,7 +56,10 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
     let greatest_length = greatest_length.unwrap_or(2.0 * distance);
     let ends = Directions { start, end, start_direction, end_direction, greatest_length, free };
-    let found = least_curvature(&ends).map_err(|e| args.files.blame(e))?;
+    let found = match found(least_curvature(&ends), &args.files)? {
+        Ok(found) => found,
+        Err(none) => return Ok(none),
+    };
     let paths = vec![Found::new(&[found.curve])];
     let title = format!("Greatest curvature {:.6}, length {:.6}", found.greatest_curvature, found.length);
     let output = Output { paths, at_least: found.at_least, derivatives: found.derivatives, searched: found.searched };

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 /// among obstacles, and apart from each other.
 ///
 /// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others print has `paths`,
-/// which `separation` and `measure` read. Any unit of length; angles are radians, or degrees when written like "40deg".
+/// which `separation` and `measure` read; `measure` reads what `curve --json` prints, too. Any unit of length; angles are radians, or degrees when written like "40deg".
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
@@ -56,7 +56,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
 }
 
-/// Longest input in bytes: a million spans have 200 MiB.
+/// Longest input in bytes: a million pieces have 200 MiB.
 const MAX_INPUT: u64 = 1 << 28;
 
 /// What a tool works on and where it draws.
@@ -88,6 +88,11 @@ impl Files {
     /// Draws, if asked to, and prints.
     fn finish(&self, found: &impl Serialize, figure: impl FnOnce() -> Result<Vec<u8>>) -> Result<Outcome> {
         output::print_json(found)?;
+        self.draw(figure)
+    }
+
+    /// Draws, if asked to.
+    fn draw(&self, figure: impl FnOnce() -> Result<Vec<u8>>) -> Result<Outcome> {
         if let Some(path) = &self.figure {
             let png = figure().map_err(|e| Error::Domain(format!("{} was not drawn: {e}", path.display())))?;
             spiral_atlas::files::write_file(path, &png)?;
@@ -109,7 +114,7 @@ struct Found {
     absolute_rotation: f64,
     /// As of a [`Candidate`].
     greatest_curvature: f64,
-    spans: Vec<PhQuintic>,
+    pieces: Vec<PhQuintic>,
     #[serde(flatten)]
     choice: Option<Others>,
 }
@@ -139,15 +144,15 @@ fn greatest_curvature(curve: &PhQuintic) -> f64 {
 }
 
 impl Found {
-    fn new(spans: &[PhQuintic]) -> Found {
-        let sum = |f: fn(&PhQuintic) -> f64| spans.iter().map(f).sum();
+    fn new(pieces: &[PhQuintic]) -> Found {
+        let sum = |f: fn(&PhQuintic) -> f64| pieces.iter().map(f).sum();
         let most = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
         Found {
             length: sum(PhQuintic::length),
             bending_energy: sum(PhQuintic::bending_energy),
             absolute_rotation: sum(PhQuintic::absolute_rotation),
-            greatest_curvature: spans.iter().map(greatest_curvature).fold(0.0, most),
-            spans: spans.to_vec(),
+            greatest_curvature: pieces.iter().map(greatest_curvature).fold(0.0, most),
+            pieces: pieces.to_vec(),
             choice: None,
         }
     }
@@ -166,7 +171,23 @@ impl Found {
     }
 
     fn curves(&self) -> Vec<PhQuintic> {
-        self.spans.clone()
+        self.pieces.clone()
+    }
+}
+
+/// The answer that there is no path.
+#[derive(Serialize)]
+struct NoPath {
+    paths: [Found; 0],
+    reason: String,
+}
+
+/// What was found; where there is no path, that is printed with the reason, and nothing is left to do.
+fn found<T>(found: Result<T>, files: &Files) -> Result<std::result::Result<T, Outcome>> {
+    match found {
+        Ok(found) => Ok(Ok(found)),
+        Err(Error::NoPath(reason)) => output::print_json(&NoPath { paths: [], reason }).map(|()| Err(Outcome::Bad)),
+        Err(e) => Err(files.blame(e)),
     }
 }
 

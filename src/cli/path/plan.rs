@@ -1,6 +1,6 @@
 //! `path plan`.
 
-use super::{Files, Found, Outcome, figure};
+use super::{Files, Found, Outcome, figure, found};
 use serde::Serialize;
 use spiral_atlas::Result;
 use spiral_atlas::path::{Clearance, Corner, Scene, plan};
@@ -11,7 +11,9 @@ use spiral_atlas::path::{Clearance, Corner, Scene, plan};
 ///
 /// Vertices run either way around an obstacle. Start and goal must be further from obstacles than the clearance.
 ///
-/// `clearance` and `curvature_at_most` are proved for the path printed; without a path that keeps them there is an error that tells why.
+/// `clearance` and `curvature_at_most` are proved for the path printed.
+///
+/// The exit status is 0 with a path. It is 1 when every way is blocked or no path was found: then `paths` is empty, and `reason` tells why.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path plan examples/obstacles.json --figure plan.png")]
 pub struct Args {
@@ -38,7 +40,10 @@ struct Output<'p> {
 
 pub fn run(args: &Args) -> Result<Outcome> {
     let scene: Scene = args.files.read()?;
-    let plan = plan(&scene).map_err(|e| args.files.blame(e))?;
+    let plan = match found(plan(&scene), &args.files)? {
+        Ok(plan) => plan,
+        Err(none) => return Ok(none),
+    };
     let planned = Planned {
         found: Found::new(&plan.spans),
         length_saved: plan.length_saved,

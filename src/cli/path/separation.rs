@@ -1,17 +1,19 @@
 //! `path separation`.
 
-use super::input::{Span, curves, objects};
+use super::input::objects;
 use super::{Files, Outcome, figure};
 use serde::{Deserialize, Serialize};
+use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::{Motion, Separation, Verdict, separations};
+use spiral_atlas::transition::Piece;
 use spiral_atlas::{Error, Result};
 
 /// Prove whether vehicles keep a minimum distance at all times, and tell how near they come.
 ///
-/// Input: {"paths": [{"spans": [{"start": [x, y], "preimage": [[u, v], ..]}, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools print it;
-/// other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of the minimum.
+/// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools print it; pieces are of the kinds
+/// `ph-quintic` and `line`, and other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of the minimum.
 ///
-/// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit status is 0 for `kept` alone, 1 else.
+/// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit status is 0 for `kept`, 1 for `violated` and `undecided`.
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03"
@@ -33,7 +35,7 @@ struct Input {
 #[derive(Deserialize)]
 struct Path {
     #[serde(deserialize_with = "objects")]
-    spans: Vec<Span>,
+    pieces: Vec<Piece>,
     #[serde(default = "one")]
     speed: f64,
     #[serde(default)]
@@ -60,8 +62,25 @@ struct Pair {
     found: Separation,
 }
 
+/// A piece as a PH quintic, which a line is, too.
+fn quintic(i: usize, piece: &Piece) -> Result<PhQuintic> {
+    match piece {
+        Piece::PhQuintic(curve) => Ok(*curve),
+        Piece::Line(line) => Ok(PhQuintic::straight(line.start, line.end)),
+        _ => Err(Error::Domain(format!(
+            "pieces[{i}] is of the kind `{}`; separation is proved for the kinds `ph-quintic` and `line` alone. \
+             Take points of the path with `path measure --samples`, and lay a path through them with `path spline`",
+            piece.kind().name()
+        ))),
+    }
+}
+
 fn motion(path: &Path) -> Result<Motion> {
-    Motion::new(curves(&path.spans)?, path.speed, path.start_time)
+    if path.pieces.is_empty() {
+        return Err(Error::Domain("`pieces` is empty; a path has one at least".into()));
+    }
+    let quintics = path.pieces.iter().enumerate().map(|(i, piece)| quintic(i, piece)).collect::<Result<_>>()?;
+    Motion::new(quintics, path.speed, path.start_time)
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {

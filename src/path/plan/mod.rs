@@ -68,7 +68,8 @@ pub struct Corner {
     pub turning_angle: f64,
     /// Distance from the corner to the ends of its curve.
     pub reach: f64,
-    /// Index of the curve among the spans.
+    /// Index of the curve among the spans; among the pieces in JSON.
+    #[serde(rename = "piece")]
     pub span: usize,
 }
 
@@ -169,8 +170,8 @@ impl Scene {
 /// What [`prove`] says. The path is not the shortest of all paths of bounded curvature.
 ///
 /// # Errors
-/// [`Error::Domain`] naming what is wrong with the scene, or the corner that cannot be rounded; "every way is blocked" alone proves that
-/// there is no path.
+/// [`Error::Domain`] naming what is wrong with the scene. [`Error::NoPath`] naming the corner that cannot be rounded, or why else none was
+/// found; "every way is blocked" alone proves that there is no path.
 ///
 /// ```
 /// use spiral_atlas::path::{Scene, plan};
@@ -192,7 +193,7 @@ pub fn plan(scene: &Scene) -> Result<Plan> {
     let polyline = Polyline { points: &points, turns: &turns };
     let reaches = polyline.reaches(&limits, &obstacles);
     let spans = polyline.spans(&reaches)?;
-    let proof = proved(scene, &obstacles, &spans)?;
+    let proof = proved(scene, &obstacles, &spans).map_err(|e| Error::NoPath(format!("no path was proved: {e}")))?;
     let corner = |(i, (turn, reach)): (usize, (&Turn, &f64))| {
         let Place { at, vertex, .. } = path[i + 1];
         let (obstacle, vertex) = (vertex.map(|v| v.obstacle), vertex.map(|v| v.at));
@@ -260,7 +261,7 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
     let ends = [scene.start, scene.goal];
     if parted(obstacles, ends, scene.clearance, 32.0 * ROUNDINGS * scene.size()) {
         let clearance = scene.clearance;
-        return fail(format!("every way is blocked: obstacles grown by the clearance {clearance:?} part `start` from `goal`"));
+        return none(format!("every way is blocked: obstacles grown by the clearance {clearance:?} part `start` from `goal`"));
     }
     let beside = |limits: Limits, wide: f64| places(obstacles, limits.keep, limits.most, wide);
     let near = beside(limits, 0.0);
@@ -304,8 +305,8 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
     }
     let beyond = if gave_up { "; the search gave up before it had tried all, so there may be one" } else { "" };
     match shortest.unwrap_or_else(sharp) {
-        Found::Path(path, _) => fail(explain(&path, scene, obstacles, limits) + beyond),
-        _ => fail(format!(
+        Found::Path(path, _) => none(explain(&path, scene, obstacles, limits) + beyond),
+        _ => none(format!(
             "no path was found, though obstacles grown by the clearance {:?} do not part `start` from `goal`: \
              a way is too narrow for doubles so far from the origin, or has too many turns{beyond}",
             scene.clearance
@@ -340,6 +341,10 @@ fn explain(path: &[Place], scene: &Scene, obstacles: &Obstacles, limits: Limits)
 
 fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     [p[0] - q[0], p[1] - q[1]]
+}
+
+fn none<T>(why: String) -> Result<T> {
+    Err(Error::NoPath(why))
 }
 
 fn fail<T>(what: String) -> Result<T> {

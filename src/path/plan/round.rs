@@ -34,7 +34,7 @@ impl Polyline<'_> {
     /// Lines and corner curves in turn.
     pub fn spans(&self, reaches: &[f64]) -> Result<Vec<PhQuintic>> {
         let [first, .., last] = self.points else { return Ok(vec![]) };
-        let Some(last_turn) = self.turns.last() else { return Ok(vec![straight(*first, *last)]) };
+        let Some(last_turn) = self.turns.last() else { return Ok(vec![PhQuintic::straight(*first, *last)]) };
         let mut spans: Vec<PhQuintic> = vec![];
         for ((turn, at), reach) in self.turns.iter().zip(&self.points[1..]).zip(reaches) {
             let corner = turn.corner(*at, *reach)?;
@@ -61,9 +61,4 @@ fn largest_clear([mut low, mut high]: [f64; 2], clear: impl Fn(f64) -> bool) -> 
         }
     }
     low
-}
-
-fn straight(start: [f64; 2], end: [f64; 2]) -> PhQuintic {
-    let root = num_complex::Complex64::new(end[0] - start[0], end[1] - start[1]).sqrt();
-    PhQuintic::between(start, end, [[root.re, root.im]; 3])
 }
