@@ -21,6 +21,7 @@ pub use equal_length::{EqualLength, equal_length};
 pub use hermite::{Hermite, hermite};
 pub use jet::Jet;
 pub use length::arc_length;
+pub(crate) use length::gauss;
 pub use offset::Offset;
 pub use quintic::PhQuintic;
 pub use trig_bezier::TrigBezier;

@@ -51,6 +51,10 @@ pub trait Curve {
     fn at(&self, x: &Interval) -> Option<(Interval, Interval)>;
     /// The value, about.
     fn guess(&self, x: f64) -> f64;
+    /// The root, about, where a formula tells it; else it is looked for with the guessed values.
+    fn start(&self) -> Option<Interval> {
+        None
+    }
 }
 
 /// A guess at the zero of `f` between two thin intervals: [`find`] in doubles, then Newton's method kept inside the bracket.
@@ -65,10 +69,13 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
     let bits = low.bits();
     let inside = |x: &Interval, low: &Interval, high: &Interval| x.compare(low) == Some(Greater) && x.compare(high) == Some(Less);
     let middle = |low: &Interval, high: &Interval| (low + high).scale(0.5).middle();
-    let (first, last) = (low.approx(), high.approx());
-    // Ends beyond the range of doubles leave no guess.
-    let guess = Some(find(|x| f.guess(x), first, last, f64::EPSILON * first.abs().max(last.abs()))).filter(|x| x.is_finite());
-    let guess = guess.map(|x| Interval::new(x, bits)).filter(|x| inside(x, &low, &high));
+    let searched = || {
+        let (first, last) = (low.approx(), high.approx());
+        // Ends beyond the range of doubles leave no guess.
+        let guess = Some(find(|x| f.guess(x), first, last, f64::EPSILON * first.abs().max(last.abs()))).filter(|x| x.is_finite());
+        guess.map(|x| Interval::new(x, bits))
+    };
+    let guess = f.start().or_else(searched).filter(|x| inside(x, &low, &high));
     let mut x = guess.unwrap_or_else(|| middle(&low, &high));
     let tiny = Interval::power_of_two(-(bits as isize), bits);
     for _ in 0..4 * bits {

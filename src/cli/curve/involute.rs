@@ -39,7 +39,7 @@ struct Sample {
 pub fn find(ends: &Ends, turns: [u32; 2], samples: u32) -> Result<Told> {
     let (spiral, frame) = involute_between(ends, turns)?;
     let mut told = Told { ends: *ends, spiral, length: None, samples: Vec::new(), frame, turned: 0.0 };
-    if let Some(curve) = told.spiral.curve().copied() {
+    if let Some(curve) = told.spiral.curve().cloned() {
         told.length = Some(curve.length() * told.unit());
         told.turned = TAU * ((curve.at(0.0).direction - told.spiral.chord.alpha) / TAU).round();
         told.samples = curve.samples(samples as usize)?.into_iter().map(|(s, at)| told.sample(s, at)).collect();

@@ -7,6 +7,8 @@
 use super::shape::Shape;
 use crate::num::Interval;
 use crate::num::roots::{Curve, bracketed, enclose};
+use std::cell::Cell;
+use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The equation for θ.
@@ -18,6 +20,7 @@ pub(crate) struct Equation {
     omega: Interval,
     sin: Interval,
     cos: Interval,
+    evaluations: Cell<usize>,
 }
 
 /// The arc and what follows from θ.
@@ -31,16 +34,50 @@ pub(crate) struct Arc {
     /// `θ - sin θ cos θ`.
     pub a: Interval,
     pub t0: Interval,
+    /// `t0 - θ`.
+    pub t1: Interval,
+}
+
+/// Below this θ the functions that cancel near 0 are summed as series.
+const SERIES_BELOW: f64 = 0.0625;
+
+/// `1 - y/r1 (1 - y/r2 (1 - ...))` for `0 <= y < 1/64` and ratios r >= 7.5 that grow: its terms alternate and decrease, so that two sums in a
+/// row enclose it.
+fn series(y: &Interval, ratio: impl Fn(f64) -> f64) -> Interval {
+    let (bits, mut k) = (y.bits(), 1.0);
+    let tiny = Interval::power_of_two(-(bits as isize), bits);
+    let (mut sum, mut term) = (Interval::new(1.0, bits), Interval::new(1.0, bits));
+    loop {
+        term = -&(&term * y).over(&Interval::new(ratio(k), bits)).expect("a positive ratio");
+        let next = &sum + &term;
+        if term.size().upper().compare(&tiny) != Some(Ordering::Greater) {
+            return sum.union(&next);
+        }
+        (sum, k) = (next, k + 1.0);
+    }
 }
 
 impl Arc {
     fn new(theta: &Interval, q: &Interval) -> Option<Arc> {
         let (sin, cos) = theta.sine_cosine();
-        let p = &sin - &(theta * &cos);
-        let a = theta - &(&sin * &cos);
         let square = theta.square();
-        let t0 = (&square + &(&square - &sin.square()).over(q)?).sqrt()?;
-        Some(Arc { theta: theta.clone(), sin, cos, p, a, t0 })
+        // P, A and `1 - sin² θ/θ²`: their series near 0, where a small θ would cost the precision of its square.
+        let small = theta.compare(&Interval::new(SERIES_BELOW, theta.bits())) == Some(Ordering::Less);
+        let (p, a, part) = if small {
+            let third = (&square * theta).over(&Interval::new(3.0, theta.bits()))?;
+            let rest = series(&square.scale(4.0), |k| (2.0 * k + 2.0) * (2.0 * k + 3.0));
+            let w = series(&square, |k| (2.0 * k + 3.0) * (k + 2.0) * 0.5);
+            let p = series(&square, |k| 2.0 * k * (2.0 * k + 3.0));
+            (&third * &p, (&third * &rest).scale(2.0), (&square * &w).over(&Interval::new(3.0, theta.bits()))?)
+        } else {
+            let part = (&square - &sin.square()).over(&square)?;
+            (&sin - &(theta * &cos), theta - &(&sin * &cos), part)
+        };
+        // t0 = θ √(1 + g), and t1 = t0 - θ = θ g/(1 + √(1 + g)).
+        let g = part.over(q)?;
+        let root = g.plus(1.0).sqrt()?;
+        let (t0, t1) = (theta * &root, theta * &g.over(&root.plus(1.0))?);
+        Some(Arc { theta: theta.clone(), sin, cos, p, a, t0, t1 })
     }
 }
 
@@ -48,24 +85,40 @@ impl Equation {
     /// For `|Q|` and ω, both positive.
     pub fn new(q: Interval, omega: Interval) -> Equation {
         let (sin, cos) = omega.sine_cosine();
-        Equation { q, omega, sin, cos }
+        Equation { q, omega, sin, cos, evaluations: Cell::new(0) }
     }
 
     /// The arc; `None` at too low a precision.
     pub fn solve(&self) -> Option<Arc> {
         let [low, high] = bracket(self.omega.approx()).map(|x| Interval::new(x, self.q.bits()));
+        // ω itself, where that is the lower end: it may be below the range of doubles.
+        let low = if low.compare(&self.omega.upper()) == Some(Ordering::Greater) { low } else { self.omega.lower() };
         let guess = bracketed(&low, &high, self)?;
         Arc::new(&enclose(self, &guess)?, &self.q)
+    }
+
+    /// How often F was evaluated.
+    pub fn evaluations(&self) -> usize {
+        self.evaluations.get()
     }
 }
 
 impl Curve for Equation {
     fn at(&self, theta: &Interval) -> Option<(Interval, Interval)> {
+        self.evaluations.set(self.evaluations.get() + 1);
         let Arc { sin, cos, p, a, t0, .. } = Arc::new(theta, &self.q)?;
         let value = &(&self.cos * &p) - &(&self.sin * &(&t0 * &sin));
         let rate = (theta + &a.over(&self.q)?).over(&t0)?;
         let slope = &(&self.cos * &(theta * &sin)) - &(&self.sin * &(&(&rate * &sin) + &(&t0 * &cos)));
         Some((value, slope))
+    }
+
+    /// For small θ, `ω = θ/3 / √(1 + θ²/(3|Q|))` up to a factor `1 + O(θ²)`.
+    fn start(&self) -> Option<Interval> {
+        let square = self.omega.square().middle();
+        let room = (&self.q.middle() - &square.scale(3.0)).over(&self.q.middle())?;
+        let theta = (&square.scale(9.0)).over(&room).filter(|x| x.sign() == Some(Ordering::Greater))?.sqrt()?.middle();
+        (theta.compare(&Interval::new(SERIES_BELOW, theta.bits())) == Some(Ordering::Less)).then_some(theta)
     }
 
     fn guess(&self, theta: f64) -> f64 {

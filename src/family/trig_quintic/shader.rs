@@ -33,11 +33,7 @@ pub(super) fn shader() -> Shader {
         ("PRINTED_RATIO", PRINTED_RATIO),
         ("END_CURVATURE_AS_PRINTED", END_CURVATURE_AS_PRINTED),
     ];
-    let counts = [
-        ("COEFFICIENTS", K),
-        ("MOST_LEVELS", MOST_LEVELS),
-        ("MOST_HALVINGS", MOST_HALVINGS),
-    ];
+    let counts = [("COEFFICIENTS", K), ("MOST_LEVELS", MOST_LEVELS), ("MOST_HALVINGS", MOST_HALVINGS)];
     let constants = constants(&flags, &counts, &[("UNIT", UNIT), ("ERROR", ERROR), ("FLOOR", FLOOR)]);
     Shader {
         constants: constants + &Pair::wgsl() + &End::wgsl(),

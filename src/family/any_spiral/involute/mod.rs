@@ -16,6 +16,7 @@
 
 mod half;
 mod solve;
+mod track;
 mod turns;
 
 pub use solve::{Involute, InvolutePoint};
