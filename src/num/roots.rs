@@ -97,18 +97,23 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
     Some(x)
 }
 
-/// Proves a root around a guess: opposite certain signs at `x - δ` and `x + δ`, with about the least δ that works.
+/// Proves a root around a guess: opposite certain signs at `x - δ` and `x + δ`, with about the least δ that works. The first is what the
+/// value at the guess and its rounding ask for.
 pub fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
     let bits = guess.bits();
-    let mut exponent = -(bits as isize) + 12;
-    while exponent < -(bits as isize) / 4 {
-        let delta = guess * &Interval::power_of_two(exponent, bits);
+    let (value, slope) = f.at(guess)?;
+    let most = &guess.size().upper() * &Interval::power_of_two(-(bits as isize) / 4, bits);
+    let step = Interval::power_of_two(10 + (bits / 64) as isize, bits);
+    let rounding = &guess.size().upper() * &Interval::power_of_two(12 - bits as isize, bits);
+    let wanted = value.size().upper().scale(4.0).over(&slope.size().upper()).unwrap_or_else(|| rounding.clone());
+    let mut delta = if wanted.compare(&rounding) == Some(Greater) { wanted.upper() } else { rounding };
+    while delta.compare(&most) == Some(Less) {
         let (low, high) = ((guess - &delta).lower(), (guess + &delta).upper());
         let sign = |x: &Interval| f.at(x)?.0.sign().filter(|s| *s != Ordering::Equal);
         if sign(&low).is_some_and(|s| sign(&high) == Some(s.reverse())) {
             return Some(low.union(&high));
         }
-        exponent += 10 + (bits / 64) as isize;
+        delta = (&delta * &step).upper();
     }
     None
 }

@@ -16,8 +16,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub(crate) struct Equation {
     /// |Q|, positive.
     q: Interval,
-    /// ω, positive.
-    omega: Interval,
+    /// ω less its half turns.
+    rest: Interval,
+    half_turns: u32,
     sin: Interval,
     cos: Interval,
     evaluations: Cell<usize>,
@@ -82,17 +83,25 @@ impl Arc {
 }
 
 impl Equation {
-    /// For `|Q|` and ω, both positive.
-    pub fn new(q: Interval, omega: Interval) -> Equation {
-        let (sin, cos) = omega.sine_cosine();
-        Equation { q, omega, sin, cos, evaluations: Cell::new(0) }
+    /// For |Q|, positive, and `ω = rest + iπ` for i half turns, `|rest| < π`, positive in all.
+    pub fn new(q: Interval, rest: Interval, half_turns: u32) -> Equation {
+        let (sin, cos) = rest.sine_cosine();
+        let odd = half_turns % 2 == 1;
+        let [sin, cos] = [sin, cos].map(|x| if odd { -&x } else { x });
+        Equation { q, rest, half_turns, sin, cos, evaluations: Cell::new(0) }
     }
 
     /// The arc; `None` at too low a precision.
     pub fn solve(&self) -> Option<Arc> {
-        let [low, high] = bracket(self.omega.approx()).map(|x| Interval::new(x, self.q.bits()));
-        // ω itself, where that is the lower end: it may be below the range of doubles.
-        let low = if low.compare(&self.omega.upper()) == Some(Ordering::Greater) { low } else { self.omega.lower() };
+        let bits = self.q.bits();
+        // ⌊ω/π⌋ hangs on the sign of the rest, which near Q = 0 moves θ far: rounding may not decide.
+        let (below, rest) = match self.rest.sign()? {
+            Ordering::Less => (1, self.rest.approx() + PI),
+            _ => (0, self.rest.approx()),
+        };
+        let [low, high] = bracket(f64::from(self.half_turns - below), rest).map(|x| Interval::new(x, bits));
+        // ω itself is below θ up to π, and may be below the range of doubles.
+        let low = if self.half_turns == 0 { self.rest.lower() } else { low };
         let guess = bracketed(&low, &high, self)?;
         Arc::new(&enclose(self, &guess)?, &self.q)
     }
@@ -115,7 +124,10 @@ impl Curve for Equation {
 
     /// For small θ, `ω = θ/3 / √(1 + θ²/(3|Q|))` up to a factor `1 + O(θ²)`.
     fn start(&self) -> Option<Interval> {
-        let square = self.omega.square().middle();
+        if self.half_turns > 0 {
+            return None;
+        }
+        let square = self.rest.square().middle();
         let room = (&self.q.middle() - &square.scale(3.0)).over(&self.q.middle())?;
         let theta = (&square.scale(9.0)).over(&room).filter(|x| x.sign() == Some(Ordering::Greater))?.sqrt()?.middle();
         (theta.compare(&Interval::new(SERIES_BELOW, theta.bits())) == Some(Ordering::Less)).then_some(theta)
@@ -124,20 +136,22 @@ impl Curve for Equation {
     fn guess(&self, theta: f64) -> f64 {
         let (sin, cos) = theta.sin_cos();
         let shape = Shape::new(theta, sin, cos);
-        let t0 = (theta * theta + shape.w / self.q.approx()).sqrt();
-        self.cos.approx() * shape.p - self.sin.approx() * t0 * sin
+        // t0 sin ω, by the quotient that may be moderate where both are not.
+        let side = self.sin.approx();
+        let steep = self.q.sqrt().and_then(|root| self.sin.over(&root)).map_or(0.0, |x| x.approx());
+        let t0_sin = (theta * side).hypot(shape.w.sqrt() * steep).copysign(side);
+        self.cos.approx() * shape.p - t0_sin * sin
     }
 }
 
-/// Between which θ lies: with `i = ⌊ω/π⌋`, between the root θi of tan θ = θ and (i+1)π, or between that and θi+1, where ω(θ)
+/// Between which θ lies, for `ω = iπ + rest` with `0 <= rest < π`: between the root θi of tan θ = θ and (i+1)π, or between that and θi+1, where ω(θ)
 /// is iπ, iπ + π/2 and (i+1)π. The ends are moved outwards by more than their error.
-pub(super) fn bracket(omega: f64) -> [f64; 2] {
+pub(super) fn bracket(turns: f64, rest: f64) -> [f64; 2] {
     const SLACK: f64 = 1e-9;
-    let turns = (omega / PI).floor();
     let middle = (turns + 1.0) * PI;
     // ω(θ) < θ/2 up to π, so that ω itself lies below.
-    let below = if turns == 0.0 { omega } else { tangent_root(turns) - SLACK };
-    if omega - turns * PI <= FRAC_PI_2 { [below, middle + SLACK] } else { [middle - SLACK, tangent_root(turns + 1.0) + SLACK] }
+    let below = if turns == 0.0 { rest } else { tangent_root(turns) - SLACK };
+    if rest <= FRAC_PI_2 { [below, middle + SLACK] } else { [middle - SLACK, tangent_root(turns + 1.0) + SLACK] }
 }
 
 /// The root of tan θ = θ in (iπ, iπ + π/2), i >= 1: `θ = iπ + π/2 - atan(1/θ)` contracts by 1/(1 + θ²) < 1/20.

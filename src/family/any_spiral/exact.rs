@@ -136,7 +136,7 @@ impl Datum {
             return omega.to_f32();
         }
         let omega = if omega.approx() < 0.0 { -&omega } else { omega };
-        let arc = Equation::new(-&q, omega).solve()?;
+        let arc = Equation::new(-&q, omega, 0).solve()?;
         if which == 2 { &arc.theta } else { &arc.t0 }.to_f32()
     }
 }

@@ -38,7 +38,7 @@ pub(super) struct Half {
     pub grow: Vector,
     /// γ.
     pub angle: f64,
-    /// `|q| θ`.
+    /// `|q| θ²/s`.
     pub bend: f64,
     /// `qr θ`.
     pub swing: f64,
@@ -103,7 +103,7 @@ impl Half {
         // (v² - 2h)/v⁴ = (v² - 4 sin²(v/2))/v⁴.
         let square = 0.25 * Shape::by_powers(0.5 * v).w;
         let last = 0.25 * length(self.grow) * (square * far * w + 2.0 * side * near * Shape::by_powers(v).rest);
-        let bend = self.bend * u * w * (w * far * last / t);
+        let bend = self.bend * u * u * (w * far * (last / t));
         let turning = side * self.swing * u * h - self.sway * sinc;
         Place { point: [x - side, y], direction: angle - side * v, curvature: (near * curvature + turning * far * w) / t + bend }
     }

@@ -50,25 +50,27 @@ struct Numbers {
     halves: [Half; 2],
 }
 
-/// What is asked of the arc: -Q, `-(k1 + sin α)` and ω.
+/// What is asked of the arc: -Q, `-(k1 + sin α)` and ω, without its half turns in `rest`.
 struct Wanted {
     q: Interval,
     room: Interval,
-    omega: Interval,
+    rest: Interval,
+    half_turns: u32,
 }
 
 /// How much a curve took to find.
 #[derive(Debug, Clone, Copy)]
-struct Work {
+#[cfg_attr(not(test), expect(dead_code, reason = "read by the tests that bound it"))]
+pub(super) struct Work {
     /// Precision of the arc.
-    bits: usize,
+    pub bits: usize,
     /// Evaluations of its equation at that precision.
-    evaluations: usize,
+    pub evaluations: usize,
     /// Pieces of its length.
-    pieces: usize,
+    pub pieces: usize,
 }
 
-pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
+pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<(Spiral, Option<Work>)> {
     let rising = chord.k1 < chord.k2;
     let datum = if rising { chord.datum() } else { chord.datum().mirrored() };
     // Half-open ranges: what the mirror image has at -π is π.
@@ -88,12 +90,12 @@ pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
         (_, Greater) => WhyNone::CirclesCross,
         (_, Equal) => WhyNone::CirclesTouch,
         (Greater, Less) => {
-            let (curve, _) = found(&datum, half_turns, turns[0] + turns[1], !rising)?;
+            let (curve, work) = found(&datum, half_turns, turns[0] + turns[1], !rising)?;
             let split = split(&datum, turns, &curve);
-            return Ok(answer(Outcome::Curve { curve, split }));
+            return Ok((answer(Outcome::Curve { curve, split }), Some(work)));
         }
     };
-    Ok(answer(Outcome::None(why)))
+    Ok((answer(Outcome::None(why)), None))
 }
 
 fn split(datum: &Datum, turns: [u32; 2], curve: &Involute) -> Split {
@@ -144,19 +146,21 @@ impl Wanted {
     fn new(datum: &Datum, half_turns: u32, bits: usize, wanted: usize) -> Option<Wanted> {
         let q = -&datum.q(bits);
         let room = -&(&Interval::new(datum.k1, bits) + &Interval::sin_cos(datum.alpha, bits).0);
-        let all = [q, room, total(datum, half_turns, bits)];
-        if !all.iter().all(|x| thin(x, wanted - wanted / 4)) {
-            return None;
-        }
-        let [q, room, omega] = all.map(|x| x.rounded(wanted));
-        Some(Wanted { q, room, omega })
+        let known = [&q, &room].into_iter().all(|x| thin(x, wanted - wanted / 4));
+        // The sum of two doubles comes out to all bits, or to 0.
+        known.then(|| Wanted {
+            q: q.rounded(wanted),
+            room: room.rounded(wanted),
+            rest: datum.omega(bits).rounded(wanted),
+            half_turns,
+        })
     }
 }
 
 impl Numbers {
     fn new(datum: &Datum, wanted: &Wanted, bits: usize) -> Option<(Numbers, usize)> {
-        let Wanted { q, room, omega } = wanted;
-        let equation = Equation::new(q.clone(), omega.clone());
+        let Wanted { q, room, rest, half_turns } = wanted;
+        let equation = Equation::new(q.clone(), rest.clone(), *half_turns);
         let Arc { theta, sin, cos: _, p, a, t0, t1 } = equation.solve()?;
         let half_chord = (&(&t0 * &sin).square() + &p.square()).sqrt()?;
         // ρ = (k1* + sin α*)/(k1 + sin α), both negative.
@@ -166,7 +170,8 @@ impl Numbers {
         }
         // λ = α - α*, α* = ω + θ; any full turns do.
         let [alpha, beta] = [datum.alpha, datum.beta].map(|x| Interval::new(x, bits));
-        let ahead = omega + &theta;
+        let omega = rest + &Interval::pi(bits).scale(f64::from(*half_turns));
+        let ahead = &omega + &theta;
         let lambda = &alpha - &ahead;
         let inverse = Interval::new(1.0, bits).over(&rho)?;
         // q = (1 - 1/m) e^(iα) at the start, and (1 - m) e^(iβ) at the end, where λ + β = ω - θ up to full turns.
@@ -176,7 +181,7 @@ impl Numbers {
         };
         let start = End { side: 1.0, t: &t1, scale: rho.over(&half_chord)?, q: factor(&alpha, &inverse, &ahead) };
         let end =
-            End { side: -1.0, t: &(&t0 + &theta), scale: inverse.over(&half_chord)?, q: factor(&beta, &rho, &(omega - &theta)) };
+            End { side: -1.0, t: &(&t0 + &theta), scale: inverse.over(&half_chord)?, q: factor(&beta, &rho, &(&omega - &theta)) };
         let halves = [start.half(&theta, datum.alpha, datum.k1)?, end.half(&theta, datum.beta, datum.k2)?];
         // θ from the nearest multiple of π.
         let turns = (theta.approx() / PI).round();
@@ -223,7 +228,7 @@ impl End<'_> {
             scale: unit.approx(),
             grow: [(&unit * &q[0]).approx(), (&unit * &q[1]).approx()],
             angle,
-            bend: (&size * theta).approx(),
+            bend: (&(&size * theta) * &theta.over(&s)?).approx(),
             swing: (&q[0] * theta).approx(),
             sway: q[1].approx(),
             curvature,
