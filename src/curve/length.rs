@@ -29,13 +29,14 @@ const DEPTH: u32 = 40;
 /// # Source
 /// Gander & Gautschi, Adaptive quadrature revisited (2000), for the stopping rule relative to the whole integral.
 pub fn arc_length(speed: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
-    let whole = gauss(&speed, from, to);
+    let speed = |t: f64| [speed(t)];
+    let [whole] = gauss(speed, from, to);
     refine(&speed, from, to, whole, TOLERANCE * whole.abs(), DEPTH)
 }
 
-fn refine(speed: &impl Fn(f64) -> f64, from: f64, to: f64, whole: f64, tolerance: f64, depth: u32) -> f64 {
+fn refine(speed: &impl Fn(f64) -> [f64; 1], from: f64, to: f64, whole: f64, tolerance: f64, depth: u32) -> f64 {
     let middle = 0.5 * (from + to);
-    let (left, right) = (gauss(speed, from, middle), gauss(speed, middle, to));
+    let ([left], [right]) = (gauss(speed, from, middle), gauss(speed, middle, to));
     // The rounding of the parameter alone, where the speed changes over a width like this one's: halving mends nothing.
     let noise = 4.0 * f64::EPSILON * from.abs().max(to.abs()) / (to - from).abs() * whole.abs();
     // Written so that NaN stops at once.
@@ -46,10 +47,17 @@ fn refine(speed: &impl Fn(f64) -> f64, from: f64, to: f64, whole: f64, tolerance
     refine(speed, from, middle, left, tolerance, depth - 1) + refine(speed, middle, to, right, tolerance, depth - 1)
 }
 
-fn gauss(speed: &impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+/// The 16-point Gauss-Legendre rule on `[from, to]`, for one integrand or several at once.
+pub(crate) fn gauss<const N: usize>(speed: impl Fn(f64) -> [f64; N], from: f64, to: f64) -> [f64; N] {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let pair = |(x, w): &(f64, f64)| w * (speed(middle - half * x) + speed(middle + half * x));
-    half * RULE.iter().map(pair).sum::<f64>()
+    let mut sum = [0.0; N];
+    for (x, w) in RULE {
+        let (below, above) = (speed(middle - half * x), speed(middle + half * x));
+        for i in 0..N {
+            sum[i] += w * (below[i] + above[i]);
+        }
+    }
+    sum.map(|x| half * x)
 }
 
 #[cfg(test)]
@@ -59,12 +67,12 @@ mod tests {
     #[test]
     fn the_rule_is_exact_to_degree_31_and_not_beyond() {
         for degree in 0..32 {
-            let (got, want) = (gauss(&|x| x.powi(degree), 0.0, 1.0), 1.0 / f64::from(degree + 1));
+            let (got, want) = (gauss(|x| [x.powi(degree)], 0.0, 1.0)[0], 1.0 / f64::from(degree + 1));
             // 16 terms of relative error below degree + 3 ulp each.
             assert!((got - want).abs() < 40.0 * f64::EPSILON * want, "degree {degree}: {got} {want}");
         }
         // The remainder of x^32 over [-1, 1] is 2^33 16!^4 / (33 32!^2).
-        let (got, want) = (gauss(&|x| x.powi(32), -1.0, 1.0), 2.0 / 33.0);
+        let (got, want) = (gauss(|x| [x.powi(32)], -1.0, 1.0)[0], 2.0 / 33.0);
         assert!((want - got - 7.2e-10).abs() < 1e-11, "{got} {want}");
     }
 }

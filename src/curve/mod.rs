@@ -23,6 +23,7 @@ pub use hermite::{Hermite, hermite};
 pub use jet::Jet;
 pub(crate) use jet::casteljau;
 pub use length::arc_length;
+pub(crate) use length::gauss;
 pub use offset::Offset;
 pub use quintic::PhQuintic;
 pub use trig_bezier::TrigBezier;

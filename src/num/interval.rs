@@ -115,6 +115,18 @@ impl Interval {
         self + &(self * &Interval::power_of_two(1 - self.bits as isize, self.bits)).size()
     }
 
+    /// The least e with all its numbers below `2^e` in size; `None` for zero alone.
+    pub fn magnitude(&self) -> Option<isize> {
+        let digits = |x: &Repr<2>| (!x.significand().is_zero()).then(|| x.digits() as isize + x.exponent());
+        digits(&self.lo).max(digits(&self.hi))
+    }
+
+    /// The same with both ends rounded outwards to so many bits.
+    pub fn rounded(&self, bits: usize) -> Interval {
+        let one = Interval::new(1.0, bits).lo;
+        Interval { lo: directed!(bits, mul, Down, &self.lo, &one), hi: directed!(bits, mul, Up, &self.hi, &one), bits }
+    }
+
     /// The common sign of all its numbers; `None` when it holds numbers of different signs (zero and others included).
     pub fn sign(&self) -> Option<Ordering> {
         let zero = Repr::zero();

@@ -51,6 +51,10 @@ pub trait Curve {
     fn at(&self, x: &Interval) -> Option<(Interval, Interval)>;
     /// The value, about.
     fn guess(&self, x: f64) -> f64;
+    /// The root, about, where a formula tells it; else it is looked for with the guessed values.
+    fn start(&self) -> Option<Interval> {
+        None
+    }
 }
 
 /// A guess at the zero of `f` between two thin intervals: [`find`] in doubles, then Newton's method kept inside the bracket.
@@ -65,10 +69,13 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
     let bits = low.bits();
     let inside = |x: &Interval, low: &Interval, high: &Interval| x.compare(low) == Some(Greater) && x.compare(high) == Some(Less);
     let middle = |low: &Interval, high: &Interval| (low + high).scale(0.5).middle();
-    let (first, last) = (low.approx(), high.approx());
-    // Ends beyond the range of doubles leave no guess.
-    let guess = Some(find(|x| f.guess(x), first, last, f64::EPSILON * first.abs().max(last.abs()))).filter(|x| x.is_finite());
-    let guess = guess.map(|x| Interval::new(x, bits)).filter(|x| inside(x, &low, &high));
+    let searched = || {
+        let (first, last) = (low.approx(), high.approx());
+        // Ends beyond the range of doubles leave no guess.
+        let guess = Some(find(|x| f.guess(x), first, last, f64::EPSILON * first.abs().max(last.abs()))).filter(|x| x.is_finite());
+        guess.map(|x| Interval::new(x, bits))
+    };
+    let guess = f.start().or_else(searched).filter(|x| inside(x, &low, &high));
     let mut x = guess.unwrap_or_else(|| middle(&low, &high));
     let tiny = Interval::power_of_two(-(bits as isize), bits);
     for _ in 0..4 * bits {
@@ -79,29 +86,39 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
         } else {
             high = x.clone()
         }
-        let newton = value.over(&slope).map(|step| (&x - &step).middle());
-        let next = newton.filter(|n| inside(n, &low, &high)).unwrap_or_else(|| middle(&low, &high));
-        let (step, limit) = (&next - &x, &x * &tiny);
-        x = next;
-        if step.compare(&limit) != Some(Greater) && (-&step).compare(&limit) != Some(Greater) {
+        let step = value.over(&slope).map(|step| step.middle());
+        let limit = &x.size() * &tiny;
+        // A step within a rounding of x ends the search, even where it leads out of the bracket.
+        if step.as_ref().is_some_and(|s| s.size().upper().compare(&limit.upper()) != Some(Greater)) {
             break;
         }
+        let newton = step.map(|step| (&x - &step).middle());
+        let next = newton.filter(|n| inside(n, &low, &high)).unwrap_or_else(|| middle(&low, &high));
+        if next.compare(&x) == Some(Equal) {
+            break;
+        }
+        x = next;
     }
     Some(x)
 }
 
-/// Proves a root around a guess: opposite certain signs at `x - δ` and `x + δ`, with about the least δ that works.
+/// Proves a root around a guess: opposite certain signs at `x - δ` and `x + δ`, with about the least δ that works. The first is what the
+/// value at the guess and its rounding ask for.
 pub fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
     let bits = guess.bits();
-    let mut exponent = -(bits as isize) + 12;
-    while exponent < -(bits as isize) / 4 {
-        let delta = guess * &Interval::power_of_two(exponent, bits);
+    let (value, slope) = f.at(guess)?;
+    let most = &guess.size().upper() * &Interval::power_of_two(-(bits as isize) / 4, bits);
+    let step = Interval::power_of_two(10 + (bits / 64) as isize, bits);
+    let rounding = &guess.size().upper() * &Interval::power_of_two(12 - bits as isize, bits);
+    let wanted = value.size().upper().scale(4.0).over(&slope.size().upper()).unwrap_or_else(|| rounding.clone());
+    let mut delta = if wanted.compare(&rounding) == Some(Greater) { wanted.upper() } else { rounding };
+    while delta.compare(&most) == Some(Less) {
         let (low, high) = ((guess - &delta).lower(), (guess + &delta).upper());
         let sign = |x: &Interval| f.at(x)?.0.sign().filter(|s| *s != Ordering::Equal);
         if sign(&low).is_some_and(|s| sign(&high) == Some(s.reverse())) {
             return Some(low.union(&high));
         }
-        exponent += 10 + (bits / 64) as isize;
+        delta = (&delta * &step).upper();
     }
     None
 }

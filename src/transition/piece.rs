@@ -27,7 +27,7 @@ use told::Told;
 /// A curve between two points, in the user's plane and unit of length.
 ///
 /// As JSON it has its `kind`, the numbers that rebuild it exactly, its `control_points` where it has them, and its `length`.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "Told")]
 pub enum Piece {
     /// A cubic Bézier curve.
@@ -92,7 +92,7 @@ pub struct TrigPart {
 }
 
 /// An involute's image, with what it was made from.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct InvoluteBetween {
     ends: Ends,
     turns: [u32; 2],
@@ -115,7 +115,7 @@ impl InvoluteBetween {
 
     /// The curve that [`involute_between`] has found between two ends with these turns asked for, if there is one.
     pub fn of(ends: &Ends, found: &Spiral, frame: &Frame) -> Option<InvoluteBetween> {
-        Some(InvoluteBetween { ends: *ends, turns: found.turns, curve: *found.curve()?, frame: *frame })
+        Some(InvoluteBetween { ends: *ends, turns: found.turns, curve: found.curve()?.clone(), frame: *frame })
     }
 
     /// Its parameter where a share, from 0 to 1, of its length is behind.

@@ -10,10 +10,14 @@ use crate::family::any_spiral::Chord;
 use crate::family::cubic::Datum;
 use num_complex::Complex64;
 use serde::Serialize;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// `2π` less its double.
 const TAU_LOW: f64 = 2.4492935982947064e-16;
+
+/// How far rounding may move a half turn against the chord: direction, chord and wrapping by an ulp of π each, and the chord by the rounding of
+/// its coordinates, an ulp of 1.
+const HALF_TURN_ROUNDING: f64 = 7.0 * f64::EPSILON;
 
 /// What a transition curve must join: points, directions of travel and signed curvatures, in the user's units and axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -64,7 +68,7 @@ impl Ends {
         }
     }
 
-    /// The ends seen from their chord, and half the chord as a vector.
+    /// The ends seen from their chord, and half the chord as a vector. A half turn is [`PI`], and stands for both signs.
     pub(super) fn chord(&self) -> Result<(Chord, Vector)> {
         self.check_finite()?;
         let (half, size) = self.half_chord()?;
@@ -137,6 +141,7 @@ impl Placement {
     pub fn normalise(ends: &Ends) -> Result<(Datum, Placement)> {
         let (Chord { alpha, beta, k1: at_start, k2: at_end }, half) = ends.chord()?;
 
+        let (alpha, beta) = half_turns_to_their_side(alpha, beta, at_start + at_end >= 0.0);
         let (sides_of_left, sides_of_right) = (alpha < 0.0 && beta > 0.0, alpha > 0.0 && beta < 0.0);
         let right = sides_of_right || (!sides_of_left && at_start + at_end < 0.0);
         let side = if right { -1.0 } else { 1.0 };
@@ -249,21 +254,45 @@ impl Placement {
     }
 }
 
-/// `direction - chord`, brought into (-π, π].
+/// `direction - chord`, brought into (-π, π]. Never beyond ±[`PI`], the double; a half turn up to the rounding of both is that double.
 fn against(direction: f64, chord: f64) -> f64 {
     let turned = principal(direction) - chord;
-    if turned > PI {
-        (turned - TAU) - TAU_LOW
-    } else if turned <= -PI {
-        (turned + TAU) + TAU_LOW
-    } else {
-        turned
-    }
+    let within = match turned {
+        // A half turn more is exact, and what is left of it rounds once.
+        x if x > PI => (x - TAU) - TAU_LOW,
+        x if x <= -PI => (x + TAU) + TAU_LOW,
+        x => x,
+    };
+    // Against a chord along the x axis a direction up to a half turn stays as it is.
+    let rounding = if chord == 0.0 { 0.0 } else { HALF_TURN_ROUNDING };
+    if within.abs() >= PI - rounding { PI } else { within }
 }
 
-/// The same direction within [-π, π]; however many turns, only the last ulp is lost.
+/// The same direction within [-π, π]. Beyond it the double next to a multiple of a quarter turn is that multiple, and of any other direction only
+/// the last ulp is lost, however many turns it has.
 fn principal(angle: f64) -> f64 {
-    if angle.abs() <= PI { angle } else { angle.sin().atan2(angle.cos()) }
+    if angle.abs() <= PI {
+        return angle;
+    }
+    let quarters = (angle / FRAC_PI_2).round();
+    if (angle - quarters * FRAC_PI_2).abs() <= f64::EPSILON * angle.abs() {
+        return [0.0, FRAC_PI_2, PI, -FRAC_PI_2][quarters.rem_euclid(4.0) as usize];
+    }
+    angle.sin().atan2(angle.cos())
+}
+
+/// The directions at both ends, a half turn with the sign that it has on a C-shaped curve: there α and β have opposite signs. So ends and
+/// their mirror image are placed alike.
+fn half_turns_to_their_side(alpha: f64, beta: f64, left: bool) -> (f64, f64) {
+    match (alpha.abs() == PI, beta.abs() == PI) {
+        (true, true) if left => (-PI, PI),
+        (true, true) => (PI, -PI),
+        (true, false) if beta != 0.0 => (PI.copysign(-beta), beta),
+        (false, true) if alpha != 0.0 => (alpha, PI.copysign(-alpha)),
+        (true, false) => (if left { -PI } else { PI }, beta),
+        (false, true) => (alpha, if left { PI } else { -PI }),
+        (false, false) => (alpha, beta),
+    }
 }
 
 fn by_chord(name: &str, curvature: f64, half_chord: f64) -> Result<f64> {

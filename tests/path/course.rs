@@ -96,7 +96,7 @@ fn a_road_of_lines_and_arcs() {
 #[test]
 fn lengths_up_to_a_parameter() {
     for course in courses() {
-        let piece = course.pieces()[0];
+        let piece = &course.pieces()[0];
         let [from, to] = piece.range();
         assert_eq!((piece.length_to(from), piece.length_to(to)), (0.0, piece.length()));
         let part = |i: u32| piece.length_to(from + (to - from) * f64::from(i) / 64.0);

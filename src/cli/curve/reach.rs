@@ -31,7 +31,7 @@ impl Found for Told {
             Outcome::Segment(added) if added.level == Level::Exists => {
                 Err("the only segment of this family that ends there is no spiral: its curvature is not monotone".into())
             }
-            Outcome::Segment(added) => Ok(vec![added.piece]),
+            Outcome::Segment(added) => Ok(vec![added.piece.clone()]),
         }
     }
 

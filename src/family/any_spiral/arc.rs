@@ -7,6 +7,8 @@
 use super::shape::Shape;
 use crate::num::Interval;
 use crate::num::roots::{Curve, bracketed, enclose};
+use std::cell::Cell;
+use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The equation for θ.
@@ -14,10 +16,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub(crate) struct Equation {
     /// |Q|, positive.
     q: Interval,
-    /// ω, positive.
-    omega: Interval,
+    /// ω less its half turns.
+    rest: Interval,
+    half_turns: u32,
     sin: Interval,
     cos: Interval,
+    evaluations: Cell<usize>,
 }
 
 /// The arc and what follows from θ.
@@ -31,36 +35,86 @@ pub(crate) struct Arc {
     /// `θ - sin θ cos θ`.
     pub a: Interval,
     pub t0: Interval,
+    /// `t0 - θ`.
+    pub t1: Interval,
+}
+
+/// Below this θ the functions that cancel near 0 are summed as series.
+const SERIES_BELOW: f64 = 0.0625;
+
+/// `1 - y/r1 (1 - y/r2 (1 - ...))` for `0 <= y < 1/64` and ratios r >= 7.5 that grow: its terms alternate and decrease, so that two sums in a
+/// row enclose it.
+fn series(y: &Interval, ratio: impl Fn(f64) -> f64) -> Interval {
+    let (bits, mut k) = (y.bits(), 1.0);
+    let tiny = Interval::power_of_two(-(bits as isize), bits);
+    let (mut sum, mut term) = (Interval::new(1.0, bits), Interval::new(1.0, bits));
+    loop {
+        term = -&(&term * y).over(&Interval::new(ratio(k), bits)).expect("a positive ratio");
+        let next = &sum + &term;
+        if term.size().upper().compare(&tiny) != Some(Ordering::Greater) {
+            return sum.union(&next);
+        }
+        (sum, k) = (next, k + 1.0);
+    }
 }
 
 impl Arc {
     fn new(theta: &Interval, q: &Interval) -> Option<Arc> {
         let (sin, cos) = theta.sine_cosine();
-        let p = &sin - &(theta * &cos);
-        let a = theta - &(&sin * &cos);
         let square = theta.square();
-        let t0 = (&square + &(&square - &sin.square()).over(q)?).sqrt()?;
-        Some(Arc { theta: theta.clone(), sin, cos, p, a, t0 })
+        // P, A and `1 - sin² θ/θ²`: their series near 0, where a small θ would cost the precision of its square.
+        let small = theta.compare(&Interval::new(SERIES_BELOW, theta.bits())) == Some(Ordering::Less);
+        let (p, a, part) = if small {
+            let third = (&square * theta).over(&Interval::new(3.0, theta.bits()))?;
+            let rest = series(&square.scale(4.0), |k| (2.0 * k + 2.0) * (2.0 * k + 3.0));
+            let w = series(&square, |k| (2.0 * k + 3.0) * (k + 2.0) * 0.5);
+            let p = series(&square, |k| 2.0 * k * (2.0 * k + 3.0));
+            (&third * &p, (&third * &rest).scale(2.0), (&square * &w).over(&Interval::new(3.0, theta.bits()))?)
+        } else {
+            let part = (&square - &sin.square()).over(&square)?;
+            (&sin - &(theta * &cos), theta - &(&sin * &cos), part)
+        };
+        // t0 = θ √(1 + g), and t1 = t0 - θ = θ g/(1 + √(1 + g)).
+        let g = part.over(q)?;
+        let root = g.plus(1.0).sqrt()?;
+        let (t0, t1) = (theta * &root, theta * &g.over(&root.plus(1.0))?);
+        Some(Arc { theta: theta.clone(), sin, cos, p, a, t0, t1 })
     }
 }
 
 impl Equation {
-    /// For `|Q|` and ω, both positive.
-    pub fn new(q: Interval, omega: Interval) -> Equation {
-        let (sin, cos) = omega.sine_cosine();
-        Equation { q, omega, sin, cos }
+    /// For |Q|, positive, and `ω = rest + iπ` for i half turns, `|rest| < π`, positive in all.
+    pub fn new(q: Interval, rest: Interval, half_turns: u32) -> Equation {
+        let (sin, cos) = rest.sine_cosine();
+        let odd = half_turns % 2 == 1;
+        let [sin, cos] = [sin, cos].map(|x| if odd { -&x } else { x });
+        Equation { q, rest, half_turns, sin, cos, evaluations: Cell::new(0) }
     }
 
     /// The arc; `None` at too low a precision.
     pub fn solve(&self) -> Option<Arc> {
-        let [low, high] = bracket(self.omega.approx()).map(|x| Interval::new(x, self.q.bits()));
+        let bits = self.q.bits();
+        // ⌊ω/π⌋ hangs on the sign of the rest, which near Q = 0 moves θ far: rounding may not decide.
+        let (below, rest) = match self.rest.sign()? {
+            Ordering::Less => (1, self.rest.approx() + PI),
+            _ => (0, self.rest.approx()),
+        };
+        let [low, high] = bracket(f64::from(self.half_turns - below), rest).map(|x| Interval::new(x, bits));
+        // ω itself is below θ up to π, and may be below the range of doubles.
+        let low = if self.half_turns == 0 { self.rest.lower() } else { low };
         let guess = bracketed(&low, &high, self)?;
         Arc::new(&enclose(self, &guess)?, &self.q)
+    }
+
+    /// How often F was evaluated.
+    pub fn evaluations(&self) -> usize {
+        self.evaluations.get()
     }
 }
 
 impl Curve for Equation {
     fn at(&self, theta: &Interval) -> Option<(Interval, Interval)> {
+        self.evaluations.set(self.evaluations.get() + 1);
         let Arc { sin, cos, p, a, t0, .. } = Arc::new(theta, &self.q)?;
         let value = &(&self.cos * &p) - &(&self.sin * &(&t0 * &sin));
         let rate = (theta + &a.over(&self.q)?).over(&t0)?;
@@ -68,23 +122,36 @@ impl Curve for Equation {
         Some((value, slope))
     }
 
+    /// For small θ, `ω = θ/3 / √(1 + θ²/(3|Q|))` up to a factor `1 + O(θ²)`.
+    fn start(&self) -> Option<Interval> {
+        if self.half_turns > 0 {
+            return None;
+        }
+        let square = self.rest.square().middle();
+        let room = (&self.q.middle() - &square.scale(3.0)).over(&self.q.middle())?;
+        let theta = (&square.scale(9.0)).over(&room).filter(|x| x.sign() == Some(Ordering::Greater))?.sqrt()?.middle();
+        (theta.compare(&Interval::new(SERIES_BELOW, theta.bits())) == Some(Ordering::Less)).then_some(theta)
+    }
+
     fn guess(&self, theta: f64) -> f64 {
         let (sin, cos) = theta.sin_cos();
         let shape = Shape::new(theta, sin, cos);
-        let t0 = (theta * theta + shape.w / self.q.approx()).sqrt();
-        self.cos.approx() * shape.p - self.sin.approx() * t0 * sin
+        // t0 sin ω, by the quotient that may be moderate where both are not.
+        let side = self.sin.approx();
+        let steep = self.q.sqrt().and_then(|root| self.sin.over(&root)).map_or(0.0, |x| x.approx());
+        let t0_sin = (theta * side).hypot(shape.w.sqrt() * steep).copysign(side);
+        self.cos.approx() * shape.p - t0_sin * sin
     }
 }
 
-/// Between which θ lies: with `i = ⌊ω/π⌋`, between the root θi of tan θ = θ and (i+1)π, or between that and θi+1, where ω(θ)
+/// Between which θ lies, for `ω = iπ + rest` with `0 <= rest < π`: between the root θi of tan θ = θ and (i+1)π, or between that and θi+1, where ω(θ)
 /// is iπ, iπ + π/2 and (i+1)π. The ends are moved outwards by more than their error.
-pub(super) fn bracket(omega: f64) -> [f64; 2] {
+pub(super) fn bracket(turns: f64, rest: f64) -> [f64; 2] {
     const SLACK: f64 = 1e-9;
-    let turns = (omega / PI).floor();
     let middle = (turns + 1.0) * PI;
     // ω(θ) < θ/2 up to π, so that ω itself lies below.
-    let below = if turns == 0.0 { omega } else { tangent_root(turns) - SLACK };
-    if omega - turns * PI <= FRAC_PI_2 { [below, middle + SLACK] } else { [middle - SLACK, tangent_root(turns + 1.0) + SLACK] }
+    let below = if turns == 0.0 { rest } else { tangent_root(turns) - SLACK };
+    if rest <= FRAC_PI_2 { [below, middle + SLACK] } else { [middle - SLACK, tangent_root(turns + 1.0) + SLACK] }
 }
 
 /// The root of tan θ = θ in (iπ, iπ + π/2), i >= 1: `θ = iπ + π/2 - atan(1/θ)` contracts by 1/(1 + θ²) < 1/20.

@@ -62,6 +62,8 @@ impl Datum {
         // sin² ω = (1 - cos 2ω)/2; a sum of exactly 0 must give exactly 0.
         let square = match side(self.alpha, self.beta) {
             0.0 => Interval::new(0.0, bits),
+            // A small square would cancel.
+            small if small.abs() < 1e-3 => self.omega(bits).sine_cosine().0.square(),
             _ => (&(&sin0 * &sin1) - &(&cos0 * &cos1)).plus(1.0).scale(0.5),
         };
         (sin0, sin1, square)
@@ -134,7 +136,7 @@ impl Datum {
             return omega.to_f32();
         }
         let omega = if omega.approx() < 0.0 { -&omega } else { omega };
-        let arc = Equation::new(-&q, omega).solve()?;
+        let arc = Equation::new(-&q, omega, 0).solve()?;
         if which == 2 { &arc.theta } else { &arc.t0 }.to_f32()
     }
 }

@@ -27,6 +27,18 @@ fn series(x2: f64, ratios: &[f64]) -> f64 {
 }
 
 impl Shape {
+    /// All three divided by their first powers of x: `P/x³`, `(x² - sin² x)/x⁴` and `(x - sin x)/x³`. So nothing underflows, however small
+    /// x >= 0 is.
+    pub fn by_powers(x: f64) -> Shape {
+        let (sin, cos) = x.sin_cos();
+        let x2 = x * x;
+        if x >= 1.0 {
+            let Shape { p, w, rest } = Shape::new(x, sin, cos);
+            return Shape { p: p / (x2 * x), w: w / (x2 * x2), rest: rest / (x2 * x) };
+        }
+        Shape { p: series(x2, &P) / 3.0, w: series(x2, &W) / 3.0, rest: series(x2, &REST) / 6.0 }
+    }
+
     /// From x and its sine and cosine.
     pub fn new(x: f64, sin: f64, cos: f64) -> Shape {
         if x >= 1.0 {

@@ -16,6 +16,9 @@
 
 mod half;
 mod solve;
+#[cfg(test)]
+mod steps;
+mod track;
 mod turns;
 
 pub use solve::{Involute, InvolutePoint};
@@ -129,7 +132,7 @@ pub fn involute(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
     if let Some(n) = turns.iter().find(|n| **n > MOST_TURNS) {
         return Err(Error::Domain(format!("{n} turns about an end are asked for; at most {MOST_TURNS} can be had")));
     }
-    solve::solve(chord, turns)
+    Ok(solve::solve(chord, turns)?.0)
 }
 
 impl Chord {

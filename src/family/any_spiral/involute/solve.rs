@@ -3,18 +3,17 @@
 use super::super::arc::{Arc, Equation};
 use super::super::exact::Datum;
 use super::half::Half;
+use super::track::Track;
 use super::turns::{Split, range};
 use super::{Chord, Outcome, Spiral, WhyNone};
-use crate::curve::arc_length;
 use crate::error::{Error, Result};
-use crate::num::roots::find;
 use crate::num::{Interval, climb};
 use serde::Serialize;
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::f64::consts::{PI, TAU};
 
 /// The image of an arc of the involute, in the chord's frame.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Involute {
     theta: f64,
     beyond: f64,
@@ -25,9 +24,7 @@ pub struct Involute {
     /// Whether the curvature decreases; then what follows describes the mirror image.
     mirrored: bool,
     #[serde(skip)]
-    halves: [Half; 2],
-    #[serde(skip)]
-    length: f64,
+    tracks: [Track; 2],
 }
 
 /// A point of the curve, in half chords.
@@ -48,23 +45,38 @@ struct Numbers {
     theta: f64,
     beyond: f64,
     t0: f64,
-    t1: f64,
-    t2: f64,
     rho: f64,
     lambda: f64,
-    /// ρ/c and 1/(ρc).
-    scales: [f64; 2],
-    /// `(1 - 1/m) e^(iα)` and `(1 - m) e^(iβ)`.
-    q: [[f64; 2]; 2],
+    halves: [Half; 2],
 }
 
-pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
+/// What is asked of the arc: -Q, `-(k1 + sin α)` and ω, without its half turns in `rest`.
+struct Wanted {
+    q: Interval,
+    room: Interval,
+    rest: Interval,
+    half_turns: u32,
+}
+
+/// How much a curve took to find.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(not(test), expect(dead_code, reason = "read by the tests that bound it"))]
+pub(super) struct Work {
+    /// Precision of the arc.
+    pub bits: usize,
+    /// Evaluations of its equation at that precision.
+    pub evaluations: usize,
+    /// Pieces of its length.
+    pub pieces: usize,
+}
+
+pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<(Spiral, Option<Work>)> {
     let rising = chord.k1 < chord.k2;
     let datum = if rising { chord.datum() } else { chord.datum().mirrored() };
     // Half-open ranges: what the mirror image has at -π is π.
     let cuts = [datum.alpha, datum.beta].iter().filter(|x| **x == -PI).count();
     let half_turns = turns[0] + turns[1] + cuts as u32;
-    let total = |bits: usize| &datum.omega(bits) + &Interval::pi(bits).scale(f64::from(half_turns));
+    let total = |bits: usize| total(&datum, half_turns, bits);
     // Never 0 but where both parts are: π is irrational.
     let side = if half_turns == 0 && datum.alpha == -datum.beta { Equal } else { climb(&datum, "omega", |b| total(b).sign())?.0 };
     let sign = climb(&datum, "the sign of Q", |bits| datum.q(bits).sign())?.0;
@@ -78,13 +90,12 @@ pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
         (_, Greater) => WhyNone::CirclesCross,
         (_, Equal) => WhyNone::CirclesTouch,
         (Greater, Less) => {
-            let (numbers, _) = climb(&datum, "the arc of the involute", |bits| Numbers::new(&datum, total(bits), bits))?;
-            let curve = Involute::new(&datum, &numbers, turns[0] + turns[1], !rising);
+            let (curve, work) = found(&datum, half_turns, turns[0] + turns[1], !rising)?;
             let split = split(&datum, turns, &curve);
-            return Ok(answer(Outcome::Curve { curve, split }));
+            return Ok((answer(Outcome::Curve { curve, split }), Some(work)));
         }
     };
-    Ok(answer(Outcome::None(why)))
+    Ok((answer(Outcome::None(why)), None))
 }
 
 fn split(datum: &Datum, turns: [u32; 2], curve: &Involute) -> Split {
@@ -100,67 +111,141 @@ fn split(datum: &Datum, turns: [u32; 2], curve: &Involute) -> Split {
     }
 }
 
-/// Whether a number is known to 80 bits.
-fn thin(x: &Interval) -> bool {
+/// The curve of rising curvature with `turns` in all, to be mirrored or not.
+fn found(datum: &Datum, half_turns: u32, turns: u32, mirrored: bool) -> Result<(Involute, Work)> {
+    let ((numbers, evaluations), bits) = climb(datum, "the arc of the involute", |bits| {
+        // Differences of the data may take far more bits than the arc does, but sines of two angles only.
+        let wanted = climb(datum, "Q", |b| if b < bits { None } else { Wanted::new(datum, half_turns, b, bits) }).ok()?.0;
+        Numbers::new(datum, &wanted, bits)
+    })?;
+    let curve = Involute::new(datum, numbers, turns, mirrored);
+    let pieces = curve.tracks.iter().map(Track::pieces).sum();
+    Ok((curve, Work { bits, evaluations, pieces }))
+}
+
+/// ω with the half turns that are added to it.
+fn total(datum: &Datum, half_turns: u32, bits: usize) -> Interval {
+    &datum.omega(bits) + &Interval::pi(bits).scale(f64::from(half_turns))
+}
+
+/// Whether a number is known to so many bits.
+fn thin(x: &Interval, bits: usize) -> bool {
     let width = &x.upper() - &x.lower();
-    let allowed = &x.size().upper() * &Interval::power_of_two(-80, x.bits());
+    let allowed = &x.size().upper() * &Interval::power_of_two(-(bits as isize), x.bits());
     width.compare(&allowed) == Some(Less)
 }
 
+/// `r e^(ix)`.
+fn polar(r: &Interval, x: &Interval) -> [Interval; 2] {
+    let (sin, cos) = x.sine_cosine();
+    [r * &cos, r * &sin]
+}
+
+impl Wanted {
+    /// At a precision that leaves three quarters of `wanted` bits.
+    fn new(datum: &Datum, half_turns: u32, bits: usize, wanted: usize) -> Option<Wanted> {
+        let q = -&datum.q(bits);
+        let room = -&(&Interval::new(datum.k1, bits) + &Interval::sin_cos(datum.alpha, bits).0);
+        let known = [&q, &room].into_iter().all(|x| thin(x, wanted - wanted / 4));
+        // The sum of two doubles comes out to all bits, or to 0.
+        known.then(|| Wanted {
+            q: q.rounded(wanted),
+            room: room.rounded(wanted),
+            rest: datum.omega(bits).rounded(wanted),
+            half_turns,
+        })
+    }
+}
+
 impl Numbers {
-    fn new(datum: &Datum, omega: Interval, bits: usize) -> Option<Numbers> {
-        let q = datum.q(bits);
-        let Arc { theta, sin, cos: _, p, a, t0 } = Equation::new(-&q, omega.clone()).solve()?;
-        let (t1, t2) = (&t0 - &theta, &t0 + &theta);
+    fn new(datum: &Datum, wanted: &Wanted, bits: usize) -> Option<(Numbers, usize)> {
+        let Wanted { q, room, rest, half_turns } = wanted;
+        let equation = Equation::new(q.clone(), rest.clone(), *half_turns);
+        let Arc { theta, sin, cos: _, p, a, t0, t1 } = equation.solve()?;
         let half_chord = (&(&t0 * &sin).square() + &p.square()).sqrt()?;
         // ρ = (k1* + sin α*)/(k1 + sin α), both negative.
-        let ((sin0, cos0), (sin1, cos1)) = (Interval::sin_cos(datum.alpha, bits), Interval::sin_cos(datum.beta, bits));
-        let room = -&(&Interval::new(datum.k1, bits) + &sin0);
-        let rho = (&(&t0 * &a) + &(&p * &sin)).over(&(&(&half_chord * &t1) * &room))?;
-        // λ = α - α*, α* = ω + θ; any full turns do.
-        let lambda = &Interval::new(datum.alpha, bits) - &(&omega + &theta);
-        let (sin_l, cos_l) = lambda.sine_cosine();
-        if ![&theta, &t1, &rho, &half_chord].into_iter().all(thin) {
+        let rho = (&(&t0 * &a) + &(&p * &sin)).over(&(&(&half_chord * &t1) * room))?;
+        if ![&theta, &t1, &rho, &half_chord].into_iter().all(|x| thin(x, 80)) {
             return None;
         }
-        let one = Interval::new(1.0, bits);
-        let inverse = one.over(&rho)?;
-        let times = |a: [&Interval; 2], b: [&Interval; 2]| {
-            [&(a[0] * b[0]) - &(a[1] * b[1]), &(a[0] * b[1]) + &(a[1] * b[0])].map(|x| x.approx())
+        // λ = α - α*, α* = ω + θ; any full turns do.
+        let [alpha, beta] = [datum.alpha, datum.beta].map(|x| Interval::new(x, bits));
+        let omega = rest + &Interval::pi(bits).scale(f64::from(*half_turns));
+        let ahead = &omega + &theta;
+        let lambda = &alpha - &ahead;
+        let inverse = Interval::new(1.0, bits).over(&rho)?;
+        // q = (1 - 1/m) e^(iα) at the start, and (1 - m) e^(iβ) at the end, where λ + β = ω - θ up to full turns.
+        let factor = |angle: &Interval, by: &Interval, other: &Interval| {
+            let ([x, y], [u, v]) = (polar(&Interval::new(1.0, bits), angle), polar(by, other));
+            [&x - &u, &y - &v]
         };
-        let at_start = [&one - &(&inverse * &cos_l), &inverse * &sin_l];
-        let at_end = [&one - &(&rho * &cos_l), -&(&rho * &sin_l)];
+        let start = End { side: 1.0, t: &t1, scale: rho.over(&half_chord)?, q: factor(&alpha, &inverse, &ahead) };
+        let end =
+            End { side: -1.0, t: &(&t0 + &theta), scale: inverse.over(&half_chord)?, q: factor(&beta, &rho, &(&omega - &theta)) };
+        let halves = [start.half(&theta, datum.alpha, datum.k1)?, end.half(&theta, datum.beta, datum.k2)?];
         // θ from the nearest multiple of π.
         let turns = (theta.approx() / PI).round();
         let beyond = &theta - &Interval::pi(bits).scale(turns);
-        Some(Numbers {
+        let numbers = Numbers {
             theta: theta.approx(),
             beyond: beyond.approx(),
             t0: t0.approx(),
-            t1: t1.approx(),
-            t2: t2.approx(),
-            rho: rho.approx(),
+            rho: rho.approx().clamp(f64::MIN_POSITIVE, f64::MAX),
             lambda: lambda.approx(),
-            scales: [rho.over(&half_chord)?.approx(), inverse.over(&half_chord)?.approx()],
-            q: [times([&at_start[0], &at_start[1]], [&cos0, &sin0]), times([&at_end[0], &at_end[1]], [&cos1, &sin1])],
+            halves,
+        };
+        Some((numbers, equation.evaluations()))
+    }
+}
+
+/// What a [`Half`] is made of: σ, T, r and q.
+struct End<'i> {
+    side: f64,
+    t: &'i Interval,
+    scale: Interval,
+    q: [Interval; 2],
+}
+
+impl End<'_> {
+    fn half(&self, theta: &Interval, angle: f64, curvature: f64) -> Option<Half> {
+        let End { side, t, scale, q } = self;
+        let bits = theta.bits();
+        // s, a power of two, from the exponents of r max(1, |q|) and T.
+        let exponent = |x: &Interval| x.magnitude().unwrap_or(isize::MIN / 4);
+        let steep = exponent(scale) + exponent(&q[0]).max(exponent(&q[1])).max(0);
+        let s = (-steep).div_euclid(2).min(-steep - exponent(t)).min(exponent(theta) - 1).min(0);
+        let s = Interval::power_of_two(s, bits);
+        let whole = &s + t;
+        let unit = &(scale * &s) * &whole;
+        let size = (&q[0].square() + &q[1].square()).sqrt()?;
+        Some(Half {
+            side: *side,
+            t: t.approx(),
+            theta: theta.approx(),
+            reach: theta.over(&s)?.approx(),
+            near: t.over(&whole)?.approx(),
+            far: s.over(&whole)?.approx(),
+            scale: unit.approx(),
+            grow: [(&unit * &q[0]).approx(), (&unit * &q[1]).approx()],
+            angle,
+            bend: (&(&size * theta) * &theta.over(&s)?).approx(),
+            swing: (&q[0] * theta).approx(),
+            sway: q[1].approx(),
+            curvature,
         })
     }
 }
 
 impl Involute {
-    fn new(datum: &Datum, n: &Numbers, turns: u32, mirrored: bool) -> Involute {
-        let start = Half { side: 1.0, t: n.t1, scale: n.scales[0], angle: datum.alpha, q: n.q[0], curvature: datum.k1 };
-        let end = Half { side: -1.0, t: n.t2, scale: n.scales[1], angle: datum.beta, q: n.q[1], curvature: datum.k2 };
-        let Numbers { theta, beyond, t0, rho, lambda, .. } = *n;
-        let mut curve = Involute { theta, beyond, t0, rho, lambda, turns: [0, 0], mirrored, halves: [start, end], length: 0.0 };
+    fn new(datum: &Datum, n: Numbers, turns: u32, mirrored: bool) -> Involute {
+        let Numbers { theta, beyond, t0, rho, lambda, halves } = n;
         // Both halves have the same direction where they meet, which tells the difference of the turns.
-        let meet = [start, end].map(|half| half.direction(theta));
+        let meet = halves.map(|half| half.direction(1.0));
         let up = |x: f64| if x == -PI { 1.0 } else { 0.0 };
         let difference = (meet[1] - meet[0]) / TAU - up(datum.alpha) + up(datum.beta);
         let first = (0.5 * (f64::from(turns) + difference)).round().clamp(0.0, f64::from(turns)) as u32;
-        curve.turns = [first, turns - first];
-        curve.length = curve.length_to(1.0);
-        curve
+        let turns = [first, turns - first];
+        Involute { theta, beyond, t0, rho, lambda, turns, mirrored, tracks: halves.map(Track::new) }
     }
 
     /// θ: half the range of the involute's parameter, radians; nearest double.
@@ -178,7 +263,8 @@ impl Involute {
         self.t0
     }
 
-    /// ρ and λ of the map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature decreases.
+    /// ρ and λ of the map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature decreases. A ρ beyond the
+    /// range of normal doubles is told as the nearest of them.
     pub fn map(&self) -> [f64; 2] {
         [self.rho, self.lambda]
     }
@@ -191,7 +277,8 @@ impl Involute {
 
     /// Length from end to end, in half chords.
     pub fn length(&self) -> f64 {
-        self.length
+        // Rounding may leave it below the chord's.
+        self.tracks.iter().map(Track::length).sum::<f64>().max(2.0)
     }
 
     /// The point at a parameter from 0 to 1.
@@ -200,14 +287,21 @@ impl Involute {
     /// About 1e-14, relative to its distance from the nearer end and, if larger, times that distance; directions 1e-14 times one plus the turns;
     /// curvatures 1e-13 relative to the largest term they are the sum of. The ends are exact, up to the rounding of their direction.
     pub fn at(&self, f: f64) -> InvolutePoint {
-        let (half, v) = self.half(f);
-        let place = half.at(v);
-        let (up, turns) = (if half.angle == -PI { TAU } else { 0.0 }, self.turns[usize::from(half.side < 0.0)]);
+        let (which, u) = side(f);
+        InvolutePoint { f, ..self.seen(which, u) }
+    }
+
+    /// The point on one of the halves.
+    fn seen(&self, which: usize, u: f64) -> InvolutePoint {
+        let half = &self.tracks[which].half;
+        let place = half.at(u);
+        let up = if half.angle == -PI { TAU } else { 0.0 };
         let mirror = if self.mirrored { -1.0 } else { 1.0 };
+        let direction = place.direction - 2.0 * half.argument(u) + (up + TAU * f64::from(self.turns[which]));
         InvolutePoint {
-            f,
+            f: if which == 0 { 0.5 * u } else { 1.0 - 0.5 * u },
             point: [place.point[0], mirror * place.point[1] + 0.0],
-            direction: mirror * (half.direction(v) + (up + TAU * f64::from(turns))) + 0.0,
+            direction: mirror * direction + 0.0,
             curvature: mirror * place.curvature + 0.0,
         }
     }
@@ -215,27 +309,33 @@ impl Involute {
     /// The point where a share, from 0 to 1, of the length is behind.
     ///
     /// # Accuracy
-    /// 1e-13 of the length, and as [`Involute::at`].
+    /// 1e-13 of the length, and as [`Involute::at`], but that the point's parameter, rounded to a double, may tell less than the point where the
+    /// curve begins or ends far within a rounding of the parameter.
     pub fn at_length(&self, share: f64) -> InvolutePoint {
-        let wanted = share * self.length;
-        if share <= 0.0 || share >= 1.0 {
-            return self.at(share.clamp(0.0, 1.0));
+        let wanted = share.max(0.0) * self.length();
+        // The end itself, even where its half is shorter than a rounding.
+        if share < 1.0 && wanted <= self.tracks[0].length() {
+            self.seen(0, self.tracks[0].at(wanted))
+        } else {
+            self.seen(1, self.tracks[1].at((1.0 - share).max(0.0) * self.length()))
         }
-        self.at(find(|f| self.length_to(f) - wanted, 0.0, 1.0, 1e-16))
     }
 
     /// Length from the start to a parameter, in half chords.
     ///
     /// # Accuracy
-    /// 1e-14 relative.
+    /// 1e-14 of the length, and of the result in the first half.
     pub fn length_to(&self, f: f64) -> f64 {
-        self.length_between(0.0, f)
+        match side(f) {
+            (0, u) => self.tracks[0].to(u),
+            (_, u) => self.length() - self.tracks[1].to(u),
+        }
     }
 
     /// Points at equal lengths, both ends included, and the length at each, in half chords.
     ///
     /// # Accuracy
-    /// 1e-13 of the length, and as [`Involute::at`].
+    /// As [`Involute::at_length`].
     ///
     /// # Errors
     /// [`Error::Domain`] for fewer than 2 points.
@@ -244,60 +344,11 @@ impl Involute {
             return Err(Error::Domain(format!("{count} samples of a curve; it needs at least 2, the ends")));
         }
         let share = |i: usize| i as f64 / (count - 1) as f64;
-        // Each from the one before: the length between neighbours is soon had.
-        let (mut f, mut s) = (0.0, 0.0);
-        let mut next = |i: usize| {
-            let wanted = share(i) * self.length;
-            (f, s) = self.step(f, s, wanted);
-            (wanted, self.at(f))
-        };
-        let inside: Vec<_> = (1..count - 1).map(&mut next).collect();
-        let ends = [(0.0, self.at(0.0)), (self.length, self.at(1.0))];
-        Ok(ends[..1].iter().copied().chain(inside).chain(ends[1..].iter().copied()).collect())
-    }
-
-    /// The parameter where the length is `wanted`, and the length there, from a parameter whose length is known and less: Newton's method, or
-    /// a bracket where that leaves the curve or does not settle.
-    fn step(&self, from: f64, known: f64, wanted: f64) -> (f64, f64) {
-        let (mut f, mut s) = (from, known);
-        for _ in 0..8 {
-            let (half, v) = self.half(f);
-            let next = f + (wanted - s) / (2.0 * self.theta * half.at(v).speed);
-            if !(next > from && next < 1.0) {
-                break;
-            }
-            s = known + self.length_between(from, next);
-            let settled = (next - f).abs() <= 1e-15 || (s - wanted).abs() <= 1e-15 * self.length;
-            f = next;
-            if settled {
-                return (f, s);
-            }
-        }
-        f = find(|f| known + self.length_between(from, f) - wanted, from, 1.0, 1e-16);
-        (f, known + self.length_between(from, f))
-    }
-
-    /// Length from one parameter to a later one.
-    fn length_between(&self, from: f64, to: f64) -> f64 {
-        let part = |from: f64, to: f64| {
-            let (half, v) = self.half(to);
-            let other = 2.0 * self.theta * if half.side > 0.0 { from } else { 1.0 - from };
-            arc_length(|v| half.at(v).speed, v.min(other), v.max(other))
-        };
-        let middle = 0.5;
-        if from < middle && to > middle { part(from, middle) + part(middle, to) } else { part(from, to) }
-    }
-
-    /// The half that a parameter lies in, and its distance from that half's end.
-    fn half(&self, f: f64) -> (&Half, f64) {
-        let v = |share: f64| 2.0 * self.theta * share;
-        if f <= 0.5 { (&self.halves[0], v(f)) } else { (&self.halves[1], v(1.0 - f)) }
+        Ok((0..count).map(|i| (share(i) * self.length(), self.at_length(share(i)))).collect())
     }
 }
 
-impl Half {
-    /// Direction at v, followed from the end.
-    fn direction(&self, v: f64) -> f64 {
-        self.at(v).direction - 2.0 * self.argument(v)
-    }
+/// The half that a parameter lies in, and its distance from that half's end as a share of θ.
+fn side(f: f64) -> (usize, f64) {
+    if f <= 0.5 { (0, 2.0 * f) } else { (1, 2.0 * (1.0 - f)) }
 }
