@@ -116,18 +116,34 @@ fn tell_errors_without_panics() {
 
 /// Ends the program as for arguments that clap itself refuses, with the usage of the command that was given.
 fn refuse(what: &str) -> ! {
-    given().error(ErrorKind::ArgumentConflict, what).exit()
+    let mut command = given();
+    let error = command.error(ErrorKind::ArgumentConflict, what);
+    end(&error, &command)
 }
 
 /// The arguments, or the end of the program with help or an error. An error always shows the usage of the command that was given;
 /// clap leaves it out where a single value is wrong.
 fn parse() -> Cli {
     Cli::try_parse().unwrap_or_else(|mut error| {
-        if error.use_stderr() && error.get(ContextKind::Usage).is_none() {
-            error.insert(ContextKind::Usage, ContextValue::StyledStr(given().render_usage()));
+        if !error.use_stderr() {
+            error.exit();
         }
-        error.exit()
+        let mut command = given();
+        if error.get(ContextKind::Usage).is_none() {
+            error.insert(ContextKind::Usage, ContextValue::StyledStr(command.render_usage()));
+        }
+        end(&error, &command)
     })
+}
+
+/// Ends the program with an error of the command line. The hint at its end names the command: clap's is a bare `--help`, which is that of
+/// the whole program.
+fn end(error: &clap::Error, command: &clap::Command) -> ! {
+    let text = error.render().ansi().to_string();
+    let name = command.get_bin_name().unwrap_or("spiral-atlas");
+    let named = text.rsplit_once("--help").map(|(before, after)| format!("{before}{name} --help{after}"));
+    anstream::eprint!("{}", named.unwrap_or(text));
+    std::process::exit(error.exit_code())
 }
 
 /// The command that the first words of the command line name.

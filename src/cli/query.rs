@@ -17,8 +17,12 @@ use std::path::PathBuf;
 ///
 /// With --points, one line of JSON for each row, in order:
 /// {"phi0":..,"phi1":..,"kappa0":..,"kappa1":..,"flags":{"SOLVABLE":true,..},"solutions":[{"f0":..,"f1":..,"theorem31":true,
-/// "spiral":true,"margin":..,"control_points":[[x,y],..]},..],"chosen":0}, where `chosen` is an index into `solutions` or null;
-/// a bad row gives {"line":..,"error":".."}, and the exit status is 2 at the end.
+/// "spiral":true,"margin":..,"length":..,"control_points":[[x,y],..]},..],"chosen":0}, where `chosen` is an index into `solutions` or
+/// null; a bad row gives {"line":..,"error":".."}.
+///
+/// Exit status: 0 when what the family looks for exists, 1 when it does not, 2 for an error. With --points it is 0 when every row was
+/// answered, whatever the answers, and 2 when one was bad. A yes is the flag SPIRAL (`cubic`, `ph-quintic`, `trig-quintic`), EXISTS
+/// (`any-spiral`), CASE1_EXACT or CASE2_EXACT (`reach-cubic`, `reach-ph`), REGULAR (`ph-equal-length`, `ph-hermite`).
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --kappa1 4\n  \
                         spiral-atlas query --family reach-ph --theta 40deg --xi 1.5 --eta 0.35\n  \
@@ -66,12 +70,15 @@ pub fn run(args: &Args) -> Result<Outcome> {
     } else {
         output::print(&answer.text(family))?;
     }
-    Ok(Outcome::Fine)
+    Ok(if answer.holds { Outcome::Fine } else { Outcome::Bad })
 }
 
 /// All that is known of a datum, as it is told in JSON.
 #[derive(Debug, Serialize)]
 pub struct Answer {
+    /// Whether what the family looks for exists.
+    #[serde(skip)]
+    holds: bool,
     #[serde(flatten)]
     coordinates: Object<&'static str, f64>,
     flags: Object<&'static str, bool>,
@@ -121,6 +128,7 @@ impl Answer {
             given.or_else(|| solved.number(name)).unwrap_or(f64::NAN)
         };
         Ok(Answer {
+            holds: family.holds(solved.code),
             flags: Object(family.flags().iter().enumerate().map(flag).collect()),
             counts: Object(family.counts().iter().map(|count| (count.name, count.of(solved.code.counts()))).collect()),
             atlas: atlas.map(|atlas| look_up(atlas, place)),

@@ -34,6 +34,16 @@ pub enum Value {
     Points(Vec<[f64; 2]>),
 }
 
+impl Value {
+    fn is_finite(&self) -> bool {
+        match self {
+            Value::Number(x) => x.is_finite(),
+            Value::Points(points) => points.iter().flatten().all(|x| x.is_finite()),
+            Value::Whole(_) | Value::Holds(_) | Value::Word(_) => true,
+        }
+    }
+}
+
 impl From<f64> for Value {
     fn from(x: f64) -> Value {
         Value::Number(x)
@@ -53,6 +63,14 @@ impl<const N: usize> From<[[f64; 2]; N]> for Value {
 }
 
 impl Answer {
+    /// Which number is not finite, in words; the first one.
+    pub(super) fn beyond_range(&self) -> Option<String> {
+        let first = |values: &Values| values.iter().find(|(_, value)| !value.is_finite()).map(|(name, _)| *name);
+        let of_solution = |(i, values)| first(values).map(|name| format!("{name} of solution {i}"));
+        let derived = first(&self.derived).map(str::to_owned);
+        derived.or_else(|| self.solutions.iter().enumerate().find_map(of_solution))
+    }
+
     /// A derived number by name.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.derived.iter().find_map(|(n, value)| match value {

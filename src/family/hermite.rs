@@ -3,12 +3,15 @@
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::num::sines::sum_below_pi;
+use crate::num::told;
 use std::f64::consts::PI;
 
 /// An angle for an error message, which may have been given in degrees.
-pub(super) fn told(angle: f64) -> String {
-    let degrees = (angle.to_degrees() * 1e6).round() / 1e6;
-    if degrees.is_finite() { format!("{angle:?} ({degrees} degrees)") } else { angle.to_string() }
+pub(super) fn told_angle(angle: f64) -> String {
+    let degrees = angle.to_degrees();
+    // Six decimals undo the rounding of degrees that were turned into radians; smaller angles have none to undo.
+    let degrees = if degrees.abs() < 1e-3 { degrees } else { (degrees * 1e6).round() / 1e6 };
+    if degrees.is_finite() { format!("{} ({} degrees)", told(angle), told(degrees)) } else { told(angle) }
 }
 
 /// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by [`check_angles`].
@@ -16,7 +19,7 @@ fn check_angle(name: &str, angle: f64) -> Result<()> {
     if angle > 0.0 && angle <= PI {
         return Ok(());
     }
-    let angle = told(angle);
+    let angle = told_angle(angle);
     Err(Error::Domain(format!("{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)")))
 }
 
@@ -25,8 +28,8 @@ fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
     if sum_below_pi(phi0, phi1) {
         return Ok(());
     }
-    let sum = phi0 + phi1;
-    Err(Error::Domain(format!("phi0 + phi1 reaches {phi0} + {phi1} = {sum}; it must stay below pi, so that the tangents meet")))
+    let [first, second, sum] = [phi0, phi1, phi0 + phi1].map(told);
+    Err(Error::Domain(format!("phi0 + phi1 reaches {first} + {second} = {sum}; it must stay below pi, so that the tangents meet")))
 }
 
 /// A datum: two angles, then two finite curvature coordinates, by name.

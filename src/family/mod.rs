@@ -116,6 +116,8 @@ pub trait Family: Sync {
     fn conventions(&self) -> &'static str;
     /// The flags, bit 0 first.
     fn flags(&self) -> &'static [Flag];
+    /// The flags that say that what the family looks for exists: its answer to a datum is yes where one of them holds, else no.
+    fn yes(&self) -> &'static [&'static str];
     /// The flags that a picture shows, largest region first, each inside the one before (in general).
     fn nested(&self) -> &'static [&'static str];
     /// The packed counts.
@@ -127,11 +129,35 @@ pub trait Family: Sync {
     /// # Errors
     /// [`crate::Error::Domain`], naming the axis, when the axes are no chart of this family or leave its domain.
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>>;
-    /// The exact answer for one datum, with its curves: coordinates as the axes of the chart with this index.
+    /// [`Family::answer`] with its numbers as they come, some of which may have left the range of doubles.
     ///
     /// # Errors
     /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
-    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer>;
+    fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer>;
+    /// The exact answer for one datum, with its curves: coordinates as the axes of the chart with this index. Every number is finite.
+    ///
+    /// # Errors
+    /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain, or the number of the answer that leaves the range of
+    /// doubles; [`crate::Error::Undecided`] at the precision cap.
+    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+        let answer = self.compute(chart, point)?;
+        match answer.beyond_range() {
+            None => Ok(answer),
+            Some(what) => {
+                let datum: Vec<String> =
+                    self.charts()[chart].axes.iter().zip(point).map(|(axis, x)| format!("{axis} = {x:?}")).collect();
+                Err(Error::Domain(format!(
+                    "{what} leaves the range of doubles for {}; choose less extreme numbers",
+                    datum.join(", ")
+                )))
+            }
+        }
+    }
+    /// Whether what the family looks for exists, by the flags of a datum.
+    fn holds(&self, code: Code) -> bool {
+        let set = |(bit, flag): (usize, &Flag)| code.flags() >> bit & 1 == 1 && self.yes().contains(&flag.name);
+        self.flags().iter().enumerate().any(set)
+    }
 }
 
 /// Which of a family's charts a grid has, as an index into [`Family::charts`].

@@ -5,7 +5,7 @@ mod lookup;
 pub(crate) use lookup::Lookup;
 
 use crate::error::{Error, Result};
-use crate::num::log_space;
+use crate::num::{log_space, told};
 use serde::{Deserialize, Serialize};
 
 /// Most axes a grid may have.
@@ -62,7 +62,7 @@ impl Axis {
                 let log = matches!(spacing, Spacing::Log { .. });
                 // The width too: from -1e308 to 1e308 no step could be computed.
                 if !((hi - lo).is_finite() && lo < hi) {
-                    return fail(format!("runs from {lo} to {hi}; both and their difference must be finite, with lo < hi"));
+                    return fail(format!("runs from {} to {}; both and their difference must be finite, with lo < hi", told(*lo), told(*hi)));
                 }
                 if !(2..=MAX_COUNT).contains(count) {
                     return fail(format!(
@@ -70,7 +70,7 @@ impl Axis {
                     ));
                 }
                 if log && *lo <= 0.0 {
-                    return fail(format!("is logarithmic from {lo}; it must start above 0"));
+                    return fail(format!("is logarithmic from {}; it must start above 0", told(*lo)));
                 }
                 if log { log_space(*lo, *hi, *count) } else { lin_space(*lo, *hi, *count) }
             }
@@ -85,7 +85,8 @@ impl Axis {
         if let Some(pair) = values.windows(2).find(|w| w[0] >= w[1]) {
             return fail(format!(
                 "has {} before {}; values must increase strictly (fewer values, or a wider range)",
-                pair[0], pair[1]
+                told(pair[0]),
+                told(pair[1])
             ));
         }
         Ok(Axis { name: name.to_owned(), spacing, values })

@@ -7,12 +7,14 @@ mod number;
 pub mod roots;
 pub mod sines;
 mod taylor;
+mod words;
 mod ziv;
 
 pub use ball::Ball;
 pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
 pub use taylor::Quadratic;
+pub use words::told;
 pub use ziv::climb;
 
 /// `lo (hi / lo)^(i / (count - 1))`, the ends exact; the same doubles on every machine.

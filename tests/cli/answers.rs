@@ -14,7 +14,108 @@ const EXAMPLES: [[f64; 6]; 3] = [
 fn query(data: [&str; 4], more: &[&str]) -> super::Said {
     let names = ["--phi0", "--phi1", "--kappa0", "--kappa1"];
     let pairs = names.into_iter().zip(data).flat_map(|(name, value)| [name, value]);
-    fine(["query"].into_iter().chain(pairs).chain(more.iter().copied()))
+    let said = run(["query"].into_iter().chain(pairs).chain(more.iter().copied()));
+    assert!(matches!(said.code, Some(0 | 1)) && said.err.is_empty(), "{}\n{}", said.out, said.err);
+    said
+}
+
+/// Asks a family about a datum written as its options.
+fn ask(family: &str, datum: &str, more: &[&str]) -> super::Said {
+    run(["query", "--family", family].into_iter().chain(datum.split_whitespace()).chain(more.iter().copied()))
+}
+
+#[test]
+fn the_exit_status_is_the_answer() {
+    let data = [
+        ("cubic", "--phi0 0.7 --phi1 1.4 --kappa0 0.4 --kappa1 4", 0),
+        // Some spiral, but no cubic one.
+        ("cubic", "--phi0 0.7 --phi1 1.4 --kappa0 -0.4 --kappa1 4", 1),
+        ("cubic", "--phi0 4 --phi1 1.4 --kappa0 0.4 --kappa1 4", 2),
+        ("ph-quintic", "--phi0 0.7 --phi1 1.4 --kappa0 0.4 --kappa1 4", 0),
+        // A PH quintic, but no spiral.
+        ("ph-quintic", "--phi0 0.7 --phi1 1.4 --kappa0 0.4 --kappa1 1.2", 1),
+        ("any-spiral", "--alpha -40deg --beta 80deg --k1 -0.3 --k2 4", 0),
+        // Falling curvature, which the other ends need.
+        ("any-spiral", "--alpha -40deg --beta 80deg --k1 4 --k2 -0.3", 1),
+        // Case 1 alone, case 2 alone, neither.
+        ("reach-cubic", "--theta 45deg --xi 1.7 --eta 0.4", 0),
+        ("reach-cubic", "--theta 45deg --xi 1.5 --eta 0.9", 0),
+        ("reach-cubic", "--theta 45deg --xi 0.1 --eta 4", 1),
+        ("reach-ph", "--theta 40deg --xi 1.5 --eta 0.35", 0),
+        ("reach-ph", "--theta 40deg --xi 0.1 --eta 4", 1),
+        ("trig-quintic", "--ratio 6 --theta 42deg --m 1 --p 0 --q 0", 0),
+        ("trig-quintic", "--ratio 3.5 --theta 42deg --m 1 --p 0 --q 0", 1),
+        // All data that are known have a solution that stands still nowhere.
+        ("ph-equal-length", "--theta0 60deg --theta1 -135deg --S 1.3", 0),
+        ("ph-hermite", "--theta0 30deg --theta1 45deg --l0 4 --l1 4", 0),
+        ("ph-hermite", "--theta0 30deg --theta1 45deg --l0 4 --l1 0", 2),
+    ];
+    for (family, datum, code) in data {
+        for more in [&[][..], &["--json"]] {
+            let said = ask(family, datum, more);
+            assert_eq!(said.code, Some(code), "{family} {datum}: {}{}", said.out, said.err);
+            assert_eq!(said.out.is_empty(), code == 2, "{family} {datum}: {}", said.out);
+        }
+    }
+}
+
+/// JSON has no infinity: it would become null. A number beyond the range of doubles is named instead, and with it the datum.
+#[test]
+fn numbers_beyond_the_range_of_doubles_are_told_in_a_sentence() {
+    let data = [
+        ("cubic", "--phi0 0.7 --phi1 1.4 --a 1e-300 --k 1.7e308", "kappa1 leaves the range of doubles for phi0 = 0.7"),
+        ("cubic", "--phi0 0.7 --phi1 5e-324 --kappa0 0.4 --kappa1 4", "k leaves the range of doubles"),
+        ("any-spiral", "--alpha -0.7 --beta 1.4 --k1 -1.7e308 --k2 1.7e308", "1e100"),
+        ("reach-cubic", "--theta 0.7 --xi 1.5 --eta 1e-310", "m leaves the range of doubles"),
+        ("reach-ph", "--theta 0.7 --xi 1e300 --eta 0.5", "m leaves the range of doubles"),
+        ("trig-quintic", "--ratio 1e160 --theta 42deg --m 1 --p 0 --q 0", "length of solution 0 leaves the range of doubles"),
+        ("ph-equal-length", "--theta0 1 --theta1 1 --S 1e300", "S is 1e300"),
+        ("ph-hermite", "--theta0 1 --theta1 1 --l0 1e160 --l1 1e-300", "l0 is 1e160"),
+    ];
+    for (family, datum, part) in data {
+        for more in [&[][..], &["--json"]] {
+            let said = ask(family, datum, more);
+            assert_eq!((said.code, &said.out[..]), (Some(2), ""), "{family} {datum}: {}", said.err);
+            assert!(said.err.contains(part) && !said.err.contains("inf"), "{family} {datum}: {}", said.err);
+        }
+    }
+}
+
+/// Extreme data in each coordinate of each family: an answer of finite numbers, or a sentence; no row of digits longer than a double needs.
+#[test]
+fn extreme_data_are_answered_or_refused_in_readable_numbers() {
+    let ordinary = [
+        ("cubic", "phi0,phi1,kappa0,kappa1", "0.7,1.4,0.4,4"),
+        ("cubic", "phi0,phi1,a,k", "0.7,1.4,0.8,2"),
+        ("ph-quintic", "phi0,phi1,kappa0,kappa1", "0.7,1.4,0.4,4"),
+        ("any-spiral", "alpha,beta,k1,k2", "-0.7,1.4,0.4,4"),
+        ("reach-cubic", "theta,xi,eta", "0.7,1.5,0.5"),
+        ("reach-ph", "theta,xi,eta", "0.7,1.5,0.5"),
+        ("trig-quintic", "ratio,theta,m,p,q", "6,0.7,1,0,0"),
+        ("ph-equal-length", "theta0,theta1,S", "0.5,-0.9,1.3"),
+        ("ph-hermite", "theta0,theta1,l0,l1", "0.5,-0.9,2,3"),
+    ];
+    let folder = Folder::new("");
+    for (family, header, datum) in ordinary {
+        let cells: Vec<&str> = datum.split(',').collect();
+        let mut rows = vec![header.to_owned()];
+        for i in 0..cells.len() {
+            for extreme in ["5e-324", "-1e-310", "1e-300", "1e160", "1e300", "nan"] {
+                let mut row = cells.clone();
+                row[i] = extreme;
+                rows.push(row.join(","));
+            }
+        }
+        std::fs::write(folder.at("rows.csv"), rows.join("\n")).unwrap();
+        let said = run(["query", "--family", family, "--points", &folder.text("rows.csv")]);
+        assert_eq!((said.code, said.out.lines().count()), (Some(2), rows.len() - 1), "{family}: {}", said.err);
+        for line in said.out.lines() {
+            let told = line.replace("\"chosen\":null", "");
+            assert!(!["null", "inf", "inity"].iter().any(|word| told.contains(word)), "{family}: {line}");
+            let longest = told.split(|c: char| !c.is_ascii_digit()).map(str::len).max();
+            assert!(longest < Some(40), "{family}: {line}");
+        }
+    }
 }
 
 #[test]
@@ -29,6 +130,11 @@ fn the_papers_examples_have_the_papers_answers() {
         assert!(off("f0", example[4]) < 1e-10 && off("f1", example[5]) < 1e-10, "{chosen}");
         assert!(chosen["theorem31"] == true && chosen["spiral"] == true && chosen["margin"].as_f64().unwrap() > 0.0);
         assert_eq!(chosen["control_points"][3], serde_json::json!([1.0, 0.0]));
+        // Longer than its chord, shorter than its polygon.
+        let point = |i: usize| [0, 1].map(|k| chosen["control_points"][i][k].as_f64().unwrap());
+        let side = |i: usize| (point(i + 1)[0] - point(i)[0]).hypot(point(i + 1)[1] - point(i)[1]);
+        let length = chosen["length"].as_f64().unwrap();
+        assert!(length > 2.0 && length < side(0) + side(1) + side(2), "{chosen}");
         let text = query(data, &[]).out;
         assert!(text.contains("chosen: f0 = ") && text.contains("spiral = yes"), "{text}");
     }
@@ -121,9 +227,10 @@ fn a_table_is_answered_line_by_line_in_order() {
         assert_eq!(lines[at]["line"], line);
         assert!(lines[at]["error"].as_str().unwrap().contains(part), "{}", lines[at]);
     }
-    let good: String = rows.lines().filter(|l| l.contains("id") || l.contains(",a,")).map(|l| format!("{l}\n")).collect();
+    // Every row has an answer: that the second is a no does not matter.
+    let good: String = rows.lines().filter(|l| ["id", ",a,", ",e,"].iter().any(|part| l.contains(part))).map(|l| format!("{l}\n")).collect();
     std::fs::write(folder.at("good.csv"), good).unwrap();
-    assert_eq!(fine(["query", "--points", &folder.text("good.csv")]).out.lines().count(), 1);
+    assert_eq!(fine(["query", "--points", &folder.text("good.csv")]).out.lines().count(), 2);
 }
 
 #[test]

@@ -100,6 +100,9 @@ impl Family for AnySpiral {
     fn flags(&self) -> &'static [Flag] {
         FLAGS
     }
+    fn yes(&self) -> &'static [&'static str] {
+        &["EXISTS"]
+    }
     fn nested(&self) -> &'static [&'static str] {
         &["EXISTS", "INFLECTION"]
     }
@@ -112,7 +115,7 @@ impl Family for AnySpiral {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::AnyTable::new(grid)?))
     }
-    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+    fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;
         let [first, beta, k1, k2] = *coordinates(point)?;
         let found = involute(&Chord { alpha: if chart == 0 { first } else { -first }, beta, k1, k2 }, [0, 0])?;

@@ -148,6 +148,9 @@ impl Family for Cubic {
     fn flags(&self) -> &'static [Flag] {
         FLAGS
     }
+    fn yes(&self) -> &'static [&'static str] {
+        &["SPIRAL"]
+    }
     fn nested(&self) -> &'static [&'static str] {
         &["ANY_SPIRAL", "SPIRAL", "THEOREM31_ANY", "THEOREM31"]
     }
@@ -160,7 +163,7 @@ impl Family for Cubic {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         self.table_at(grid, Level::new())
     }
-    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+    fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         solve::answer(chart, coordinates(point)?)
     }
 }

@@ -122,13 +122,15 @@ pub(super) fn answer(chart: usize, point: &[f64; 4]) -> Result<Answer> {
     let (a, k) = Datum { phi0, phi1, kappa0: 1.0, kappa1: 1.0 }.normalised();
     let derived = if chart == 0 { [("a", u * a), ("k", v * k)] } else { [("kappa0", u / a), ("kappa1", v / k)] };
     let solution = |root: &Root| {
+        let curve = CubicBezier::from_ratios(phi0, phi1, root.f0, root.f1);
         vec![
             ("f0", root.f0.into()),
             ("f1", root.f1.into()),
             ("theorem31", root.theorem31.into()),
             ("spiral", root.spiral.into()),
             ("margin", root.margin.into()),
-            ("control_points", CubicBezier::from_ratios(phi0, phi1, root.f0, root.f1).p.into()),
+            ("length", curve.length().into()),
+            ("control_points", curve.p.into()),
         ]
     };
     let spirals = solved.roots().iter().filter(|root| root.spiral).count();

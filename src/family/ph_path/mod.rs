@@ -135,6 +135,9 @@ impl Family for PhPath {
     fn flags(&self) -> &'static [Flag] {
         FLAGS
     }
+    fn yes(&self) -> &'static [&'static str] {
+        &["REGULAR"]
+    }
     fn nested(&self) -> &'static [&'static str] {
         &["REGULAR", "ONE_WAY"]
     }
@@ -147,7 +150,7 @@ impl Family for PhPath {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::PathTable::new(self.0, grid)?))
     }
-    fn answer(&self, _chart: usize, point: &[f64]) -> Result<Answer> {
+    fn compute(&self, _chart: usize, point: &[f64]) -> Result<Answer> {
         answer::answer(self.0, point)
     }
 }

@@ -104,6 +104,9 @@ impl Family for PhQuintic {
     fn flags(&self) -> &'static [Flag] {
         FLAGS
     }
+    fn yes(&self) -> &'static [&'static str] {
+        &["SPIRAL"]
+    }
     fn nested(&self) -> &'static [&'static str] {
         &["ANY_SPIRAL", "SPIRAL"]
     }
@@ -116,7 +119,7 @@ impl Family for PhQuintic {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::PhTable::new(grid)?))
     }
-    fn answer(&self, _chart: usize, point: &[f64]) -> Result<Answer> {
+    fn compute(&self, _chart: usize, point: &[f64]) -> Result<Answer> {
         solve::answer(coordinates(point)?)
     }
 }

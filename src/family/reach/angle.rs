@@ -2,7 +2,7 @@
 
 use super::Kind;
 use crate::error::{Error, Result};
-use crate::family::hermite::told;
+use crate::family::hermite::told_angle;
 use crate::num::Interval;
 use crate::num::sines::{cos, sin};
 use std::cell::RefCell;
@@ -107,7 +107,7 @@ pub(super) fn check(kind: Kind, theta: f64) -> Result<()> {
     }
     Err(Error::Domain(format!(
         "theta is {}; for `{}` it must be above 0 and below {name} (radians; write `40deg` for degrees)",
-        told(theta),
+        told_angle(theta),
         kind.name()
     )))
 }

@@ -143,6 +143,9 @@ impl Family for Reach {
     fn flags(&self) -> &'static [Flag] {
         FLAGS
     }
+    fn yes(&self) -> &'static [&'static str] {
+        &["CASE1_EXACT", "CASE2_EXACT"]
+    }
     fn nested(&self) -> &'static [&'static str] {
         &["CASE1_EXISTS", "CASE1_EXACT", "CASE1_THEOREM", "CASE1_PAPER"]
     }
@@ -155,7 +158,7 @@ impl Family for Reach {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::ReachTable::new(self.0, grid)?))
     }
-    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+    fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;
         let reached = solve(self.0, &Datum::from(*coordinates(point)?))?;
         let solution = |(case, segment): (u32, Segment)| {

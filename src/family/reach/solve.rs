@@ -101,8 +101,8 @@ pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
         let (segment, _) = climb(&Datum::from(datum), "a segment", attempt)?;
         match segment {
             Some(s) if !(s.m.is_finite() && s.q.is_finite()) => Err(Error::Domain(format!(
-                "the segment to xi = {xi:?}, eta = {eta:?} at theta = {theta:?} has m = {}, q = {}, beyond the range of doubles",
-                s.m, s.q
+                "{} leaves the range of doubles for theta = {theta:?}, xi = {xi:?}, eta = {eta:?}; choose less extreme numbers",
+                if s.m.is_finite() { "q" } else { "m" }
             ))),
             other => Ok(other),
         }

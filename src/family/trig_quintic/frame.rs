@@ -2,8 +2,8 @@
 
 use super::poly::Frame;
 use crate::error::{Error, Result};
-use crate::family::hermite::told;
-use crate::num::Interval;
+use crate::family::hermite::told_angle;
+use crate::num::{Interval, told};
 use crate::num::sines::{cos, sin};
 use std::f64::consts::FRAC_PI_2;
 
@@ -29,7 +29,7 @@ pub(super) fn check(which: usize, value: f64) -> Result<()> {
     if fine {
         return Ok(());
     }
-    let value = if which == 1 { told(value) } else { format!("{value:?}") };
+    let value = if which == 1 { told_angle(value) } else { told(value) };
     Err(Error::Domain(format!("{} is {value}; it must be {domain}", NAMES[which])))
 }
 

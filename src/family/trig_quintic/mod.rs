@@ -106,6 +106,9 @@ impl Family for TrigQuintic {
     fn flags(&self) -> &'static [Flag] {
         FLAGS
     }
+    fn yes(&self) -> &'static [&'static str] {
+        &["SPIRAL"]
+    }
     fn nested(&self) -> &'static [&'static str] {
         &["END_RISES", "SPIRAL"]
     }
@@ -118,7 +121,7 @@ impl Family for TrigQuintic {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::TrigTable::new(grid)?))
     }
-    fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
+    fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;
         let shape = Shape::from(*coordinates(point)?);
         let mut derived =
@@ -131,7 +134,11 @@ impl Family for TrigQuintic {
         Ok(Answer {
             code,
             derived,
-            solutions: vec![vec![("spiral", spiral.into()), ("control_points", curve.points().into())]],
+            solutions: vec![vec![
+                ("spiral", spiral.into()),
+                ("length", curve.length_between(0.0, 1.0).into()),
+                ("control_points", curve.points().into()),
+            ]],
             chosen: spiral.then_some(0),
         })
     }
