@@ -2,7 +2,7 @@
 
 use super::none::{Bound, NoSpiral};
 use super::placement::Ends;
-use super::why::Which;
+use super::turn::Which;
 use super::words::{rounded, short};
 use crate::error::Result;
 use serde::Serialize;

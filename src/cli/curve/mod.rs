@@ -179,8 +179,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
     let longest = args.wish().longest();
     match args.family {
-        Family::Cubic => args.tell(&spiral(&args.ends(&[]))?.no_longer_than(longest)),
-        Family::PhQuintic => args.tell(&ph_spiral(&args.ends(&[]))?.no_longer_than(longest)),
+        Family::Cubic => args.tell(&spiral(&args.ends(&[]))?.no_longer_than(longest).with_remedies()?),
+        Family::PhQuintic => args.tell(&ph_spiral(&args.ends(&[]))?.no_longer_than(longest).with_remedies()?),
         Family::Involute => args.tell(&involute::find(&args.ends(&["--turns"]), args.turns.unwrap_or_default())?),
         Family::ReachCubic => args.tell(&reach::find(Kind::Cubic, &args.segment())?),
         Family::ReachPh => args.tell(&reach::find(Kind::Ph, &args.segment())?),
