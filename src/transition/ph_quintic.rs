@@ -6,7 +6,7 @@ use super::why::{Why, bends, with_text};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
-use crate::family::ph_quintic::{Quintic, solve};
+use crate::family::ph_quintic::{Quintic, SPIRAL, flags, solve};
 use serde::Serialize;
 use std::fmt;
 
@@ -105,7 +105,7 @@ impl PhAnswer {
 
     /// The same with other end curvatures that would do, where there is no PH quintic spiral but one of some other kind.
     ///
-    /// This asks [`solve`] about some hundred other data, so it is left out unless somebody reads it.
+    /// This asks [`flags`] about some hundred other data, so it is left out unless somebody reads it.
     ///
     /// # Errors
     /// Those of [`Placement::normalise`].
@@ -153,8 +153,8 @@ impl PhSolution {
 
 /// Whether a PH quintic spiral joins two ends, proved; no where that is not known.
 fn exists(ends: &Ends) -> bool {
-    let solved = Placement::normalise(ends).and_then(|(datum, _)| solve(&datum));
-    solved.is_ok_and(|solved| solved.chosen_index().is_some())
+    let known = Placement::normalise(ends).and_then(|(datum, _)| flags(&datum));
+    known.is_ok_and(|flags| flags & SPIRAL != 0)
 }
 
 /// Explains a proved "no", in double precision: within rounding of a boundary it may name the neighbouring reason.

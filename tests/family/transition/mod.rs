@@ -4,6 +4,7 @@ mod answers;
 mod ph;
 mod pieces;
 mod placement;
+mod remedies;
 mod segment;
 mod sides;
 
