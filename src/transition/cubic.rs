@@ -2,12 +2,12 @@
 
 use super::piece::{Cubic, Piece, of_legs};
 use super::placement::{Ends, Placement};
-use super::why::Why;
+use super::why::{Waver, Why, with_text};
 use crate::curve::CubicBezier;
 use crate::curve::arc_length;
 use crate::error::{Error, Result};
 use crate::family::cubic::{Datum, Root, solve};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use std::fmt;
 
 /// All that is known of two ends.
@@ -96,7 +96,8 @@ impl Answer {
             Some(root) => Outcome::Chosen(index(roots, root)?),
             None => {
                 let arc = Why::no_convex_arc(ends, &datum, &placement)?;
-                Outcome::Why(arc.map_or_else(|| Why::no_spiral(ends, &datum, &placement, &solutions), Ok)?)
+                let all = || solutions.iter().map(Solution::waver).collect();
+                Outcome::Why(arc.map_or_else(|| Why::no_cubic(ends, &datum, &placement, all()), Ok)?)
             }
         };
         Ok(Answer { ends: *ends, datum, placement, solutions, outcome })
@@ -113,6 +114,19 @@ impl Answer {
         self
     }
 
+    /// The same with other end curvatures that would do, where there is no cubic spiral but one of some other kind.
+    ///
+    /// This asks [`solve`] about some hundred other data, so it is left out unless somebody reads it.
+    ///
+    /// # Errors
+    /// Those of [`Placement::normalise`].
+    pub fn with_remedies(mut self) -> Result<Answer> {
+        if let Outcome::Why(why) = self.outcome {
+            self.outcome = Outcome::Why(why.remedied(&self.ends, exists)?);
+        }
+        Ok(self)
+    }
+
     /// The chosen spiral, if there is one.
     pub fn chosen(&self) -> Option<&Solution> {
         match self.outcome {
@@ -123,7 +137,7 @@ impl Answer {
 }
 
 /// Whether a cubic spiral joins two ends, proved; no where that is not known.
-pub(super) fn exists(ends: &Ends) -> bool {
+fn exists(ends: &Ends) -> bool {
     let solved = Placement::normalise(ends).and_then(|(datum, _)| solve(&datum));
     solved.is_ok_and(|solved| solved.chosen().is_some())
 }
@@ -138,6 +152,10 @@ impl Solution {
     /// The curve as a piece of a path.
     pub fn piece(&self) -> Piece {
         Piece::Cubic(Cubic { points: self.control_points, legs: self.legs })
+    }
+
+    fn waver(&self) -> Waver {
+        Waver { f0: self.f0, f1: self.f1, margin: self.margin, extrema: self.extrema.clone() }
     }
 
     fn new(datum: &Datum, placement: &Placement, root: &Root) -> Result<Solution> {
@@ -156,17 +174,6 @@ impl Solution {
         let extrema = if spiral { Vec::new() } else { local_control_points.curvature_extrema() };
         Ok(Solution { f0, f1, theorem31, spiral, margin, length, control_points, local_control_points, legs, extrema })
     }
-}
-
-/// The reason's numbers and, as `text`, its words.
-pub(super) fn with_text<S: Serializer>(why: &Why, serializer: S) -> Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Told<'a> {
-        text: String,
-        #[serde(flatten)]
-        why: &'a Why,
-    }
-    Told { text: why.to_string(), why }.serialize(serializer)
 }
 
 impl fmt::Display for Answer {

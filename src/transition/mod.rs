@@ -32,6 +32,7 @@ mod remedy;
 pub mod segment;
 mod stations;
 pub mod templates;
+mod turn;
 mod why;
 mod words;
 
@@ -44,4 +45,5 @@ pub use piece::{Arc, At, Cubic, InvoluteBetween, Kind, Line, Piece, TrigPart};
 pub use placement::{Ends, Placement, direction_of};
 pub use remedy::Remedy;
 pub use stations::{Station, stations};
-pub use why::{Turn, Waver, Which, Why};
+pub use turn::{Turn, Which};
+pub use why::{Waver, Why};

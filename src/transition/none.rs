@@ -1,7 +1,7 @@
 //! Why no spiral of any kind joins two ends, and which end curvatures would do, in the user's units.
 
 use super::placement::Ends;
-use super::why::Which;
+use super::turn::Which;
 use super::words::{above, below, degrees};
 use crate::curve::vector::length;
 use crate::error::Result;

@@ -1,14 +1,12 @@
 //! The PH quintic spiral between two given ends, anywhere in the plane.
 
-use super::cubic::with_text;
 use super::none::NoSpiral;
 use super::placement::{Ends, Placement};
-use super::remedy::Remedy;
-use super::why::{Why, bends};
+use super::why::{Why, bends, with_text};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
-use crate::family::ph_quintic::{Quintic, solve};
+use crate::family::ph_quintic::{Quintic, SPIRAL, flags, solve};
 use serde::Serialize;
 use std::fmt;
 
@@ -105,6 +103,19 @@ impl PhAnswer {
         self
     }
 
+    /// The same with other end curvatures that would do, where there is no PH quintic spiral but one of some other kind.
+    ///
+    /// This asks [`flags`] about some hundred other data, so it is left out unless somebody reads it.
+    ///
+    /// # Errors
+    /// Those of [`Placement::normalise`].
+    pub fn with_remedies(mut self) -> Result<PhAnswer> {
+        if let PhOutcome::Why(why) = self.outcome {
+            self.outcome = PhOutcome::Why(why.remedied(&self.ends, exists)?);
+        }
+        Ok(self)
+    }
+
     /// The chosen spiral, if there is one.
     pub fn chosen(&self) -> Option<&PhSolution> {
         match self.outcome {
@@ -142,8 +153,8 @@ impl PhSolution {
 
 /// Whether a PH quintic spiral joins two ends, proved; no where that is not known.
 fn exists(ends: &Ends) -> bool {
-    let solved = Placement::normalise(ends).and_then(|(datum, _)| solve(&datum));
-    solved.is_ok_and(|solved| solved.chosen_index().is_some())
+    let known = Placement::normalise(ends).and_then(|(datum, _)| flags(&datum));
+    known.is_ok_and(|flags| flags & SPIRAL != 0)
 }
 
 /// Explains a proved "no", in double precision: within rounding of a boundary it may name the neighbouring reason.
@@ -154,7 +165,7 @@ fn why(ends: &Ends, placement: &Placement, solutions: &[PhSolution]) -> Result<W
     if let Some((which, curvature)) = bends(ends, placement).find(|(_, curvature)| *curvature != 0.0) {
         return Ok(Why::Inflection { which, curvature, turn: placement.turn() });
     }
-    let remedies = Remedy::nearest(ends, exists)?;
+    let remedies = Vec::new();
     if solutions.is_empty() {
         return Ok(Why::NoPhQuintic { remedies });
     }

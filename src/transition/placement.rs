@@ -1,6 +1,6 @@
 //! From user data anywhere in the plane to the normalised frame, and back.
 
-use super::why::Turn;
+use super::turn::Turn;
 use crate::curve::CubicBezier;
 use crate::curve::PhQuintic;
 use crate::curve::quintic::complex;

@@ -1,35 +1,15 @@
 //! Why two ends have no spiral, with numbers.
 
-use super::cubic::Solution;
 use super::none::NoSpiral;
 use super::placement::{Ends, Placement};
 use super::remedy::{Remedy, told};
+use super::turn::{Turn, Which};
 use super::words::degrees;
 use crate::error::Result;
 use crate::family::cubic::Datum;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::f64::consts::PI;
 use std::fmt;
-
-/// One of the user's two ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Which {
-    /// Where the curve starts.
-    Start,
-    /// Where it ends.
-    End,
-}
-
-/// The side to which the user's curve turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Turn {
-    /// Counter-clockwise, positive curvature.
-    Left,
-    /// Clockwise, negative curvature.
-    Right,
-}
 
 /// The first condition that fails; those further down assume the ones above. Angles and curvatures are the user's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -72,26 +52,26 @@ pub enum Why {
         /// The discriminant `768a²k² - 256ak(a+k) + 96ak - 1` over `max(1,a)² max(1,k)²`: D of (A.4) but for a positive factor, to double
         /// precision. (A.9) asks that it is not negative.
         discriminant: f64,
-        /// What would help.
+        /// What would help; empty unless asked for.
         remedies: Vec<Remedy>,
     },
     /// Cubics with these ends exist, but the curvature of none is monotone.
     NotMonotone {
         /// All of them.
         roots: Vec<Waver>,
-        /// What would help.
+        /// What would help; empty unless asked for.
         remedies: Vec<Remedy>,
     },
     /// A spiral of some kind exists, but no PH quintic with A, B > 0.
     NoPhQuintic {
-        /// What would help.
+        /// What would help; empty unless asked for.
         remedies: Vec<Remedy>,
     },
     /// PH quintics with these ends exist, but the curvature of none is monotone.
     NoPhSpiral {
         /// Their margins, negative.
         margins: Vec<f64>,
-        /// What would help.
+        /// What would help; empty unless asked for.
         remedies: Vec<Remedy>,
     },
     /// Spirals exist, but all are longer than was asked for.
@@ -137,8 +117,9 @@ impl Why {
         Ok(Some(NoSpiral::of(ends)?.map_or(arc, Why::NoSpiralOfAnyKind)))
     }
 
-    /// Explains a proved "no". In double precision, so within rounding of a boundary it may name the neighbouring reason.
-    pub(super) fn no_spiral(ends: &Ends, datum: &Datum, placement: &Placement, solutions: &[Solution]) -> Result<Why> {
+    /// Explains a proved "no" of cubics, all of which are given. In double precision, so within rounding of a boundary it may name the
+    /// neighbouring reason.
+    pub(super) fn no_cubic(ends: &Ends, datum: &Datum, placement: &Placement, roots: Vec<Waver>) -> Result<Why> {
         if let Some(none) = NoSpiral::of(ends)? {
             return Ok(Why::NoSpiralOfAnyKind(none));
         }
@@ -146,18 +127,19 @@ impl Why {
             let turn = placement.turn();
             return Ok(if curvature == 0.0 { Why::Straight { which } } else { Why::Inflection { which, curvature, turn } });
         }
-        let found = |ends: &Ends| super::cubic::exists(ends);
-        let remedies = Remedy::nearest(ends, found)?;
-        if solutions.is_empty() {
-            return Ok(no_root(datum, remedies));
-        }
-        Ok(Why::NotMonotone { roots: solutions.iter().map(Waver::from).collect(), remedies })
+        Ok(if roots.is_empty() { no_root(datum) } else { Why::NotMonotone { roots, remedies: Vec::new() } })
     }
-}
 
-impl From<&Solution> for Waver {
-    fn from(s: &Solution) -> Waver {
-        Waver { f0: s.f0, f1: s.f1, margin: s.margin, extrema: s.extrema.clone() }
+    /// With other curvatures that would do, for a reason that has a place for them; see [`Remedy::nearest`].
+    pub(super) fn remedied(mut self, ends: &Ends, exists: impl Fn(&Ends) -> bool) -> Result<Why> {
+        if let Why::NoRoot { remedies, .. }
+        | Why::NotMonotone { remedies, .. }
+        | Why::NoPhQuintic { remedies }
+        | Why::NoPhSpiral { remedies, .. } = &mut self
+        {
+            *remedies = Remedy::nearest(ends, exists)?;
+        }
+        Ok(self)
     }
 }
 
@@ -171,7 +153,7 @@ pub(super) fn bends(ends: &Ends, placement: &Placement) -> impl Iterator<Item = 
 
 /// The discriminant in the angle-free coordinates, each term divided by the largest it can be, so that none overflows; D of (A.4) is
 /// `27 / (k⁴ a⁸)` times it.
-fn no_root(datum: &Datum, remedies: Vec<Remedy>) -> Why {
+fn no_root(datum: &Datum) -> Why {
     // Where d is very long, at tangents that all but run against each other, they may leave the range of doubles.
     let (a, k) = datum.normalised();
     let (a, k) = (a.min(f64::MAX), k.min(f64::MAX));
@@ -179,19 +161,7 @@ fn no_root(datum: &Datum, remedies: Vec<Remedy>) -> Why {
     let (x, y) = (a / over, k / under);
     let discriminant = 768.0 * (x * y) * (x * y) - 256.0 * x * y * (x / under + y / over) + 96.0 * x / under * y / over
         - 1.0 / over / over / under / under;
-    Why::NoRoot { a, k, discriminant, remedies }
-}
-
-impl fmt::Display for Which {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(if *self == Which::Start { "start" } else { "end" })
-    }
-}
-
-impl fmt::Display for Turn {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(if *self == Turn::Left { "left" } else { "right" })
-    }
+    Why::NoRoot { a, k, discriminant, remedies: Vec::new() }
 }
 
 impl fmt::Display for Why {
@@ -263,4 +233,15 @@ impl fmt::Display for Waver {
             }
         }
     }
+}
+
+/// The reason's numbers and, as `text`, its words.
+pub(super) fn with_text<S: Serializer>(why: &Why, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Told<'a> {
+        text: String,
+        #[serde(flatten)]
+        why: &'a Why,
+    }
+    Told { text: why.to_string(), why }.serialize(serializer)
 }

@@ -38,8 +38,8 @@ const SAMPLES: usize = 801;
 /// Exit status: 0 when there is such a spiral, 1 when there is none, 2 for an error. A no comes with the condition that fails, in your
 /// units, and with the other families that have a spiral there.
 ///
-/// With --points, one line of JSON for each row, in order, as of --json; a bad row gives {"line":..,"error":".."}. The exit status is 0 when
-/// every row was answered, whatever the answers, and 2 when one was bad.
+/// With --points, one line of JSON for each row, in order, as of --json but without advice (no other families or curvatures are tried); a
+/// bad row gives {"line":..,"error":".."}. The exit status is 0 when every row was answered, whatever the answers, and 2 when one was bad.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  spiral-atlas curve --from 0,0 --to 200,0 --start-direction -40deg --end-direction 80deg \\\n      \
@@ -179,8 +179,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
     let longest = args.wish().longest();
     match args.family {
-        Family::Cubic => args.tell(&spiral(&args.ends(&[]))?.no_longer_than(longest)),
-        Family::PhQuintic => args.tell(&ph_spiral(&args.ends(&[]))?.no_longer_than(longest)),
+        Family::Cubic => args.tell(&spiral(&args.ends(&[]))?.no_longer_than(longest).with_remedies()?),
+        Family::PhQuintic => args.tell(&ph_spiral(&args.ends(&[]))?.no_longer_than(longest).with_remedies()?),
         Family::Involute => args.tell(&involute::find(&args.ends(&["--turns"]), args.turns.unwrap_or_default())?),
         Family::ReachCubic => args.tell(&reach::find(Kind::Cubic, &args.segment())?),
         Family::ReachPh => args.tell(&reach::find(Kind::Ph, &args.segment())?),
@@ -211,7 +211,7 @@ impl Args {
     }
 
     fn wish(&self) -> Wish {
-        Wish { family: self.family, longest: self.longest, samples: self.samples }
+        Wish { family: self.family, longest: self.longest, samples: self.samples, advice: self.points.is_none() }
     }
 
     /// Every option with a value of its own that not all families know, and whether it is given.

@@ -63,6 +63,8 @@ pub struct Wish {
     pub family: Family,
     pub longest: Option<f64>,
     pub samples: Option<u32>,
+    /// Whether a no comes with advice. In a batch it does not: asking every other family costs far more than the answer.
+    pub advice: bool,
 }
 
 impl Wish {
@@ -96,7 +98,8 @@ impl<'f, F: Found> Told<'f, F> {
                  unit of length)"
             )));
         }
-        let families = if reason.is_some() { found.ends().map(|ends| others(ends, wish)) } else { None };
+        let unsure = found.ends().filter(|_| wish.advice && reason.is_some());
+        let families = unsure.map(|ends| others(ends, wish));
         let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| stations(&path.pieces, n as usize)));
         Ok(Told { found, paths, reason, families, samples: samples.transpose()? })
     }

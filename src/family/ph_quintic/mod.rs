@@ -21,7 +21,7 @@ mod table;
 mod truth;
 
 pub use super::cubic::Datum;
-pub use solve::{Quintic, Solutions, solve};
+pub use solve::{Quintic, Solutions, flags, solve};
 
 use super::{Answer, Chart, Count, Family, Flag, Scalar, Table, coordinates};
 use crate::error::Result;

@@ -80,6 +80,20 @@ pub fn solve(datum: &Datum) -> Result<Solutions> {
     climb(datum, "a solution", |bits| described(datum, &*Pair::cached(phi0, phi1, bits)?)).map(|(solutions, _)| solutions)
 }
 
+/// The flags of one datum, as of [`Solutions::flags`], without its curves: several hundred times cheaper than [`solve`] where there is no spiral.
+///
+/// # Errors
+/// Those of [`solve`].
+pub fn flags(datum: &Datum) -> Result<u8> {
+    let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
+    check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
+    let kappa = [kappa0, kappa1];
+    if let Some(code) = Pair::<Ball>::new(phi0, phi1).and_then(|pair| truth::verdict(&pair, kappa)) {
+        return Ok(code.flags());
+    }
+    climb(datum, "a verdict", |bits| truth::verdict(&*Pair::cached(phi0, phi1, bits)?, kappa)).map(|(code, _)| code.flags())
+}
+
 /// All numbers as accurate as [`solve`] promises, or `None`.
 fn described<N: Real + Margin>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
     let truth = truth::solve(pair, [datum.kappa0, datum.kappa1])?;

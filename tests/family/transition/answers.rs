@@ -5,7 +5,7 @@ use serde::Deserialize;
 use spiral_atlas::curve::CubicBezier;
 use spiral_atlas::family::any_spiral::least_end_curvature;
 use spiral_atlas::family::cubic::Root;
-use spiral_atlas::transition::{Answer, Ends, Figure, Outcome, Placement, Turn, Which, Why, spiral};
+use spiral_atlas::transition::{Answer, Bound, Ends, Figure, NoSpiral, Outcome, Placement, Turn, Which, Why, spiral};
 use std::f64::consts::{PI, TAU};
 
 /// Section 4 of the paper: φ0, φ1, κ0, κ1, and the root, found with 40 digits.
@@ -166,17 +166,28 @@ fn reasons_agree_with_the_reference() {
         let name = match (&found.outcome, point.kneser) {
             (Outcome::Chosen(_), true) => "spiral",
             (Outcome::Why(Why::NoRoot { .. }), true) if roots.is_empty() => "no root",
-            (Outcome::Why(Why::NotMonotone { roots: all }), true) => {
+            (Outcome::Why(Why::NotMonotone { roots: all, .. }), true) => {
                 assert!(all.len() == roots.len() && all.iter().all(|r| !r.extrema.is_empty() && r.margin < 0.0));
                 "not monotone"
             }
-            (Outcome::Why(Why::AnglesOrder { .. }), false) => "angles",
-            (Outcome::Why(Why::StartTooSharp { .. }), false) => "start",
-            (Outcome::Why(Why::NotNested { bound, kappa1 }), false) => {
-                assert_eq!(Some(*bound), least_end_curvature(point.phi0, point.phi1, point.kappa0));
-                assert!(kappa1 <= bound);
-                "nested"
-            }
+            (Outcome::Why(Why::NoSpiralOfAnyKind(none)), false) => match none {
+                NoSpiral::EqualCurvatures { .. } => "equal",
+                NoSpiral::WrongSide { .. } => "angles",
+                NoSpiral::CirclesCross { needs, alone } => {
+                    let least = least_end_curvature(point.phi0, point.phi1, point.kappa0);
+                    let end = needs.iter().find(|need| need.which == Which::End);
+                    // Where the start is too sharp, the end cannot help, at least not alone.
+                    assert_eq!(*alone && end.is_some(), least.is_some(), "{needs:?}");
+                    let Some((end, Bound::Above(bound))) = end.map(|end| (end, end.bound)) else { continue };
+                    assert!(end.curvature == point.kappa1 && end.curvature <= bound);
+                    // Both round sin φ1 and the fraction beside it, a few ulp of the larger.
+                    assert!(
+                        least.is_none_or(|least| (least - bound).abs() <= 8.0 * EPS * least.abs().max(1.0)),
+                        "{least:?} {bound}"
+                    );
+                    if *alone { "nested" } else { "both" }
+                }
+            },
             (outcome, kneser) => panic!("{outcome:?}, nested circles {kneser}"),
         };
         *seen.entry(name).or_insert(0) += 1;
@@ -197,31 +208,34 @@ fn reasons_name_the_condition_with_its_numbers() {
         assert!(parts.iter().all(|part| text.contains(part)), "{text}");
         reason
     };
-    says(with(|e| e.start_direction = 0.25), &["0.25 rad", "1.4 rad", "opposite sides"]);
-    says(with(|e| e.end_direction = 0.0), &["-0.7 rad", "0.0 rad", "opposite sides"]);
-    says(with(|e| e.end_direction = 2.5), &["3.2", "below pi"]);
+    says(with(|e| (e.start_direction, e.start_curvature) = (0.25, -1.0)), &["14.3239°", "80.2141°", "opposite sides"]);
+    says(with(|e| e.end_direction = 0.0), &["-40.107°", "0°", "the curvature rises", "above 0, and it is -40.107°"]);
+    says(with(|e| e.end_direction = 2.5), &["turn by 183.346° in all", "below 180°"]);
     let straight = says(with(|e| e.start_curvature = 0.0), &["start curvature is 0"]);
     assert_eq!(straight, Why::Straight { which: Which::Start });
-    let bent = says(mirrored(&with(|e| e.end_curvature = -2.0)), &["end curvature 2.0 is to the left", "turn right"]);
-    assert_eq!(bent, Why::Inflection { which: Which::End, curvature: 2.0, turn: Turn::Right });
-    says(with(|e| e.end_curvature = 0.4), &["kappa0 = kappa1 = 0.4"]);
-    says(with(|e| e.start_direction = -1.5), &["phi0 >= phi1: 1.5 >= 1.4", "no spiral of increasing curvature"]);
-    says(with(|e| e.start_curvature = 0.65), &["kappa0 = 0.65 must be below sin(phi0) = 0.644217"]);
-    says(with(|e| e.end_curvature = 1.2), &["kappa1 = 1.2 must exceed 1.46690", "sin^2((phi1-phi0)/2)"]);
-    let far = says(
-        ends_of([0.179064, 0.792727, 0.0231982, 32.2928]),
-        &["no root (f0, f1) in (0, 3)^2", "discriminant D = ", "k > 1/3"],
+    let bent = says(
+        mirrored(&with(|e| e.start_curvature = -2.0)),
+        &["start curvature 2.0 is to the left", "turn right", "must be below 0"],
     );
-    let Why::NoRoot { a, k, discriminant } = far else { panic!("{far:?}") };
+    assert_eq!(bent, Why::Inflection { which: Which::Start, curvature: 2.0, turn: Turn::Right });
+    says(with(|e| e.end_curvature = 0.4), &["the curvature is 0.4 at both ends", "neither rise nor fall"]);
+    says(
+        with(|e| e.start_direction = -1.5),
+        &["the start direction is -85.9437° and the end direction 80.2141°", "above 0, and it is -5.72958°"],
+    );
+    says(with(|e| e.start_curvature = 0.65), &["circles of curvature", "the start curvature 0.65 must be below 0.60501"]);
+    says(with(|e| e.end_curvature = 1.2), &["the end curvature 1.2 must be above 1.4669"]);
+    let far = says(ends_of([0.179064, 0.792727, 0.0231982, 32.2928]), &["no root of 3 - f1 = a f0^2", "the discriminant is "]);
+    let Why::NoRoot { a, k, discriminant, .. } = far else { panic!("{far:?}") };
     // (A.3) at a maximum of F: no real root between 0 and 3 leaves F of one sign there.
     let sign = |x: f64| 3.0 - x - k * (3.0 - a * x * x).powi(2) > 0.0;
     assert!((0..3000).all(|i| sign(f64::from(i) / 1000.0) == sign(0.0)) && discriminant.is_finite());
     // Some spiral exists, and one cubic, which wavers.
     let wavy = says(
         with(|e| e.end_curvature = 2.2),
-        &["root (", "loses monotone curvature: margin -0.1", "curvature extrem", "at t = 0."],
+        &["the only cubic that has these ends is not monotone (root (", "margin -0.1", "curvature extrem", "at t = 0."],
     );
-    let Why::NotMonotone { roots } = wavy else { panic!("{wavy:?}") };
+    let Why::NotMonotone { roots, .. } = wavy else { panic!("{wavy:?}") };
     assert!(!roots.is_empty());
 }
 
@@ -229,7 +243,7 @@ fn reasons_name_the_condition_with_its_numbers() {
 fn the_reason_turns_with_the_data() {
     let plain = Ends { end_curvature: 2.2, ..ends_of(EXAMPLES[0].0) };
     let times = |ends: &Ends| match why(ends) {
-        Why::NotMonotone { roots } => roots[0].extrema.clone(),
+        Why::NotMonotone { roots, .. } => roots[0].extrema.clone(),
         other => panic!("{other}"),
     };
     let (forth, back) = (times(&plain), times(&backwards(&plain)));
@@ -292,9 +306,11 @@ fn answers_are_told_in_json() {
     assert!(yes.get("why").is_none());
     let no = json(&Ends { end_curvature: 1.2, ..ends_of(EXAMPLES[0].0) });
     assert!(no.get("chosen").is_none());
-    assert_eq!(no["why"]["condition"], "not-nested");
-    assert_eq!(no["why"]["kappa1"], 1.2);
-    assert!(no["why"]["text"].as_str().unwrap().contains("must exceed 1.4669"));
+    assert_eq!((&no["why"]["condition"], &no["why"]["cause"]), (&"no-spiral-of-any-kind".into(), &"circles-cross".into()));
+    let need = &no["why"]["needs"][0];
+    assert_eq!((&need["which"], &need["curvature"]), (&"end".into(), &1.2.into()));
+    assert!((need["above"].as_f64().unwrap() - 1.466_901).abs() < 1e-6, "{need}");
+    assert!(no["why"]["text"].as_str().unwrap().contains("must be above 1.4669"));
 }
 
 /// With the proved solver in place of this file's own.

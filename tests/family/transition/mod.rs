@@ -5,6 +5,7 @@ mod half_turns;
 mod ph;
 mod pieces;
 mod placement;
+mod remedies;
 mod segment;
 mod sides;
 
