@@ -3,6 +3,7 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
 use spiral_atlas::files::size;
+pub use spiral_atlas::picture::{angle, grouped};
 use spiral_atlas::{Error, Result};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -53,27 +54,6 @@ pub fn progress(what: String, nodes: u64) -> ProgressBar {
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())).with_message(what)
 }
 
-/// A number with its digits in groups of three.
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let breaks = |i: usize| i > 0 && (digits.len() - i).is_multiple_of(3);
-    digits.chars().enumerate().flat_map(|(i, c)| breaks(i).then_some(',').into_iter().chain([c])).collect()
-}
-
-/// A number with at most four decimals.
-pub fn short(x: f64) -> String {
-    let text = format!("{x:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".into() } else { text.replace('-', "−") }
-}
-
-/// An angle in degrees when it was written so, that is when these have at most three decimals; else in radians.
-pub fn angle(x: f64) -> String {
-    let degrees = x.to_degrees();
-    let whole = (degrees * 1000.0).round() / 1000.0;
-    if (degrees - whole).abs() < 1e-10 { short(whole) + "°" } else { short(x) }
-}
-
 /// A JSON object whose keys keep their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object<K, V>(pub Vec<(K, V)>);
@@ -121,17 +101,6 @@ pub fn make_folder(path: &Path) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_readable() {
-        assert_eq!([0, 999, 1000, 1234567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
-    }
-
-    #[test]
-    fn angles_are_told_as_they_were_written() {
-        assert_eq!([45f64, -15.5, 0.0, 89.001].map(|x| angle(x.to_radians())), ["45°", "−15.5°", "0°", "89.001°"]);
-        assert_eq!([0.7, -1.4, 1e-5].map(angle), ["0.7", "−1.4", "0"]);
-    }
 
     #[test]
     fn objects_keep_their_order() {
