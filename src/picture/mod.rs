@@ -10,9 +10,12 @@ use crate::eval::{Backend, Job, evaluate};
 use crate::family::{self, Family, Flag};
 use crate::grid::{Axis, Grid, Spacing};
 use crate::plot::{self, AxisView, Mark, Multiples, Region, Sheet, Slice};
-use crate::recipe::{Levels, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE, is_angle};
+use crate::recipe::{self, Levels, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE, is_angle};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+
+// What a recipe may ask for can be drawn: the two rooms do not know each other.
+const _: () = assert!(plot::DPI == recipe::DPI && plot::MAX_PIXELS == recipe::MAX_PIXELS);
 
 /// Height of the heading above slices of unlike regions, in pixels at the usual resolution.
 const HEAD: u32 = 40;
