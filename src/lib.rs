@@ -13,6 +13,8 @@ mod noise;
 pub mod num;
 pub mod path;
 #[cfg(feature = "cli")]
+pub mod picture;
+#[cfg(feature = "cli")]
 pub mod plot;
 #[cfg(feature = "recipe")]
 pub mod recipe;

@@ -3,7 +3,7 @@
 use super::backend::{self, BackendArgs};
 use super::output::{self, Product, grouped};
 use super::verify::{self, Compared};
-use super::{Outcome, render};
+use super::{Outcome, draw};
 use spiral_atlas::Result;
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, Report, evaluate};
@@ -69,7 +69,7 @@ struct ReportFile<'a> {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
     let (recipe, backend) = (Recipe::read(&args.recipe)?, args.backend.one()?);
-    render::check(&args.recipe, &recipe, &args.out)?;
+    draw::check(&args.recipe, &recipe, &args.out)?;
     for plan in &recipe.atlases {
         files::check_place(&atlas_path(&args.out, &plan.name))?;
         files::check_place(&report_path(&args.out, &plan.name))?;
@@ -92,7 +92,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         all.push(made);
         atlases.push(atlas);
     }
-    let together = render::together(&args.recipe, &recipe, &atlases, &args.out)?;
+    let together = draw::together(&args.recipe, &recipe, &atlases, &args.out)?;
     if args.json {
         output::print_json(&serde_json::json!({ "atlases": all, "together": together }))?;
     } else if let Some(picture) = together {
@@ -167,7 +167,7 @@ fn finish(args: &Args, plan: &AtlasPlan, atlas: &Atlas, report: Report, checkers
     let text = output::to_json(&ReportFile { atlas: &plan.name, id: &id, report: &report, check: &check })? + "\n";
     write_file(&beside, text.as_bytes())?;
     let mut files = vec![Product::of(atlas.path())?, Product::of(&beside)?];
-    files.extend(render::one(atlas, &plan.pictures, &args.out)?);
+    files.extend(draw::one(atlas, &plan.pictures, &args.out)?);
     Ok(Made { atlas: plan.name.clone(), id, report, check, files })
 }
 

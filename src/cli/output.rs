@@ -3,6 +3,7 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
 use spiral_atlas::files::size;
+pub use spiral_atlas::picture::{angle, grouped};
 use spiral_atlas::{Error, Result};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -53,33 +54,6 @@ pub fn progress(what: String, nodes: u64) -> ProgressBar {
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())).with_message(what)
 }
 
-/// A number with its digits in groups of three.
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let breaks = |i: usize| i > 0 && (digits.len() - i).is_multiple_of(3);
-    digits.chars().enumerate().flat_map(|(i, c)| breaks(i).then_some(',').into_iter().chain([c])).collect()
-}
-
-/// A number with at most four decimals, or of four digits in scientific form where decimals would say nothing or fill lines.
-pub fn short(x: f64) -> String {
-    let size = x.abs();
-    let text = if size >= 1e15 || size < 1e-4 { format!("{x:.3e}") } else { format!("{x:.4}") };
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, ""));
-    let digits = digits.trim_end_matches('0').trim_end_matches('.');
-    match exponent {
-        _ if x == 0.0 => "0".into(),
-        "" => digits.replace('-', "−"),
-        exponent => format!("{digits}e{exponent}").replace('-', "−"),
-    }
-}
-
-/// An angle in degrees when it was written so, that is when these have at most three decimals; else in radians.
-pub fn angle(x: f64) -> String {
-    let degrees = x.to_degrees();
-    let whole = (degrees * 1000.0).round() / 1000.0;
-    if (degrees - whole).abs() < 1e-10 && (whole != 0.0 || x == 0.0) { short(whole) + "°" } else { short(x) }
-}
-
 /// A JSON object whose keys keep their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object<K, V>(pub Vec<(K, V)>);
@@ -127,18 +101,6 @@ pub fn make_folder(path: &Path) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_readable() {
-        assert_eq!([0, 999, 1000, 1234567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
-    }
-
-    #[test]
-    fn angles_are_told_as_they_were_written() {
-        assert_eq!([45f64, -15.5, 0.0, 89.001].map(|x| angle(x.to_radians())), ["45°", "−15.5°", "0°", "89.001°"]);
-        assert_eq!([0.7, -1.4, 1.25e-5, 5e-324].map(angle), ["0.7", "−1.4", "1.25e−5", "4.941e−324"]);
-        assert_eq!([0.0, 5e-324, -1e300, 1e-310].map(short), ["0", "4.941e−324", "−1e300", "1e−310"]);
-    }
 
     #[test]
     fn objects_keep_their_order() {

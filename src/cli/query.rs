@@ -2,12 +2,12 @@
 
 use super::datum::{Coordinates, Datum, from_cells, parse_family};
 use super::output::{self, Object};
-use super::{Outcome, pictures, points};
+use super::{Outcome, points};
 use serde::Serialize;
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::family::cubic::Cubic;
 use spiral_atlas::family::{self, Family, NO_VALUE, Value};
-use spiral_atlas::{Error, Result};
+use spiral_atlas::{Error, Result, picture};
 use std::path::PathBuf;
 
 /// Answer exactly for one datum, or for a table of them.
@@ -48,7 +48,7 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
     let atlas = args.atlas.as_ref().map(Atlas::open).transpose()?;
-    let told = atlas.as_ref().map(pictures::of).transpose()?;
+    let told = atlas.as_ref().map(picture::of).transpose()?;
     let family = args.family.or(told).unwrap_or(&Cubic);
     if let (Some(atlas), Some(told)) = (&atlas, told)
         && told.name() != family.name()

@@ -1,14 +1,14 @@
 //! `verify`: recompute an atlas with every backend there is, and compare every byte.
 
+use super::Outcome;
 use super::backend::{self, BackendArgs};
 use super::output::{self, grouped};
-use super::{Outcome, pictures};
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::eval::agree::{self, Agreement, Stored};
 use spiral_atlas::eval::{Backend, Job};
 use spiral_atlas::family::Family;
 use spiral_atlas::recipe::Recipe;
-use spiral_atlas::{Error, Result};
+use spiral_atlas::{Error, Result, picture};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
@@ -64,7 +64,7 @@ struct Verified {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
     let atlas = Atlas::open(&args.atlas)?;
-    let family = pictures::of(&atlas)?;
+    let family = picture::of(&atlas)?;
     let scalars = scalars(&atlas, family)?;
     let job = Job { family, grid: atlas.grid(), scalars: &scalars };
     let (stored, (backends, no_gpu)) = (stored(&atlas)?, args.backend.all(args.require_adapter)?);

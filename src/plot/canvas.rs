@@ -3,11 +3,15 @@
 
 use super::palette::{Color, INK, WHITE};
 use crate::error::{Error, Result};
-use crate::recipe::{DPI, MAX_PIXELS};
 use ab_glyph::{Font, FontRef, Glyph, GlyphId, PxScale, ScaleFont, point};
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter, PixelDimensions, Unit};
 
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+
+/// Pixels per inch of a sheet that tells only its size.
+pub const DPI: u32 = 96;
+/// Most pixels of a sheet.
+pub const MAX_PIXELS: u64 = 1 << 25;
 
 pub(super) type Point = [f64; 2];
 

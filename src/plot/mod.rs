@@ -13,7 +13,7 @@ mod paths;
 mod scale;
 mod slice;
 
-pub use canvas::Sheet;
+pub use canvas::{DPI, MAX_PIXELS, Sheet};
 pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
 pub use multiples::{Multiples, multiples_png};
 pub use palette::region_colors;

@@ -1,7 +1,6 @@
 //! How a picture looks, whatever it shows: its heading, size and resolution.
 
-use super::raw::Fault;
-use serde::Deserialize;
+use super::raw::{Fault, Pixels};
 use toml::Spanned;
 
 /// Pixels per inch of a picture whose recipe does not choose them.
@@ -42,20 +41,6 @@ impl Look {
         let scaled = |at_96: u32| (f64::from(at_96) * f64::from(self.dpi) / f64::from(DPI)).round() as u32;
         let (width, height) = self.size.unwrap_or(usual);
         (scaled(width), scaled(height))
-    }
-}
-
-/// A number of pixels.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(untagged, expecting = "expected a whole number that is not negative")]
-pub(super) enum Pixels {
-    Whole(u32),
-}
-
-impl Pixels {
-    fn count(self) -> u32 {
-        let Pixels::Whole(count) = self;
-        count
     }
 }
 

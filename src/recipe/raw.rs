@@ -1,6 +1,5 @@
 //! A recipe as TOML has it, before anything is looked up.
 
-use super::look::Pixels;
 use crate::error::{Error, Result};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -80,6 +79,20 @@ pub(super) struct RawPicture {
     pub title: Option<String>,
     pub size: Option<Spanned<Vec<Pixels>>>,
     pub dpi: Option<Spanned<Pixels>>,
+}
+
+/// A number of pixels.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(untagged, expecting = "expected a whole number that is not negative")]
+pub(super) enum Pixels {
+    Whole(u32),
+}
+
+impl Pixels {
+    pub fn count(self) -> u32 {
+        let Pixels::Whole(count) = self;
+        count
+    }
 }
 
 /// A number, or a text that may be an angle.

@@ -131,6 +131,8 @@ fn read(path: &Path) -> Source {
             };
             match local {
                 Some(path) if word == "use " => imports.push(path),
+                // A macro, which a file exports by its own name, leads no further.
+                Some(path) if path[..path.len() - 1] == module => {}
                 Some(path) => {
                     exports.insert(name.trim().to_owned(), path);
                 }

@@ -1,15 +1,21 @@
-//! Pictures of an atlas: from a plan of its recipe to the plain data that [`spiral_atlas::plot`] draws.
+//! Pictures of an atlas: from a plan of its recipe to the plain data that [`crate::plot`] draws.
 
-use super::output::{angle, grouped, short};
-use spiral_atlas::atlas::Atlas;
-use spiral_atlas::eval::{Backend, Job, evaluate};
-use spiral_atlas::family::{Family, Flag};
-use spiral_atlas::grid::{Axis, Grid, Spacing};
-use spiral_atlas::plot::{self, AxisView, Mark, Multiples, Region, Sheet, Slice};
-use spiral_atlas::recipe::{Levels, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE, is_angle};
-use spiral_atlas::{Error, Result, family};
+mod words;
+
+pub use words::{angle, grouped, short};
+
+use crate::atlas::Atlas;
+use crate::error::{Error, Result};
+use crate::eval::{Backend, Job, evaluate};
+use crate::family::{self, Family, Flag};
+use crate::grid::{Axis, Grid, Spacing};
+use crate::plot::{self, AxisView, Mark, Multiples, Region, Sheet, Slice};
+use crate::recipe::{self, Levels, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE, is_angle};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+
+// What a recipe may ask for can be drawn: the two rooms do not know each other.
+const _: () = assert!(plot::DPI == recipe::DPI && plot::MAX_PIXELS == recipe::MAX_PIXELS);
 
 /// Height of the heading above slices of unlike regions, in pixels at the usual resolution.
 const HEAD: u32 = 40;
@@ -318,7 +324,7 @@ mod tests {
 
     /// An atlas of `any-spiral` whose outer axes have two and three nodes, and one plan.
     fn atlas_and_plan(folder: &Path, picture: &str) -> (Atlas, PicturePlan) {
-        use spiral_atlas::atlas::{Spec, Writer};
+        use crate::atlas::{Spec, Writer};
         let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = { values = [1, 2] }";
         let text =
             format!("family = \"any-spiral\"\n[[atlas]]\nname = \"a\"\n[atlas.axes]\n{axes}\n[[atlas.picture]]\n{picture}");

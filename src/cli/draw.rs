@@ -1,0 +1,72 @@
+//! The picture files of a recipe and its atlases, for all commands that draw.
+
+use super::output::Product;
+use spiral_atlas::atlas::Atlas;
+use spiral_atlas::files::{check_place, write_file};
+use spiral_atlas::recipe::{AtlasPlan, PictureKind, PicturePlan, Recipe};
+use spiral_atlas::{Error, Result, picture};
+use std::path::{Path, PathBuf};
+
+/// Draws an atlas's pictures into a folder.
+pub fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
+    let files = picture::files(folder, &atlas.about().name, plans.len());
+    let draw = |(plan, file): (&PicturePlan, PathBuf)| {
+        write_file(&file, &picture::draw(atlas, plan)?)?;
+        Product::of(&file)
+    };
+    plans.iter().zip(files).map(draw).collect()
+}
+
+fn first_slice(pictures: &[PicturePlan]) -> Option<&PicturePlan> {
+    pictures.iter().find(|p| matches!(p.kind, PictureKind::Slice | PictureKind::Compare { .. }))
+}
+
+/// Draws the first planned slices or comparisons of several atlases side by side; `None` when there are not several.
+pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
+    let planned = atlases.iter().zip(&recipe.atlases).filter_map(|(atlas, plan)| Some((atlas, first_slice(&plan.pictures)?)));
+    let slices = planned.map(|(atlas, plan)| picture::slice(atlas, plan)).collect::<Result<Vec<_>>>()?;
+    if slices.len() < 2 {
+        return Ok(None);
+    }
+    let (stem, file) = (stem(source), together_path(source, folder));
+    write_file(&file, &picture::side_by_side(&stem, &recipe.look, slices)?)?;
+    Product::of(&file).map(Some)
+}
+
+/// Makes sure, before any work, that every grid lies in the family's domain, no two pictures of a recipe have one name, and nothing
+/// but files has these names.
+///
+/// # Errors
+/// Those of [`spiral_atlas::family::Family::table`], [`Error::Recipe`] that names the file, and [`Error::Io`].
+pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
+    for plan in &recipe.atlases {
+        plan.family.table(&plan.grid).map_err(|e| match e {
+            Error::Domain(what) => Error::Recipe(format!("{}, atlas `{}`: {what}", source.display(), plan.name)),
+            other => other,
+        })?;
+    }
+    let mut files: Vec<PathBuf> = Vec::new();
+    for plan in &recipe.atlases {
+        files.extend(picture::files(folder, &plan.name, plan.pictures.len()));
+    }
+    let sliced = |plan: &&AtlasPlan| first_slice(&plan.pictures).is_some();
+    if recipe.atlases.iter().filter(sliced).count() > 1 {
+        files.push(together_path(source, folder));
+    }
+    files.sort();
+    match files.windows(2).find(|pair| pair[0] == pair[1]) {
+        None => files.iter().try_for_each(|file| check_place(file)),
+        Some(pair) => Err(Error::Recipe(format!(
+            "two pictures would be {}; rename an atlas, or the recipe itself (slices side by side bear its name)",
+            pair[0].display()
+        ))),
+    }
+}
+
+fn together_path(recipe: &Path, folder: &Path) -> PathBuf {
+    folder.join(stem(recipe) + ".png")
+}
+
+fn stem(recipe: &Path) -> String {
+    recipe.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
