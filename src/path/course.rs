@@ -54,7 +54,8 @@ impl Course {
     /// Of pieces in order.
     ///
     /// # Errors
-    /// [`Error::Domain`] without a piece, for a length that is not finite, and for a gap between pieces above 1e-10 of their length and place.
+    /// [`Error::Domain`] without a piece, for a length that is not finite, and for a gap between pieces above 1e-10 of their length and
+    /// place.
     pub fn new(pieces: Vec<Piece>) -> Result<Course> {
         let fail = |what: String| Err(Error::Domain(what));
         if pieces.is_empty() {
@@ -191,8 +192,8 @@ impl Course {
         Spot { station: Station { station, x, y, heading: at.heading, curvature: at.curvature }, piece, parameter }
     }
 
-    /// Parameters inside pieces, and joints where the sign that pieces have beside them changes. Pieces that have none, such as lines, are passed
-    /// over: then it changes at the start of the next one. A path that ends where it starts joins there, too.
+    /// Parameters inside pieces, and joints where the sign that pieces have beside them changes. Pieces that have none, such as lines, are
+    /// passed over: then it changes at the start of the next one. A path that ends where it starts joins there, too.
     fn spots(&self, signs: fn(&Piece) -> Signs) -> Vec<Spot> {
         let all: Vec<Signs> = self.pieces.iter().map(signs).collect();
         let some = |numbers: &[f64]| numbers.iter().copied().find(|s| *s > 0.0 || *s < 0.0);

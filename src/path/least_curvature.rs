@@ -53,7 +53,8 @@ pub struct LeastCurvature {
     pub searched: [f64; 2],
 }
 
-/// How near to the proved bound a search ends, relative.
+/// A search ends when the proved bound is no further than this share of the best path's curvature below that, or when [`MOST`] is spent. It
+/// is far above the roundings of both, and so small that nobody would build the difference.
 const TOLERANCE: f64 = 1e-6;
 /// Ranges that are halved at most; about a hundred suffice for one free number, some hundreds and near straight lines some thousands for two.
 const MOST: usize = 20_000;

@@ -11,9 +11,11 @@ use spiral_atlas::{Error, Result};
 /// Prove whether vehicles keep a minimum distance at all times, and tell how near they come.
 ///
 /// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools print it; pieces are of the kinds
-/// `ph-quintic` and `line`, and other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of the minimum.
+/// `ph-quintic` and `line`, and other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of
+/// the minimum.
 ///
-/// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit status is 0 for `kept`, 1 for `violated` and `undecided`.
+/// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit
+/// status is 0 for `kept`, 1 for `violated` and `undecided`.
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03"

@@ -4,6 +4,7 @@ use super::{fail, minus};
 use crate::error::Result;
 use robust::{Coord, orient2d};
 use rstar::{AABB, Envelope, PointDistance, RTree, RTreeObject, SelectionFunction};
+use std::cell::Cell;
 use std::collections::HashSet;
 
 /// Most vertices of all obstacles together: beyond them the search would take hours.
@@ -43,6 +44,8 @@ pub struct Obstacles {
     /// The largest coordinate.
     pub size: f64,
     tree: RTree<Side>,
+    /// How many sides were looked at by [`Obstacles::near`].
+    looks: Cell<usize>,
 }
 
 impl Obstacles {
@@ -55,13 +58,13 @@ impl Obstacles {
         let mut rings = polygons.iter().enumerate().map(|(i, p)| ring(i, p)).collect::<Result<Vec<_>>>()?;
         let size = rings.iter().flatten().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
         let sides = rings.iter().enumerate().flat_map(|(i, ring)| sides(i, ring)).collect();
-        let obstacles = Obstacles { rings: vec![], size, tree: RTree::bulk_load(sides) };
+        let obstacles = Obstacles { rings: vec![], size, tree: RTree::bulk_load(sides), looks: Cell::new(0) };
         obstacles.check_simple(&rings)?;
         rings.iter_mut().for_each(|ring| counterclockwise(ring));
         let needed = obstacles.needed(&rings);
         rings.iter_mut().zip(&needed).filter(|(_, needed)| !**needed).for_each(|(ring, _)| ring.clear());
         let sides = obstacles.tree.iter().filter(|side| needed[side.obstacle]).copied().collect();
-        Ok(Obstacles { rings, size, tree: RTree::bulk_load(sides) })
+        Ok(Obstacles { rings, size, tree: RTree::bulk_load(sides), looks: Cell::new(0) })
     }
 
     /// Which polygons matter: not a copy of an earlier one, and none that lies wholly inside of another.
@@ -94,7 +97,12 @@ impl Obstacles {
 
     /// Sides that may be within a distance of a segment: all that are, and some more.
     pub fn near(&self, segment: [Point; 2], within: f64) -> impl Iterator<Item = &Side> {
-        self.tree.locate_with_selection_function(Near { segment, within })
+        self.tree.locate_with_selection_function(Near { segment, within }).inspect(|_| self.looks.set(self.looks.get() + 1))
+    }
+
+    /// How many sides [`Obstacles::near`] has given so far: what work is measured by where many sides nearly coincide.
+    pub fn looks(&self) -> usize {
+        self.looks.get()
     }
 
     /// The side nearest to a point, about.

@@ -12,6 +12,8 @@ use std::rc::Rc;
 const LEGS: usize = 1_000_000;
 /// A leg found takes as long as so many looks from one place to another.
 const LEG: usize = 4;
+/// So many sides looked at take as long as one look from one place to another.
+const SIDES: usize = 8;
 /// And a corner curve that is looked at.
 const CURVE: usize = 20;
 /// Places this nearly on a line are passed without turning there: sine of the angle.
@@ -119,6 +121,8 @@ pub struct Search<'o> {
     longest: f64,
     /// Looks and legs left.
     work: usize,
+    /// Sides looked at until work was last taken off.
+    looks: usize,
 }
 
 impl<'o> Search<'o> {
@@ -129,7 +133,18 @@ impl<'o> Search<'o> {
         let seen = vec![None; places.len()];
         let taken = vec![vec![]; places.len()];
         let (legs, waiting) = (vec![], Queue::new());
-        Search { obstacles, limits, places, seen, legs, taken, waiting, longest: f64::INFINITY, work: usize::MAX }
+        Search {
+            obstacles,
+            limits,
+            places,
+            seen,
+            legs,
+            taken,
+            waiting,
+            longest: f64::INFINITY,
+            work: usize::MAX,
+            looks: obstacles.looks(),
+        }
     }
 
     /// Only paths shorter than this, and not for ever.
@@ -167,8 +182,17 @@ impl<'o> Search<'o> {
 
     /// Whether the curve at the start of a leg comes too near to something.
     fn breaches(&mut self, place: usize, turn: Option<(Turn, f64)>) -> bool {
-        self.work = self.work.saturating_sub(CURVE);
-        turn.is_some_and(|(turn, reach)| self.limits.breach(&turn, self.places[place].at, reach, self.obstacles).is_some())
+        let breach =
+            turn.is_some_and(|(turn, reach)| self.limits.breach(&turn, self.places[place].at, reach, self.obstacles).is_some());
+        self.spend(CURVE);
+        breach
+    }
+
+    /// Takes off work, and what the sides looked at since then took: where sides nearly coincide, one look meets all of them.
+    fn spend(&mut self, work: usize) {
+        let looks = self.obstacles.looks();
+        self.work = self.work.saturating_sub(work + (looks - self.looks) / SIDES);
+        self.looks = looks;
     }
 
     /// All legs that go on from a leg, or from the start.
@@ -229,7 +253,7 @@ impl<'o> Search<'o> {
             clear.then_some(seen)
         };
         let seen: Rc<[Seen]> = self.places.iter().enumerate().skip(GOAL).filter_map(look).collect();
-        self.work = self.work.saturating_sub(self.places.len());
+        self.spend(self.places.len());
         self.taken[from] = vec![f64::INFINITY; seen.len()];
         self.seen[from] = Some(seen.clone());
         seen
@@ -247,4 +271,29 @@ impl<'o> Search<'o> {
 /// Whether a segment keeps a distance from all sides, about.
 pub fn is_clear(obstacles: &Obstacles, segment: [[f64; 2]; 2], keep: f64) -> bool {
     obstacles.near(segment, keep).all(|side| between(segment, side.ends) >= keep)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::path::plan::places::places;
+
+    /// Squares that nearly coincide: each look from place to place meets the sides of all of them, and that is work, too.
+    #[test]
+    fn sides_that_nearly_coincide_are_work() {
+        let square =
+            |i: usize| [[3.0, -2.0], [7.0, -2.0], [7.0, 2.0], [3.0, 2.0]].map(|p| p.map(|x| x + 1e-9 * i as f64)).to_vec();
+        let obstacles = Obstacles::new(&(0..60).map(square).collect::<Vec<_>>()).unwrap();
+        let limits = Limits { clearance: 0.1, keep: 0.1 + 1e-12, most: 0.3, least_reach: 1e-8 };
+        let work = 20_000;
+        let before = obstacles.looks();
+        let beside = places(&obstacles, limits.keep, limits.most, 0.0);
+        let count = beside.len();
+        let search = Search::new(&obstacles, limits, [[0.0, 0.0], [10.0, 0.0]], beside).within(f64::INFINITY, work);
+        let (found, left) = search.run();
+        let looks = obstacles.looks() - before;
+        // What was allowed, the places that were looked at first, and all that one place sees beyond it.
+        assert!(looks <= SIDES * work + 2 * count * 240, "{looks} {count}");
+        assert!(matches!(found, Found::GaveUp) && left == 0, "{found:?} {left}");
+    }
 }
