@@ -86,13 +86,18 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
         } else {
             high = x.clone()
         }
-        let newton = value.over(&slope).map(|step| (&x - &step).middle());
-        let next = newton.filter(|n| inside(n, &low, &high)).unwrap_or_else(|| middle(&low, &high));
-        let (step, limit) = (&next - &x, &x * &tiny);
-        x = next;
-        if step.compare(&limit) != Some(Greater) && (-&step).compare(&limit) != Some(Greater) {
+        let step = value.over(&slope).map(|step| step.middle());
+        let limit = &x.size() * &tiny;
+        // A step within a rounding of x ends the search, even where it leads out of the bracket.
+        if step.as_ref().is_some_and(|s| s.size().upper().compare(&limit.upper()) != Some(Greater)) {
             break;
         }
+        let newton = step.map(|step| (&x - &step).middle());
+        let next = newton.filter(|n| inside(n, &low, &high)).unwrap_or_else(|| middle(&low, &high));
+        if next.compare(&x) == Some(Equal) {
+            break;
+        }
+        x = next;
     }
     Some(x)
 }

@@ -234,7 +234,8 @@ impl Placement {
     }
 }
 
-/// `direction - chord`, brought into (-π, π]. Never beyond ±[`PI`], the double; a half turn up to the rounding of both is that double.
+/// `direction - chord`, brought into (-π, π]. Never beyond ±[`PI`], the double; a half turn up to the rounding of both is that double
+/// (a direction beyond ±π is taken to be rounded, by an ulp or 1e-9).
 fn against(direction: f64, chord: f64) -> f64 {
     let turned = principal(direction) - chord;
     let within = match turned {
@@ -244,7 +245,8 @@ fn against(direction: f64, chord: f64) -> f64 {
         x => x,
     };
     // Against a chord along the x axis a direction up to a half turn stays as it is.
-    let rounding = if chord == 0.0 { 0.0 } else { HALF_TURN_ROUNDING };
+    let beyond = if direction.abs() > PI { (f64::EPSILON * direction.abs()).min(1e-9) } else { 0.0 };
+    let rounding = if chord == 0.0 { 0.0 } else { HALF_TURN_ROUNDING + beyond };
     if within.abs() >= PI - rounding { PI } else { within }
 }
 

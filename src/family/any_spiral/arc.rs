@@ -88,6 +88,11 @@ impl Equation {
         let (sin, cos) = rest.sine_cosine();
         let odd = half_turns % 2 == 1;
         let [sin, cos] = [sin, cos].map(|x| if odd { -&x } else { x });
+        // From here on the rest is no longer negative.
+        let (rest, half_turns) = match rest.sign() {
+            Some(Ordering::Less) if half_turns > 0 => (&rest + &Interval::pi(rest.bits()), half_turns - 1),
+            _ => (rest, half_turns),
+        };
         Equation { q, rest, half_turns, sin, cos, evaluations: Cell::new(0) }
     }
 
@@ -95,11 +100,8 @@ impl Equation {
     pub fn solve(&self) -> Option<Arc> {
         let bits = self.q.bits();
         // ⌊ω/π⌋ hangs on the sign of the rest, which near Q = 0 moves θ far: rounding may not decide.
-        let (below, rest) = match self.rest.sign()? {
-            Ordering::Less => (1, self.rest.approx() + PI),
-            _ => (0, self.rest.approx()),
-        };
-        let [low, high] = bracket(f64::from(self.half_turns - below), rest).map(|x| Interval::new(x, bits));
+        self.rest.sign().filter(|s| s.is_ge())?;
+        let [low, high] = bracket(f64::from(self.half_turns), self.rest.approx()).map(|x| Interval::new(x, bits));
         // ω itself is below θ up to π, and may be below the range of doubles.
         let low = if self.half_turns == 0 { self.rest.lower() } else { low };
         let guess = bracketed(&low, &high, self)?;

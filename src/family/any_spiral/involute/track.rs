@@ -87,6 +87,9 @@ impl Track {
 
     /// u at a length from the half's end: Newton's method on its piece, and halving where that leaves the bracket.
     pub fn at(&self, length: f64) -> f64 {
+        if length <= 0.0 {
+            return 0.0;
+        }
         let next = self.knots.partition_point(|k| k[1] < length).clamp(1, self.pieces());
         let ([start, before], [end, _]) = (self.knots[next - 1], self.knots[next]);
         let (mut low, mut high) = (start, end);
