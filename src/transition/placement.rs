@@ -12,7 +12,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// `2π` less its double.
 const TAU_LOW: f64 = 2.4492935982947064e-16;
 
-/// How far rounding may move a half turn against the chord: direction, chord and wrapping by an ulp of π each, and the chord by the rounding of
+/// How far rounding may move a half turn against the chord: direction, chord and wrapping by an ulp of π
+/// each, and the chord by the rounding of
 /// its coordinates, an ulp of 1.
 const HALF_TURN_ROUNDING: f64 = 7.0 * f64::EPSILON;
 
@@ -250,7 +251,8 @@ fn against(direction: f64, chord: f64) -> f64 {
     if within.abs() >= PI - rounding { PI } else { within }
 }
 
-/// The same direction within [-π, π]. Beyond it the double next to a multiple of a quarter turn is that multiple, and of any other direction only
+/// The same direction within [-π, π]. Beyond it the double next to a multiple of a quarter turn is that
+/// multiple, and of any other direction only
 /// the last ulp is lost, however many turns it has.
 fn principal(angle: f64) -> f64 {
     if angle.abs() <= PI {

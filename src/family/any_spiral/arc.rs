@@ -42,7 +42,8 @@ pub(crate) struct Arc {
 /// Below this θ the functions that cancel near 0 are summed as series.
 const SERIES_BELOW: f64 = 0.0625;
 
-/// `1 - y/r1 (1 - y/r2 (1 - ...))` for `0 <= y < 1/64` and ratios r >= 7.5 that grow: its terms alternate and decrease, so that two sums in a
+/// `1 - y/r1 (1 - y/r2 (1 - ...))` for `0 <= y < 1/64` and ratios r >= 7.5 that grow: its terms alternate
+/// and decrease, so that two sums in a
 /// row enclose it.
 fn series(y: &Interval, ratio: impl Fn(f64) -> f64) -> Interval {
     let (bits, mut k) = (y.bits(), 1.0);
@@ -146,7 +147,8 @@ impl Curve for Equation {
     }
 }
 
-/// Between which θ lies, for `ω = iπ + rest` with `0 <= rest < π`: between the root θi of tan θ = θ and (i+1)π, or between that and θi+1, where ω(θ)
+/// Between which θ lies, for `ω = iπ + rest` with `0 <= rest < π`: between the root θi of tan θ = θ and
+/// (i+1)π, or between that and θi+1, where ω(θ)
 /// is iπ, iπ + π/2 and (i+1)π. The ends are moved outwards by more than their error.
 pub(super) fn bracket(turns: f64, rest: f64) -> [f64; 2] {
     const SLACK: f64 = 1e-9;
