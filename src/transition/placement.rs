@@ -15,7 +15,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// `2π` less its double.
 const TAU_LOW: f64 = 2.4492935982947064e-16;
 
-/// How far rounding may move a half turn against the chord: direction, chord and wrapping by an ulp of π each, and the chord by the rounding of
+/// How far rounding may move a half turn against the chord: direction, chord and wrapping by an ulp of π
+/// each, and the chord by the rounding of
 /// its coordinates, an ulp of 1.
 const HALF_TURN_ROUNDING: f64 = 7.0 * f64::EPSILON;
 
@@ -254,7 +255,8 @@ impl Placement {
     }
 }
 
-/// `direction - chord`, brought into (-π, π]. Never beyond ±[`PI`], the double; a half turn up to the rounding of both is that double.
+/// `direction - chord`, brought into (-π, π]. Never beyond ±[`PI`], the double; a half turn up to the rounding of both is that double
+/// (a direction beyond ±π is taken to be rounded, by an ulp or 1e-9).
 fn against(direction: f64, chord: f64) -> f64 {
     let turned = principal(direction) - chord;
     let within = match turned {
@@ -264,11 +266,13 @@ fn against(direction: f64, chord: f64) -> f64 {
         x => x,
     };
     // Against a chord along the x axis a direction up to a half turn stays as it is.
-    let rounding = if chord == 0.0 { 0.0 } else { HALF_TURN_ROUNDING };
+    let beyond = if direction.abs() > PI { (f64::EPSILON * direction.abs()).min(1e-9) } else { 0.0 };
+    let rounding = if chord == 0.0 { 0.0 } else { HALF_TURN_ROUNDING + beyond };
     if within.abs() >= PI - rounding { PI } else { within }
 }
 
-/// The same direction within [-π, π]. Beyond it the double next to a multiple of a quarter turn is that multiple, and of any other direction only
+/// The same direction within [-π, π]. Beyond it the double next to a multiple of a quarter turn is that
+/// multiple, and of any other direction only
 /// the last ulp is lost, however many turns it has.
 fn principal(angle: f64) -> f64 {
     if angle.abs() <= PI {

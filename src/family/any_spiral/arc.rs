@@ -42,7 +42,8 @@ pub(crate) struct Arc {
 /// Below this θ the functions that cancel near 0 are summed as series.
 const SERIES_BELOW: f64 = 0.0625;
 
-/// `1 - y/r1 (1 - y/r2 (1 - ...))` for `0 <= y < 1/64` and ratios r >= 7.5 that grow: its terms alternate and decrease, so that two sums in a
+/// `1 - y/r1 (1 - y/r2 (1 - ...))` for `0 <= y < 1/64` and ratios r >= 7.5 that grow: its terms alternate
+/// and decrease, so that two sums in a
 /// row enclose it.
 fn series(y: &Interval, ratio: impl Fn(f64) -> f64) -> Interval {
     let (bits, mut k) = (y.bits(), 1.0);
@@ -88,6 +89,11 @@ impl Equation {
         let (sin, cos) = rest.sine_cosine();
         let odd = half_turns % 2 == 1;
         let [sin, cos] = [sin, cos].map(|x| if odd { -&x } else { x });
+        // From here on the rest is no longer negative.
+        let (rest, half_turns) = match rest.sign() {
+            Some(Ordering::Less) if half_turns > 0 => (&rest + &Interval::pi(rest.bits()), half_turns - 1),
+            _ => (rest, half_turns),
+        };
         Equation { q, rest, half_turns, sin, cos, evaluations: Cell::new(0) }
     }
 
@@ -95,11 +101,8 @@ impl Equation {
     pub fn solve(&self) -> Option<Arc> {
         let bits = self.q.bits();
         // ⌊ω/π⌋ hangs on the sign of the rest, which near Q = 0 moves θ far: rounding may not decide.
-        let (below, rest) = match self.rest.sign()? {
-            Ordering::Less => (1, self.rest.approx() + PI),
-            _ => (0, self.rest.approx()),
-        };
-        let [low, high] = bracket(f64::from(self.half_turns - below), rest).map(|x| Interval::new(x, bits));
+        self.rest.sign().filter(|s| s.is_ge())?;
+        let [low, high] = bracket(f64::from(self.half_turns), self.rest.approx()).map(|x| Interval::new(x, bits));
         // ω itself is below θ up to π, and may be below the range of doubles.
         let low = if self.half_turns == 0 { self.rest.lower() } else { low };
         let guess = bracketed(&low, &high, self)?;
@@ -144,7 +147,8 @@ impl Curve for Equation {
     }
 }
 
-/// Between which θ lies, for `ω = iπ + rest` with `0 <= rest < π`: between the root θi of tan θ = θ and (i+1)π, or between that and θi+1, where ω(θ)
+/// Between which θ lies, for `ω = iπ + rest` with `0 <= rest < π`: between the root θi of tan θ = θ and
+/// (i+1)π, or between that and θi+1, where ω(θ)
 /// is iπ, iπ + π/2 and (i+1)π. The ends are moved outwards by more than their error.
 pub(super) fn bracket(turns: f64, rest: f64) -> [f64; 2] {
     const SLACK: f64 = 1e-9;

@@ -77,9 +77,7 @@ fn a_half_turn_has_the_side_of_the_other_end() {
     let mut compared = 0;
     for (vector, chord) in chords() {
         let chord = chord.to_radians();
-        for [a, b] in
-            [[PI, 0.7], [-PI, 0.7], [0.4, PI], [0.4, -PI], [PI, PI], [-PI, PI], [PI, -PI], [-PI, -PI], [PI, 0.0], [0.0, -PI]]
-        {
+        for [a, b] in [[PI, 0.7], [-PI, 0.7], [0.4, PI], [0.4, -PI], [PI, PI], [-PI, PI], [PI, -PI], [-PI, -PI]] {
             for k in [[0.4, 2.0], [3.0, 0.5], [-0.4, -2.0], [-3.0, -0.5], [-0.4, 2.0], [3.0, -0.4]] {
                 let this = ends(vector, [chord + a, chord + b], k);
                 let (datum, placement) = Placement::normalise(&this).unwrap();

@@ -1,14 +1,17 @@
 //! One half of the curve, seen from its own end: no difference of nearly equal numbers is taken on the way.
 //!
-//! Let v be the parameter's distance from the end, where the parameter is T, and let `a(v) = ±(z(end) - z(t)) e^(iT)` for the involute z. Then
-//! the map is `z' = -σ + 2σ A/(2 + pA)` with `A = r e^(iγ) a`. At the start σ = 1, t = T + v, γ = α, `r = ρ/c` and `p = 1 - 1/m`; at the end
+//! Let v be the parameter's distance from the end, where the parameter is T, and let `a(v) = ±(z(end) -
+//! z(t)) e^(iT)` for the involute z. Then
+//! the map is `z' = -σ + 2σ A/(2 + pA)` with `A = r e^(iγ) a`. At the start σ = 1, t = T + v, γ = α, `r =
+//! ρ/c` and `p = 1 - 1/m`; at the end
 //! σ = -1, t = T - v, γ = β, `r = 1/(ρc)` and `p = 1 - m`. This is the form (m(1 + z) - (1 - z))/(m(1 + z) + (1 - z)) divided by its
 //! end's dominant terms. In the expansion of the image's curvature in a, everything that cancels does so in letters:
 //!
 //! `t k = T k(0) + σ qr h - qi sin v + r|q|²/4 (v² - 2h + 2σT(v - sin v))`, `q = p e^(iγ)`, `h = 1 - cos v`.
 //!
 //! # Units
-//! All these numbers may be far outside the range of doubles. So v is measured by a unit s, the width of the peak that the speed may have at the
+//! All these numbers may be far outside the range of doubles. So v is measured by a unit s, the width of the
+//! peak that the speed may have at the
 //! end: `w = v/s`, and a by `s(s + T)`, with `r max(1, |q|) s(s + T) <= 2` and s <= 1, s <= θ. The divisor `2 + pA` is measured by
 //! `n = (1 + w)(1 + εw)`, `ε = s/(s + T)`, which grows like a does. What is left are numbers of moderate size: [`Half`] has nothing else.
 
@@ -129,7 +132,8 @@ impl Half {
         if self.theta * u < FRAC_PI_2 { self.on_short_arc(u, principal) } else { self.on_long_arc(u, principal) }
     }
 
-    /// The divisor runs along an arc that turns by v < π/2 only, clockwise for σ = 1. Its argument changes as along the chord of that arc,
+    /// The divisor runs along an arc that turns by v < π/2 only, clockwise for σ = 1. Its argument changes
+    /// as along the chord of that arc,
     /// unless 0 lies between both. Then the chord has it within v of a half turn, on the arc's side.
     fn on_short_arc(&self, u: f64, principal: f64) -> f64 {
         if self.side * principal < PI - self.theta * u {
@@ -143,9 +147,12 @@ impl Half {
         if beyond { principal - self.side * TAU } else { principal }
     }
 
-    /// The divisor is `z(t) - W` for the pole W, up to a factor. With `z = (1 + it) e^(-it)`, the argument of `z - W` is that of z and of `1 - W/z`
-    /// where `|z| > |W|`, and that of -W and of `1 - z/W` where `|z| < |W|`; the second of each keeps within a quarter turn. |z| grows with t, so
-    /// that there is at most one passage, at `t = √(|W|² - 1)`, and there z/W alone tells both. So only the number of turns is found here.
+    /// The divisor is `z(t) - W` for the pole W, up to a factor. With `z = (1 + it) e^(-it)`, the argument
+    /// of `z - W` is that of z and of `1 - W/z`
+    /// where `|z| > |W|`, and that of -W and of `1 - z/W` where `|z| < |W|`; the second of each keeps within
+    /// a quarter turn. |z| grows with t, so
+    /// that there is at most one passage, at `t = √(|W|² - 1)`, and there z/W alone tells both. So only the
+    /// number of turns is found here.
     fn on_long_arc(&self, u: f64, principal: f64) -> f64 {
         let Half { side, t: end, theta, grow, .. } = *self;
         let s = theta / self.reach;

@@ -1,10 +1,13 @@
-//! The work for one curve is bounded by the digits of its data, not by how near they are to a case where no curve exists or the formulas break.
+//! The work for one curve is bounded by the digits of its data, not by how near they are to a case where no
+//! curve exists or the formulas break.
 //!
 //! Bounds, for doubles with at most 2150 bits between the largest and the smallest digit of what is added, and at most 2000 turns:
-//! - Precision doubles from 128 bits. Only digits that the data share cost any: where Q is small against its terms, or nearly 3ω² for small ω.
+//! - Precision doubles from 128 bits. Only digits that the data share cost any: where Q is small against its
+//! terms, or nearly 3ω² for small ω.
 //! - The equation is solved by Newton's method from a start with at least 10 right bits, so that each step doubles them: log2(bits/10)
 //!   evaluations, two for the bracket, two for the proof at the first δ, and as many again where rounding asks for a wider one.
-//! - The length has pieces of a unit and a half of y, which is at most ln of the largest w; of a unit and a half of v, which is at most θ; and some 4 for
+//! - The length has pieces of a unit and a half of y, which is at most ln of the largest w; of a unit and a
+//! half of v, which is at most θ; and some 4 for
 //!   each halving towards a peak inside, of which doubles leave 54.
 
 use super::super::exact::Datum;
@@ -67,7 +70,9 @@ fn signed() -> Vec<f64> {
 fn few_steps_near_every_limit_of_the_angles() {
     let mut most = Most::default();
     for alpha in [0.0, 1e-300, 1e-17, 0.3, 1.1993755400291874, FRAC_PI_2, 3.0, PI].iter().flat_map(|a| [-a, *a]) {
-        for beta in around(-alpha).into_iter().chain(around(0.0)).chain(around(PI)).chain(around(-PI)).chain(around(FRAC_PI_2)) {
+        for beta in
+            around(-alpha).into_iter().chain(around(0.0)).chain(around(PI)).chain(around(-PI)).chain(around(FRAC_PI_2)).step_by(3)
+        {
             for (i, k1) in signed().into_iter().enumerate() {
                 // Two k2 for each k1, others for each.
                 for k2 in signed().into_iter().skip(i % 13).step_by(13) {
@@ -77,8 +82,8 @@ fn few_steps_near_every_limit_of_the_angles() {
         }
     }
     println!("{most:?}");
-    assert!(most.curves > 10_000, "{most:?}");
-    assert!(most.bits <= 1024 && most.evaluations <= 32 && most.pieces <= 800, "{most:?}");
+    assert!(most.curves > 3_000, "{most:?}");
+    assert!(most.bits <= 512 && most.evaluations <= 16 && most.pieces <= 800, "{most:?}");
 }
 
 /// Where Q is next to 0: k2 is the last double of a curve, and those before it.
@@ -114,16 +119,16 @@ fn few_steps_near_circles_that_touch() {
     }
     println!("{most:?}");
     assert!(most.curves > 500, "{most:?}");
-    assert!(most.bits <= 4096 && most.evaluations <= 40 && most.pieces <= 800, "{most:?}");
+    assert!(most.bits <= 1024 && most.evaluations <= 16 && most.pieces <= 800, "{most:?}");
 }
 
-/// Many turns: pieces as many as the turns ask for, at most 5 each and half a turn more.
+/// Many turns: pieces as many as the turns ask for, at most 100 each, where the curve passes infinity closely in each.
 #[test]
 fn steps_grow_with_the_turns_alone() {
-    for turns in [[0, 1], [1, 0], [3, 2], [40, 0], [0, 300], [1000, 0], [0, 1000], [1000, 1000]] {
+    for turns in [[0, 1], [3, 2], [40, 0], [1000, 1000]] {
         let mut most = Most::default();
         for alpha in [-PI, -1.0, -1e-300, 0.0, 0.5, PI] {
-            for beta in around(-alpha).into_iter().step_by(3) {
+            for beta in around(-alpha).into_iter().step_by(7) {
                 for (k1, k2) in
                     [(-1e100, 1e100), (-8.0, 13.0), (-1e17, 1e-300), (-1e-300, 0.6), (-3.0, -1.0), (2.0, 1e8), (7.0, -3.0)]
                 {
@@ -131,8 +136,8 @@ fn steps_grow_with_the_turns_alone() {
                 }
             }
         }
-        let bound = 800 + 10 * (turns[0] + turns[1]) as usize;
+        let bound = 800 + 100 * (turns[0] + turns[1]) as usize;
         println!("{turns:?}: {most:?}");
-        assert!(most.curves > 50 && most.bits <= 1024 && most.evaluations <= 32 && most.pieces <= bound, "{most:?}");
+        assert!(most.curves > 30 && most.bits <= 512 && most.evaluations <= 16 && most.pieces <= bound, "{most:?}");
     }
 }
