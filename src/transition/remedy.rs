@@ -9,6 +9,8 @@ use serde::Serialize;
 
 /// Doublings away from the curvature in question that are tried, to either side.
 const DOUBLINGS: i32 = 24;
+/// Greatest curvature times half the chord for which others are tried: each answer beyond it takes numbers of hundreds of digits.
+const GREATEST: f64 = 1e30;
 /// Halvings, in logarithms, of the last doubling.
 const HALVINGS: u32 = 8;
 
@@ -35,6 +37,10 @@ impl Remedy {
     /// Those of [`super::Placement::normalise`].
     pub(super) fn nearest(ends: &Ends, exists: impl Fn(&Ends) -> bool) -> Result<Vec<Remedy>> {
         let mut all = Vec::new();
+        let (chord, _) = ends.chord()?;
+        if chord.k1.abs().max(chord.k2.abs()) > GREATEST {
+            return Ok(all);
+        }
         for which in [Which::End, Which::Start] {
             let curvature = of(ends, which);
             let Some(bound) = NoSpiral::bound(ends, which)?.map(Bound::value) else { continue };

@@ -155,6 +155,11 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
     }
     let piece = piece(kind, &frame, preimage(case, theta, m, q), &control_points, &legs);
     let length = piece.length();
+    if !length.is_finite() {
+        return Err(Error::Domain(format!(
+            "the segment's length is {length:?}, outside the range of doubles (change the unit of length)"
+        )));
+    }
     let end_direction = direction + if frame.right { -theta } else { theta };
     Ok(Outcome::Segment(Added {
         case,

@@ -19,7 +19,7 @@ fn curves_join_real_ends() {
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     // The same curve ten times as large, mirrored, with vectors for directions.
     let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
-    assert!(large.out.contains("no C-shaped curve"), "{}", large.out);
+    assert!(large.out.contains("their sum must be below 0, and it is 120.321°"), "{}", large.out);
     let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "-80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
     assert!(large.out.contains("cubic spiral (f0, f1) = (1.6601") && large.out.contains("mirrored"), "{}", large.out);
 }
@@ -28,15 +28,27 @@ fn curves_join_real_ends() {
 fn no_curve_is_an_answer_with_numbers() {
     let folder = Folder::new("");
     let said = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "1.2"], &[]);
-    assert!(said.code == Some(0) && said.out.contains("kappa1 = 1.2 must exceed 1.466"), "{}", said.out);
-    let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--json"]).json();
-    assert_eq!(json["why"]["condition"], "inflection");
+    assert!(said.code == Some(1) && said.out.contains("the end curvature 1.2 must be above 1.46691"), "{}", said.out);
+    let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["-0.4", "4"], &["--json"]);
+    assert_eq!(json.code, Some(1));
+    let json: serde_json::Value = serde_json::from_str(&json.out).unwrap();
+    assert_eq!((&json["why"]["condition"], &json["paths"]), (&"inflection".into(), &serde_json::json!([])));
+    assert!(json["reason"].as_str().unwrap().starts_with("no cubic spiral: the start curvature -0.4 is to the right"), "{json}");
+    assert_eq!(json["families"], serde_json::json!(["involute"]));
     let wavy = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "2.2"], &["--figure", &folder.text("wavy.png")]);
-    assert!(wavy.code == Some(0) && wavy.out.contains("loses monotone curvature"), "{}", wavy.out);
+    assert!(
+        wavy.code == Some(1) && wavy.out.contains("is not monotone; ") && wavy.out.contains(" would give a spiral (root ("),
+        "{}",
+        wavy.out
+    );
     assert!(folder.at("wavy.png").exists());
     let none = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "-1"], &["--figure", &folder.text("none.png")]);
-    assert!(none.code == Some(2) && none.err.contains("none.png was not drawn"), "{}", none.err);
+    assert!(none.code == Some(1) && none.err.contains("none.png was not drawn"), "{}", none.err);
     assert!(!folder.at("none.png").exists());
+}
+
+fn point(sample: &serde_json::Value) -> [f64; 2] {
+    [number(&sample["x"]), number(&sample["y"])]
 }
 
 fn number(json: &serde_json::Value) -> f64 {
@@ -53,19 +65,19 @@ fn involutes_join_any_ends_with_a_spiral() {
     let json = fine(all.clone()).json();
     let samples = json["samples"].as_array().unwrap();
     let (first, last) = (&samples[0], &samples[32]);
-    assert_eq!((&first["point"], &last["point"]), (&serde_json::json!([3.0, 1.0]), &serde_json::json!([7.0, 4.0])));
+    assert_eq!([point(first), point(last)], [[3.0, 1.0], [7.0, 4.0]]);
     let near = |value: &serde_json::Value, wanted: f64| (number(value) - wanted).abs() <= 1e-12 * wanted.abs();
-    assert!(near(&first["direction"], 0.2) && near(&last["direction"], 2.4) && near(&first["curvature"], -0.1), "{first} {last}");
-    assert!(near(&last["curvature"], 1.6) && near(&last["s"], number(&json["length"])));
+    assert!(near(&first["heading"], 0.2) && near(&last["heading"], 2.4) && near(&first["curvature"], -0.1), "{first} {last}");
+    assert!(near(&last["curvature"], 1.6) && near(&last["station"], number(&json["length"])));
     assert!(samples.windows(2).all(|w| number(&w[0]["curvature"]) < number(&w[1]["curvature"])));
-    assert!(samples.windows(2).all(|w| number(&w[0]["s"]) < number(&w[1]["s"])));
+    assert!(samples.windows(2).all(|w| number(&w[0]["station"]) < number(&w[1]["station"])));
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     // A turn more about an end makes another curve; equal curvatures make none.
     let turned = fine(all.clone().chain(["--turns", "0,1"])).json();
     assert!(number(&turned["length"]) > number(&json["length"]) && turned["turns"] == serde_json::json!([0, 1]), "{turned}");
     let none =
-        fine(all.filter(|a| *a != "--json" && *a != "--figure" && *a != figure).map(|a| if a == "1.6" { "-0.1" } else { a }));
-    assert!(none.out.contains("no spiral of any kind: the curvatures at both ends are the same"), "{}", none.out);
+        run(all.filter(|a| *a != "--json" && *a != "--figure" && *a != figure).map(|a| if a == "1.6" { "-0.1" } else { a }));
+    assert!(none.code == Some(1) && none.out.contains("the curvature is -0.1 at both ends"), "{}", none.out);
 }
 
 #[test]
@@ -82,7 +94,7 @@ fn ph_quintics_join_straight_ends_too() {
     assert_eq!((&chosen["control_points"][0], &chosen["spiral"]), (&serde_json::json!([0.0, 0.0]), &true.into()), "{json}");
     assert!(number(&chosen["length"]) > 200.0 && std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     let none = straight(&["0.02"]);
-    assert!(none.code == Some(0) && none.out.contains("no PH quintic spiral: "), "{}", none.out);
+    assert!(none.code == Some(1) && none.out.contains("no PH quintic spiral: "), "{}", none.out);
 }
 
 #[test]
@@ -110,7 +122,7 @@ fn segments_are_added_to_lines_and_arcs() {
             );
         }
         let near = segment(family, "line", &["--to", "30,30"]);
-        assert!(near.code == Some(0) && near.out.contains(&format!("no segment of `{family}`: the end point")), "{}", near.out);
+        assert!(near.code == Some(1) && near.out.contains(&format!("no segment of `{family}`: the end point")), "{}", near.out);
     }
 }
 

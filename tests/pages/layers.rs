@@ -154,6 +154,8 @@ fn target(sources: &[Source], path: &[String]) -> Option<usize> {
         let Some(i) = sources.iter().position(|s| s.module == path[..length]) else { continue };
         let export = path.get(length).and_then(|name| sources[i].exports.get(name));
         return match export {
+            // A macro that its own file re-exports, for others to import.
+            Some(export) if export == path => Some(i),
             Some(export) => target(sources, &[export, &path[length + 1..]].concat()),
             None => Some(i),
         };
