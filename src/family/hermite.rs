@@ -29,7 +29,9 @@ fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
         return Ok(());
     }
     let [first, second, sum] = [phi0, phi1, phi0 + phi1].map(told);
-    Err(Error::Domain(format!("phi0 + phi1 reaches {first} + {second} = {sum}; it must stay below pi, so that the tangents meet")))
+    Err(Error::Domain(format!(
+        "phi0 + phi1 reaches {first} + {second} = {sum}; it must stay below pi, so that the tangents meet"
+    )))
 }
 
 /// A datum: two angles, then two finite curvature coordinates, by name.

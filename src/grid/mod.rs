@@ -62,7 +62,11 @@ impl Axis {
                 let log = matches!(spacing, Spacing::Log { .. });
                 // The width too: from -1e308 to 1e308 no step could be computed.
                 if !((hi - lo).is_finite() && lo < hi) {
-                    return fail(format!("runs from {} to {}; both and their difference must be finite, with lo < hi", told(*lo), told(*hi)));
+                    return fail(format!(
+                        "runs from {} to {}; both and their difference must be finite, with lo < hi",
+                        told(*lo),
+                        told(*hi)
+                    ));
                 }
                 if !(2..=MAX_COUNT).contains(count) {
                     return fail(format!(

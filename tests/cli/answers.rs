@@ -228,7 +228,8 @@ fn a_table_is_answered_line_by_line_in_order() {
         assert!(lines[at]["error"].as_str().unwrap().contains(part), "{}", lines[at]);
     }
     // Every row has an answer: that the second is a no does not matter.
-    let good: String = rows.lines().filter(|l| ["id", ",a,", ",e,"].iter().any(|part| l.contains(part))).map(|l| format!("{l}\n")).collect();
+    let good: String =
+        rows.lines().filter(|l| ["id", ",a,", ",e,"].iter().any(|part| l.contains(part))).map(|l| format!("{l}\n")).collect();
     std::fs::write(folder.at("good.csv"), good).unwrap();
     assert_eq!(fine(["query", "--points", &folder.text("good.csv")]).out.lines().count(), 2);
 }

@@ -3,8 +3,8 @@
 use super::poly::Frame;
 use crate::error::{Error, Result};
 use crate::family::hermite::told_angle;
-use crate::num::{Interval, told};
 use crate::num::sines::{cos, sin};
+use crate::num::{Interval, told};
 use std::f64::consts::FRAC_PI_2;
 
 /// Names of the coordinates, in order.
