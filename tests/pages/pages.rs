@@ -23,7 +23,7 @@ fn commands(text: &str) -> Vec<Line> {
     let arguments = lines.filter_map(|line| {
         let one = |command: &str| {
             let rest = command.strip_prefix("cargo run --release -- ").or_else(|| command.strip_prefix("spiral-atlas "))?;
-            Some(rest.split_whitespace().map(str::to_owned).collect())
+            Some(rest.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
         };
         let (command, comment) = line.split_once(" #").unwrap_or((&line, ""));
         let commands = command.split(" | ").map(|command| one(command.trim())).collect::<Option<Vec<_>>>()?;
