@@ -12,8 +12,9 @@ fn pages() -> Vec<PathBuf> {
     [Path::new(ROOT).join("README.md")].into_iter().chain(pages).collect()
 }
 
-/// A line of shell: the arguments of each command, whose output the next one reads.
-type Line = Vec<Vec<String>>;
+/// A line of shell: the arguments of each command, whose output the next one reads, and the exit status of the last: 0, or 1 where the
+/// page says so in a comment that begins with `exit 1`.
+type Line = (Vec<Vec<String>>, i32);
 
 /// Every line of `query`, `curve` and `path` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
 fn commands(text: &str) -> Vec<Line> {
@@ -22,24 +23,27 @@ fn commands(text: &str) -> Vec<Line> {
     let arguments = lines.filter_map(|line| {
         let one = |command: &str| {
             let rest = command.strip_prefix("cargo run --release -- ").or_else(|| command.strip_prefix("spiral-atlas "))?;
-            Some(rest.split_whitespace().map(str::to_owned).collect())
+            Some(rest.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
         };
-        line.split(" #").next()?.split(" | ").map(|command| one(command.trim())).collect::<Option<Line>>()
+        let (command, comment) = line.split_once(" #").unwrap_or((&line, ""));
+        let commands = command.split(" | ").map(|command| one(command.trim())).collect::<Option<Vec<_>>>()?;
+        Some((commands, i32::from(comment.trim_start().starts_with("exit 1"))))
     });
-    arguments.filter(|line| ["query", "curve", "path"].contains(&line[0][0].as_str())).collect()
+    arguments.filter(|(line, _)| ["query", "curve", "path"].contains(&line[0][0].as_str())).collect()
 }
 
 /// Runs a line in a folder.
-fn run(line: &Line, folder: &Path) {
+fn run((line, status): &Line, folder: &Path) {
     let mut read = Vec::new();
-    for arguments in line {
+    for (i, arguments) in line.iter().enumerate() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_spiral-atlas"));
         command.current_dir(folder).args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
         // It need not read.
         let _ = child.stdin.take().unwrap().write_all(&read);
         let done = child.wait_with_output().unwrap();
-        assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+        let expected = if i + 1 == line.len() { *status } else { 0 };
+        assert_eq!(done.status.code(), Some(expected), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
         read = done.stdout;
     }
 }
@@ -101,9 +105,9 @@ fn links_lead_to_files() {
 
 #[test]
 fn commands_are_found() {
-    let text =
-        "```sh\ncargo run --release -- query --a 1 \\\n    --b 2  # why\nls\nspiral-atlas generate x\n```\nspiral-atlas query\n";
-    assert_eq!(commands(text), [[["query", "--a", "1", "--b", "2"]]]);
+    let text = "```sh\ncargo run --release -- query --a 1 \\\n    --b 2  # exit 1: no\nls\nspiral-atlas generate x\n```\nspiral-atlas query\n";
+    let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(commands(text), [(vec![words("query --a 1 --b 2")], 1)]);
     let text = "```sh\nspiral-atlas path a | spiral-atlas path b -\nspiral-atlas path a | less\n```\n";
-    assert_eq!(commands(text), [vec![vec!["path", "a"], vec!["path", "b", "-"]]]);
+    assert_eq!(commands(text), [(vec![words("path a"), words("path b -")], 0)]);
 }

@@ -7,8 +7,11 @@
 //!   ω alone. Doubles guess it (`num/root.rs`), intervals enclose it.
 //! - `sin x - x cos x`, `x² - sin² x`, `x - sin x` cancel near 0: series there (`shape.rs`).
 //! - Scalars are proved in doubles for most nodes (`fast.rs`) because intervals for each node would cost far more.
-//! - `involute/` evaluates each half of the curve in a form seen from its own end (`half.rs`), where all that cancels does so in letters; ends and end
-//!   curvatures are met to a rounding. `turns.rs` is the rule for turns about the ends, which the paper does not have.
+//! - `involute/` evaluates each half of the curve in a form seen from its own end (`half.rs`), where all that cancels does so in letters; ends and
+//!   end curvatures are met to a rounding. Each half has the width of its own peak of speed as unit, so that nothing leaves the range of doubles.
+//!   The turns of a direction are a closed form. `track.rs` tabulates the length once, over the logarithm of the parameter.
+//! - No work depends on how near the data are to a limit: `involute/steps.rs` counts precision, evaluations and pieces there.
+//! - `involute/turns.rs` is the rule for turns about the ends, which the paper does not have.
 
 mod arc;
 mod bound;
