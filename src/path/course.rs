@@ -196,7 +196,7 @@ impl Course {
     /// passed over: then it changes at the start of the next one. A path that ends where it starts joins there, too.
     fn spots(&self, signs: fn(&Piece) -> Signs) -> Vec<Spot> {
         let all: Vec<Signs> = self.pieces.iter().map(signs).collect();
-        let some = |numbers: &[f64]| numbers.iter().copied().find(|s| *s > 0.0 || *s < 0.0);
+        let some = |numbers: &[f64]| numbers.iter().copied().find(|s| s.abs() > 0.0);
         let mut last = if self.closed() { all.iter().rev().find_map(|s| some(&[s.ends[1]])).unwrap_or(0.0) } else { 0.0 };
         let mut spots = Vec::new();
         for (i, Signs { inside, ends: [first, end] }) in all.iter().enumerate() {

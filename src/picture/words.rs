@@ -10,7 +10,7 @@ pub fn grouped(number: u64) -> String {
 /// A number with at most four decimals, or of four digits in scientific form where decimals would say nothing or fill lines.
 pub fn short(x: f64) -> String {
     let size = x.abs();
-    let text = if size >= 1e15 || size < 1e-4 { format!("{x:.3e}") } else { format!("{x:.4}") };
+    let text = if !(1e-4..1e15).contains(&size) { format!("{x:.3e}") } else { format!("{x:.4}") };
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, ""));
     let digits = digits.trim_end_matches('0').trim_end_matches('.');
     match exponent {

@@ -151,7 +151,7 @@ impl PhSolution {
             margin: *margin,
             length: length * placement.unit(),
             energy: energy / placement.unit(),
-            curve: placement.to_user_ph(curve),
+            curve: placement.ph_in_user_frame(curve),
             control_points: user,
             local_control_points: local,
             legs: placement.to_user_legs(&curve.legs()),

@@ -188,7 +188,7 @@ impl Placement {
     ///
     /// The derivative w² is turned and stretched by half the chord, so w is by its root; a mirrored curve has the conjugate of w, and one run
     /// backwards i times the coefficients in reverse order.
-    pub(super) fn to_user_ph(&self, curve: &PhQuintic) -> PhQuintic {
+    pub(super) fn ph_in_user_frame(&self, curve: &PhQuintic) -> PhQuintic {
         let [x, y] = self.half_chord;
         let root = Complex64::new(x, y).sqrt();
         let mut w = complex(&curve.preimage).map(|w| root * if self.mirrored { w.conj() } else { w });

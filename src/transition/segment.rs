@@ -85,6 +85,7 @@ pub struct Added {
 }
 
 /// The segment, or why there is none.
+#[expect(clippy::large_enum_variant, reason = "one answer at a time, and nearly always a segment")]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {

@@ -132,7 +132,7 @@ impl Curve for Equation {
         }
         let square = self.rest.square().middle();
         let room = (&self.q.middle() - &square.scale(3.0)).over(&self.q.middle())?;
-        let theta = (&square.scale(9.0)).over(&room).filter(|x| x.sign() == Some(Ordering::Greater))?.sqrt()?.middle();
+        let theta = square.scale(9.0).over(&room).filter(|x| x.sign() == Some(Ordering::Greater))?.sqrt()?.middle();
         (theta.compare(&Interval::new(SERIES_BELOW, theta.bits())) == Some(Ordering::Less)).then_some(theta)
     }
 

@@ -74,7 +74,7 @@ impl Obstacles {
     fn needed(&self, rings: &[Vec<Point>]) -> Vec<bool> {
         let mut seen = HashSet::new();
         let mut needed: Vec<bool> = rings.iter().map(|ring| seen.insert(canonical(ring))).collect();
-        let bounds: Vec<AABB<Point>> = rings.iter().map(|ring| AABB::from_points(ring)).collect();
+        let bounds: Vec<AABB<Point>> = rings.iter().map(AABB::from_points).collect();
         let within = |i: usize, j: usize| {
             let (inner, outer) = (&bounds[i], &bounds[j]);
             let meets = |side: Side| {
@@ -83,9 +83,9 @@ impl Obstacles {
             };
             outer.contains_envelope(inner) && holds(&rings[j], rings[i][0]) && !sides(i, &rings[i]).any(meets)
         };
-        for i in 0..rings.len() {
+        for (i, needed) in needed.iter_mut().enumerate() {
             // An outermost polygon is within none, so that what holds a polygon is never dropped for good.
-            needed[i] = needed[i] && !(0..rings.len()).any(|j| j != i && within(i, j));
+            *needed = *needed && !(0..rings.len()).any(|j| j != i && within(i, j));
         }
         needed
     }

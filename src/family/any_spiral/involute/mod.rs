@@ -63,6 +63,7 @@ pub struct Spiral {
 }
 
 /// Whether there is a spiral.
+#[expect(clippy::large_enum_variant, reason = "one answer at a time, and nearly always a curve")]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {

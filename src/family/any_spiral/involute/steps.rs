@@ -3,12 +3,11 @@
 //!
 //! Bounds, for doubles with at most 2150 bits between the largest and the smallest digit of what is added, and at most 2000 turns:
 //! - Precision doubles from 128 bits. Only digits that the data share cost any: where Q is small against its
-//! terms, or nearly 3ω² for small ω.
+//!   terms, or nearly 3ω² for small ω.
 //! - The equation is solved by Newton's method from a start with at least 10 right bits, so that each step doubles them: log2(bits/10)
 //!   evaluations, two for the bracket, two for the proof at the first δ, and as many again where rounding asks for a wider one.
-//! - The length has pieces of a unit and a half of y, which is at most ln of the largest w; of a unit and a
-//! half of v, which is at most θ; and some 4 for
-//!   each halving towards a peak inside, of which doubles leave 54.
+//! - The length has pieces of a unit and a half of y, which is at most ln of the largest w; of a unit and a half of v,
+//!   which is at most θ; and some 4 for each halving towards a peak inside, of which doubles leave 54.
 
 use super::super::exact::Datum;
 use super::Chord;
