@@ -36,7 +36,7 @@ pub struct EqualLength {
 /// [`Error::Domain`] naming a number that is not finite, ends that coincide, a length not above their distance, or results beyond doubles.
 ///
 /// ```
-/// use spiral_atlas::path::{EqualLength, equal_length};
+/// use spiral_atlas::curve::{EqualLength, equal_length};
 /// let ends = EqualLength { start: [0.0, 0.0], end: [1.0, 0.0], start_direction: 1.0, end_direction: -2.0, length: 1.4 };
 /// let choice = equal_length(&ends)?;
 /// assert!((choice.best().length() - 1.4).abs() < 1e-14);

@@ -29,7 +29,7 @@ pub struct Hermite {
 /// [`Error::Domain`] naming a number that is not finite, a derivative of 0 (it has no direction), or results beyond doubles.
 ///
 /// ```
-/// use spiral_atlas::path::{Hermite, hermite};
+/// use spiral_atlas::curve::{Hermite, hermite};
 /// let ends = Hermite { start: [0.0, 0.0], end: [1.0, 0.0], start_derivative: [1.0, 1.0], end_derivative: [1.0, -1.0] };
 /// let choice = hermite(&ends)?;
 /// assert!((choice.candidates[choice.best].absolute_rotation - std::f64::consts::FRAC_PI_2).abs() < 1e-14);

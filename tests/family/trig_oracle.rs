@@ -206,7 +206,7 @@ fn values_outside_the_domain_are_named() {
             let mut shape = fine;
             shape[which] = value;
             let error = TrigQuintic.table(&grid(shape)).err().expect("outside the domain").to_string();
-            assert!(error.contains(names[which]) && error.contains(&format!("{value:?}")), "{error}");
+            assert!(error.contains(names[which]) && error.contains(&format!("{value}")), "{error}");
             let [ratio, theta, m, p, q] = shape;
             let shape = Shape { ratio, theta, m, p, q };
             assert_eq!(flags(&shape).unwrap_err().to_string(), error);

@@ -89,7 +89,7 @@ impl Datum {
     /// # Errors
     /// [`crate::Error::Undecided`] at the precision cap.
     pub fn scalars(&self, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
-        let fast = Pair::new(self.alpha, self.beta).map(|pair| Fast::new(self, &pair));
+        let fast = Pair::new(self.alpha, self.beta).map(|pair| Fast::new(self.k1, self.k2, &pair));
         self.fill(code, which, out, |which| match (which, &fast) {
             (1, _) => self.rounded_omega(),
             (_, fast) => fast.as_ref()?.scalar(which),

@@ -1,7 +1,6 @@
 //! Scalars from doubles, with proof, for most nodes.
 
 use super::arc::bracket;
-use super::exact::Datum;
 use super::pair::Pair;
 use super::shape::Shape;
 use crate::num::roots::find;
@@ -25,8 +24,9 @@ pub(super) struct Fast {
 }
 
 impl Fast {
-    pub fn new(datum: &Datum, pair: &Pair) -> Fast {
-        let (q, error) = pair.q(datum.k1, datum.k2);
+    /// For curvatures times half the chord, and the constants of both angles.
+    pub fn new(k1: f64, k2: f64, pair: &Pair) -> Fast {
+        let (q, error) = pair.q(k1, k2);
         Fast { q: (q - error, q + error), omega: pair.omega, arc: OnceCell::new() }
     }
 

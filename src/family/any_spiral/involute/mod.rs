@@ -2,7 +2,7 @@
 //! spiral joins, short or long, with increasing or decreasing curvature, with or without an inflection.
 //!
 //! ```
-//! use spiral_atlas::curve::{Chord, involute};
+//! use spiral_atlas::family::any_spiral::{Chord, involute};
 //!
 //! // Fig. 5: the circles of curvature at the ends are concentric, with radii 2 : 1.
 //! let (k, pi) = (0.75f64.sqrt() / 2.0, std::f64::consts::PI);
