@@ -7,7 +7,7 @@ use crate::curve::{Offset, PhQuintic};
 use crate::error::{Error, Result};
 use crate::transition::{Piece, Station, stations};
 use serde::Serialize;
-use signs::Signs;
+use signs::{Signs, opposite};
 
 /// Pieces join where the gap between them is at most this share of their length and place, for roundings of whoever wrote them.
 const GAP: f64 = 1e-10;
@@ -200,7 +200,7 @@ impl Course {
         let mut last = if self.closed() { all.iter().rev().find_map(|s| some(&[s.ends[1]])).unwrap_or(0.0) } else { 0.0 };
         let mut spots = Vec::new();
         for (i, Signs { inside, ends: [first, end] }) in all.iter().enumerate() {
-            if first.signum() * last.signum() < 0.0 && *first != 0.0 && last != 0.0 {
+            if opposite(*first, last) {
                 spots.push(self.spot(i, self.pieces[i].range()[0]));
             }
             last = some(&[*end, *first, last]).unwrap_or(0.0);

@@ -8,7 +8,7 @@
 //! # How it is done
 //! - One PH quintic type, `curve::PhQuintic`: pre-image and both ends. Both, so that ends are met exactly; control points come from the nearer end.
 //! - Its energy is that of the family (`family/ph_quintic/energy.rs`): a proved enclosure needs no partial fractions, which cancel where roots nearly coincide.
-//! - `path/equal.rs`: of √p and √q the one that is a sum, the other from their product; the discriminant as a sum of squares. Nothing cancels near `θ1 = ±θ0`.
+//! - `curve/equal_length.rs`: of √p and √q the one that is a sum, the other from their product; the discriminant as a sum of squares. Nothing cancels near `θ1 = ±θ0`.
 //! - `path/separation.rs` bounds by speeds and by accelerations. By speeds alone, two vehicles in step need `1/tolerance` stretches; with both, its square root.
 //!   Errors of a point are those of its arc length, since a chord is no longer than its arc. Time is cut where one starts or arrives: on a stretch each
 //!   stands or moves.

@@ -169,8 +169,8 @@ impl Solution {
                 "a control point of the root ({f0:?}, {f1:?}) is ({x:?}, {y:?}), outside the range of doubles (change the unit of length)"
             )));
         }
-        // A proved spiral has none; rounding must not say otherwise.
         let length = arc_length(|t| of_legs(&legs, t).speed(), 0.0, 1.0);
+        // A proved spiral has none; rounding must not say otherwise.
         let extrema = if spiral { Vec::new() } else { local_control_points.curvature_extrema() };
         Ok(Solution { f0, f1, theorem31, spiral, margin, length, control_points, local_control_points, legs, extrema })
     }

@@ -77,8 +77,8 @@ pub struct PhSolution {
 /// Length and energy to 2^-36 relative, usually a few ulp.
 ///
 /// # Errors
-/// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] for a curvature beyond 1e30 (times half the chord) or when a control point leaves the range of doubles. That
-/// no spiral exists is no error but [`PhOutcome::Why`].
+/// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] for a curvature beyond 1e30 (times half the chord) or when a
+/// control point leaves the range of doubles. That no spiral exists is no error but [`PhOutcome::Why`].
 pub fn ph_spiral(ends: &Ends) -> Result<PhAnswer> {
     let (datum, placement) = Placement::normalise(ends)?;
     if let Some(kappa) = [datum.kappa0, datum.kappa1].into_iter().find(|kappa| kappa.abs() > GREATEST) {

@@ -48,13 +48,18 @@ pub enum Piece {
 /// What kinds of pieces there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
 pub enum Kind {
+    /// [`Piece::Cubic`].
     Cubic,
+    /// [`Piece::PhQuintic`].
     PhQuintic,
+    /// [`Piece::TrigQuintic`].
     TrigQuintic,
+    /// [`Piece::Involute`].
     Involute,
+    /// [`Piece::Line`].
     Line,
+    /// [`Piece::Arc`].
     Arc,
 }
 

@@ -24,6 +24,14 @@ pub struct Station {
 }
 
 impl Station {
+    /// The names of [`Station::numbers`], as in JSON and the headers of tables.
+    pub const COLUMNS: [&str; 5] = ["station", "x", "y", "heading", "curvature"];
+
+    /// Its numbers, in the order of [`Station::COLUMNS`].
+    pub fn numbers(&self) -> [f64; 5] {
+        [self.station, self.x, self.y, self.heading, self.curvature]
+    }
+
     /// The point at signed distance `d` to the left of this one.
     pub fn beside(&self, d: f64) -> [f64; 2] {
         let (sin, cos) = self.heading.sin_cos();

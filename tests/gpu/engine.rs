@@ -349,7 +349,7 @@ fn cpu_seconds() -> f64 {
     fields.get(11..13).map_or(f64::NAN, |ticks| ticks.iter().map(|t| t.parse::<f64>().unwrap_or(f64::NAN)).sum::<f64>() / 100.0)
 }
 
-/// By hand: `cargo test --release --test gpu_engine -- --ignored --nocapture measure`.
+/// By hand: `cargo test --release --test gpu -- --ignored --nocapture measure`.
 #[test]
 #[ignore = "a measurement"]
 fn measure_words_per_thread() {

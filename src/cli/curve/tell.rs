@@ -116,8 +116,8 @@ impl<'f, F: Found> Told<'f, F> {
         };
         text += &self.families.as_ref().map_or(String::new(), |families| advice(families));
         if let Some(samples) = self.samples.as_ref().filter(|samples| !samples.is_empty()) {
-            text += "\nstation, x, y, heading, curvature\n";
-            text += rows(samples, ", ").trim_end();
+            text += "\n";
+            text += table(samples, ", ").trim_end();
         }
         text + "\n"
     }
@@ -129,17 +129,16 @@ impl<'f, F: Found> Told<'f, F> {
                 output::note(reason);
                 Ok(())
             }
-            None => output::print(&format!(
-                "station,x,y,heading,curvature\n{}",
-                rows(self.samples.as_deref().unwrap_or_default(), ",")
-            )),
+            None => output::print(&table(self.samples.as_deref().unwrap_or_default(), ",")),
         }
     }
 }
 
-fn rows(samples: &[Station], comma: &str) -> String {
-    let row = |s: &Station| [s.station, s.x, s.y, s.heading, s.curvature].map(|x| format!("{x:?}")).join(comma) + "\n";
-    samples.iter().map(row).collect()
+/// Samples with their header.
+fn table(samples: &[Station], comma: &str) -> String {
+    let row = |s: &Station| s.numbers().map(|x| format!("{x:?}")).join(comma);
+    let lines = std::iter::once(Station::COLUMNS.join(comma)).chain(samples.iter().map(row));
+    lines.map(|line| line + "\n").collect()
 }
 
 /// Which other families to ask for.

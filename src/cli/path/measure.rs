@@ -84,11 +84,11 @@ fn measured(course: &Course, args: &Args) -> Result<Measured> {
 fn rows(paths: &[Vec<Station>]) -> String {
     let cell = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
     let row = |i: usize, s: &Station| {
-        let cells = [s.station, s.x, s.y, s.heading, s.curvature].map(cell).join(",");
+        let cells = s.numbers().map(cell).join(",");
         format!("{i},{cells}\n")
     };
     let rows = paths.iter().enumerate().flat_map(|(i, samples)| samples.iter().map(move |s| row(i, s)));
-    std::iter::once("path,station,x,y,heading,curvature\n".to_owned()).chain(rows).collect()
+    std::iter::once(format!("path,{}\n", Station::COLUMNS.join(","))).chain(rows).collect()
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {

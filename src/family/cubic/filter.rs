@@ -1,7 +1,7 @@
 //! The f64 step: classifies a vector of nodes that share their angles, with proof, or leaves them undecided.
 //!
 //! Guesses (Newton's method, division, square roots) only choose where to look. What is stored rests on `+ - *` with
-//! these bounds, in units of u = 2^-53. The shader `cubic.wgsl` does the same in f32, function by function.
+//! these bounds, in units of u = 2^-53. The shader of `shaders/cubic/` does the same in f32, function by function.
 
 use super::precision::{Precision, Prepared};
 use super::root::{Data, Root, Side, bernstein, bits, residual, root, sides};

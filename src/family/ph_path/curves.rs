@@ -1,7 +1,7 @@
 //! The solutions of a datum: at most four pre-images, mirror images left out.
 //!
 //! With `w0 = √l0 e^(iθ0/2)`, `w2 = ±√l1 e^(iθ1/2)` the ends leave `w1 = (±√Z - 3(w0 + w2))/4`, `Z = 120 - 15w0² - 15w2² + 10w0w2`. A given
-//! arc length with equal end speeds z is the same with `l0 = l1 = z`, where z and √Z follow from (10)-(13): see `path/equal.rs`.
+//! arc length with equal end speeds z is the same with `l0 = l1 = z`, where z and √Z follow from (10)-(13): see `curve/equal_length.rs`.
 
 use super::Kind;
 use super::arc::{Arc, Complex};

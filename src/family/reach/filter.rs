@@ -1,7 +1,7 @@
 //! The f64 step: classifies a vector of nodes of one angle, with proof, or leaves them undecided.
 //!
 //! Guesses (division, square roots, Newton's method) only choose where to look; what is stored rests on `+ - *` with these
-//! bounds. The shaders do the same in f32, function by function (`lib/reach.wgsl`).
+//! bounds. The shaders do the same in f32, function by function (`shaders/reach/`).
 
 use super::angle::{Angle, SCALE_ERROR};
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};

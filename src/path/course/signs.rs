@@ -113,7 +113,8 @@ fn sampled([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> Signs {
     Signs { inside, ends: [end(signed.first()), end(signed.last())] }
 }
 
-fn opposite(a: f64, b: f64) -> bool {
+/// Whether two numbers have opposite signs; 0 and NaN have none.
+pub fn opposite(a: f64, b: f64) -> bool {
     (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0)
 }
 

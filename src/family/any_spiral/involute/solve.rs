@@ -284,9 +284,8 @@ impl Involute {
     /// The point at a parameter from 0 to 1.
     ///
     /// # Accuracy
-    /// About 1e-14, relative to its distance from the nearer end and, if larger, times that distance;
-    /// directions 1e-14 times one plus the turns;
-    /// curvatures 1e-13 relative to the largest term they are the sum of. The ends are exact, up to the rounding of their direction.
+    /// About 1e-14, relative to its distance from the nearer end and, if larger, times that distance; directions 1e-14 times one plus the
+    /// turns; curvatures 1e-13 relative to the largest term they are the sum of. The ends are exact, up to the rounding of their direction.
     pub fn at(&self, f: f64) -> InvolutePoint {
         let (which, u) = side(f);
         InvolutePoint { f, ..self.seen(which, u) }
@@ -310,9 +309,8 @@ impl Involute {
     /// The point where a share, from 0 to 1, of the length is behind.
     ///
     /// # Accuracy
-    /// 1e-13 of the length, and as [`Involute::at`], but that the point's parameter, rounded to a double,
-    /// may tell less than the point where the
-    /// curve begins or ends far within a rounding of the parameter.
+    /// 1e-13 of the length, and as [`Involute::at`], but that the point's parameter, rounded to a double, may tell less than the point where
+    /// the curve begins or ends far within a rounding of the parameter.
     pub fn at_length(&self, share: f64) -> InvolutePoint {
         let wanted = share.max(0.0) * self.length();
         // The end itself, even where its half is shorter than a rounding.
