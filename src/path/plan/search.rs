@@ -6,6 +6,7 @@ use super::places::Place;
 use super::proof::{Clearance, clearance};
 use crate::path::queue::Queue;
 use crate::path::{Turn, distance};
+use std::collections::HashSet;
 use std::rc::Rc;
 
 /// Legs found in one search, at most.
@@ -123,13 +124,17 @@ pub struct Search<'o> {
     work: usize,
     /// Sides looked at until work was last taken off.
     looks: usize,
+    /// Sides looked at when the search gives up.
+    most_looks: usize,
 }
 
 impl<'o> Search<'o> {
     pub fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
         let free = |place: &Place| place.at.iter().all(|x| x.is_finite()) && is_clear(obstacles, [place.at; 2], limits.keep);
         let ends = ends.map(|at| Place { at, vertex: None, wide: false }).into_iter();
-        let places: Vec<Place> = ends.chain(beside.into_iter().filter(free)).collect();
+        let mut known = HashSet::new();
+        let new = |place: &Place| place.cell().is_none_or(|cell| known.insert(cell));
+        let places: Vec<Place> = ends.chain(beside.into_iter().filter(free).filter(new)).collect();
         let seen = vec![None; places.len()];
         let taken = vec![vec![]; places.len()];
         let (legs, waiting) = (vec![], Queue::new());
@@ -144,12 +149,18 @@ impl<'o> Search<'o> {
             longest: f64::INFINITY,
             work: usize::MAX,
             looks: obstacles.looks(),
+            most_looks: usize::MAX,
         }
     }
 
     /// Only paths shorter than this, and not for ever.
     pub fn within(self, longest: f64, work: usize) -> Search<'o> {
         Search { longest, work, ..self }
+    }
+
+    /// And not past so many sides looked at.
+    pub fn looking_at(self, sides: usize) -> Search<'o> {
+        Search { most_looks: self.looks + sides, ..self }
     }
 
     /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than before.
@@ -163,7 +174,7 @@ impl<'o> Search<'o> {
     fn find(&mut self) -> Found {
         self.extend(None);
         while let Some((_, leg)) = self.waiting.pop() {
-            if self.legs.len() > LEGS || self.work == 0 {
+            if self.spent() {
                 return Found::GaveUp;
             }
             let Leg { places, index, turn, path, .. } = self.legs[leg];
@@ -177,7 +188,12 @@ impl<'o> Search<'o> {
             }
             self.extend(Some(leg));
         }
-        Found::None
+        // What was seen last may not be all.
+        if self.spent() { Found::GaveUp } else { Found::None }
+    }
+
+    fn spent(&self) -> bool {
+        self.legs.len() > LEGS || self.work == 0 || self.obstacles.looks() > self.most_looks
     }
 
     /// Whether the curve at the start of a leg comes too near to something.
@@ -252,7 +268,8 @@ impl<'o> Search<'o> {
             let clear = seen.length > 0.0 && is_clear(self.obstacles, [here.at, there.at], self.limits.keep);
             clear.then_some(seen)
         };
-        let seen: Rc<[Seen]> = self.places.iter().enumerate().skip(GOAL).filter_map(look).collect();
+        let within = |_: &(usize, &Place)| self.obstacles.looks() <= self.most_looks;
+        let seen: Rc<[Seen]> = self.places.iter().enumerate().skip(GOAL).take_while(within).filter_map(look).collect();
         self.spend(self.places.len());
         self.taken[from] = vec![f64::INFINITY; seen.len()];
         self.seen[from] = Some(seen.clone());
