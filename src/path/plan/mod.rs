@@ -9,6 +9,8 @@ mod places;
 mod proof;
 mod round;
 mod search;
+#[cfg(test)]
+mod work;
 
 use super::{ROUNDINGS, Turn, check_joined, distance, finite};
 use crate::curve::PhQuintic;
@@ -38,7 +40,7 @@ const WORK: usize = 8_000_000;
 const MORE: usize = 1_000_000;
 /// Sides that the first search looks at: so many, and so many for each vertex. Scattered obstacles take 800 a vertex where they have 1,000
 /// vertices, and 3,500 where they have 10,000; only sides that crowd along many lines take more than twice that.
-const SIDES_LOOKED_AT: [usize; 2] = [4_000_000, 8_000];
+const SIDES_LOOKED_AT: [usize; 2] = [2_000_000, 6_000];
 /// Paths this much longer than without a limit of curvature are detours: then there may be shorter ones further off.
 const DETOUR: f64 = 2.0;
 
