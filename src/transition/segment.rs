@@ -2,6 +2,7 @@
 
 use super::Turn;
 use super::piece::{Cubic, Piece};
+use super::placement::{Ends, Placement};
 use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::{Error, Result};
@@ -50,6 +51,31 @@ pub struct Request {
     pub theta: f64,
     /// Its shape or its end point.
     pub target: Target,
+}
+
+impl Request {
+    /// The segment between two ends one of which is straight. There is none where neither is or both are, and where no C-shaped curve that
+    /// turns to the side of the round end joins them.
+    ///
+    /// # Accuracy
+    /// [`Request::theta`] and [`Request::radius`] to 4e-15.
+    ///
+    /// # Errors
+    /// Those of [`Placement::normalise`].
+    pub fn between(ends: &Ends) -> Result<Option<Request>> {
+        // There the straight end comes first.
+        let (datum, placement) = Placement::normalise(ends)?;
+        let fits = datum.kappa0 == 0.0 && datum.kappa1 > 0.0 && datum.phi0 > 0.0 && datum.phi1 > 0.0;
+        Ok(fits.then(|| Request {
+            base: if placement.reversed { Base::Circle } else { Base::Line },
+            start: ends.start,
+            direction: ends.start_direction,
+            turn: placement.turn(),
+            radius: 1.0 / ends.start_curvature.abs().max(ends.end_curvature.abs()),
+            theta: datum.phi0 + datum.phi1,
+            target: Target::Point(ends.end),
+        }))
+    }
 }
 
 /// A segment with everything asked for.

@@ -24,6 +24,21 @@ pub fn find(kind: Kind, request: &Request) -> Result<Told> {
     Ok(Told { kind, request: *request, outcome: add_segment(kind, request)? })
 }
 
+/// What to type for a segment that ends at a point.
+pub fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
+    let Request { base, start, direction, turn, radius, theta, .. } = request;
+    let base = if *base == Base::Line { "line" } else { "circle" };
+    format!(
+        "spiral-atlas curve --family {} --base {base} --from={:?},{:?} --start-direction={direction:?} --turn {turn} --radius {radius:?} \
+         --angle {theta:?} --to={:?},{:?}",
+        kind.name(),
+        start[0],
+        start[1],
+        to[0],
+        to[1]
+    )
+}
+
 impl Found for Told {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {

@@ -1,9 +1,11 @@
 //! What every family of `curve` tells alike: paths, reasons, other families, samples.
 
 use super::super::{Outcome, output};
-use super::{Family, Found};
+use super::{Family, Found, involute, reach};
 use serde::Serialize;
-use spiral_atlas::transition::{Ends, Piece, Station, involute_between, ph_spiral, spiral, stations};
+use spiral_atlas::family::reach::Kind;
+use spiral_atlas::transition::segment::Request;
+use spiral_atlas::transition::{Ends, Piece, Station, ph_spiral, spiral, stations};
 use spiral_atlas::{Error, Result};
 
 /// An answer as JSON.
@@ -16,9 +18,8 @@ pub struct Told<'f, F: Found> {
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// The other families that have a spiral here, best first.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    families: Option<Vec<&'static str>>,
+    #[serde(flatten)]
+    others: Option<Others>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<Vec<Station>>,
 }
@@ -99,9 +100,9 @@ impl<'f, F: Found> Told<'f, F> {
             )));
         }
         let unsure = found.ends().filter(|_| wish.advice && reason.is_some());
-        let families = unsure.map(|ends| others(ends, wish));
+        let others = unsure.map(|ends| Others::new(ends, wish));
         let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| stations(&path.pieces, n as usize)));
-        Ok(Told { found, paths, reason, families, samples: samples.transpose()? })
+        Ok(Told { found, paths, reason, others, samples: samples.transpose()? })
     }
 
     pub fn outcome(&self) -> Outcome {
@@ -114,7 +115,7 @@ impl<'f, F: Found> Told<'f, F> {
             Some(reason) if self.found.spirals().is_ok() => format!("{reason}\n"),
             _ => self.found.text(),
         };
-        text += &self.families.as_ref().map_or(String::new(), |families| advice(families));
+        text += &self.others.as_ref().map_or(String::new(), Others::advice);
         if let Some(samples) = self.samples.as_ref().filter(|samples| !samples.is_empty()) {
             text += "\n";
             text += table(samples, ", ").trim_end();
@@ -141,25 +142,49 @@ fn table(samples: &[Station], comma: &str) -> String {
     lines.map(|line| line + "\n").collect()
 }
 
-/// Which other families to ask for.
-fn advice(families: &[&str]) -> String {
-    let [first, rest @ ..] = families else { return String::new() };
-    let more: Vec<String> = rest.iter().map(|name| format!(" or `--family {name}`")).collect();
-    format!("\nanother kind of curve would do: add `--family {first}`{}", more.concat())
+/// Other families that have a spiral where one has none.
+#[derive(Debug, Default, Serialize)]
+struct Others {
+    /// Those that take the same ends.
+    families: Vec<&'static str>,
+    /// Commands for a segment added to the straight end, where one of the ends is straight.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    segments: Vec<String>,
 }
 
-/// The families between two ends that have a spiral, no longer than allowed, where another has none. One that fails counts as none.
-fn others(ends: &Ends, wish: Wish) -> Vec<&'static str> {
-    let longest = wish.longest();
-    let short = |length: Option<f64>| length.is_some_and(|length| length <= longest);
-    let cubic = || short(spiral(ends).ok().and_then(|found| found.no_longer_than(longest).chosen().map(|s| s.length)));
-    let ph = || short(ph_spiral(ends).ok().and_then(|found| found.no_longer_than(longest).chosen().map(|s| s.length)));
-    let involute = || {
-        let found = involute_between(ends, [0, 0]).ok();
-        short(found.and_then(|(spiral, frame)| Some(spiral.curve()?.length() * frame.half_chord[0].hypot(frame.half_chord[1]))))
-    };
-    // Where no involute exists no spiral does.
-    let all: [(Family, &'static str, &dyn Fn() -> bool); 3] =
-        [(Family::Cubic, "cubic", &cubic), (Family::PhQuintic, "ph-quintic", &ph), (Family::Involute, "involute", &involute)];
-    all.into_iter().filter(|(family, _, has)| *family != wish.family && has()).map(|(_, name, _)| name).collect()
+impl Others {
+    /// All families that join two ends by a spiral no longer than allowed, but for the one that was asked: each is asked too. One that
+    /// fails counts as none.
+    fn new(ends: &Ends, wish: Wish) -> Others {
+        let longest = wish.longest();
+        let short = |pieces: std::result::Result<Vec<Piece>, String>| {
+            pieces.is_ok_and(|pieces| pieces.iter().map(Piece::length).sum::<f64>() <= longest)
+        };
+        let cubic = || spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
+        let ph = || ph_spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
+        // Where no involute exists no spiral does.
+        let involute = || involute::find(ends, [0, 0]).is_ok_and(|found| short(found.spirals()));
+        let all: [(Family, &'static str, &dyn Fn() -> bool); 3] =
+            [(Family::Cubic, "cubic", &cubic), (Family::PhQuintic, "ph-quintic", &ph), (Family::Involute, "involute", &involute)];
+        let families = all.into_iter().filter(|(family, _, has)| *family != wish.family && has()).map(|(_, name, _)| name);
+        let segment = Request::between(ends).ok().flatten();
+        let added = |kind: Kind| {
+            let request = segment.filter(|request| reach::find(kind, request).is_ok_and(|found| short(found.spirals())))?;
+            Some(reach::command(kind, &request, ends.end))
+        };
+        Others { families: families.collect(), segments: [Kind::Cubic, Kind::Ph].into_iter().filter_map(added).collect() }
+    }
+
+    /// What to type for them.
+    fn advice(&self) -> String {
+        let mut text = String::new();
+        if !self.families.is_empty() {
+            let names: Vec<String> = self.families.iter().map(|name| format!("`--family {name}`")).collect();
+            text += &format!("\nanother kind of curve would do: add {}", names.join(" or "));
+        }
+        for command in &self.segments {
+            text += &format!("\na segment that is added to the straight end would do: `{command}`");
+        }
+        text
+    }
 }
