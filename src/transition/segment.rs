@@ -3,10 +3,12 @@
 use super::Turn;
 use super::piece::{Cubic, Piece};
 use super::placement::{Ends, Placement};
+use super::words::degrees;
 use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::{Error, Result};
 use crate::family::reach::{Datum, Kind, Level, level_of_shape, solve};
+use crate::num::told;
 use serde::Serialize;
 
 /// What the segment is added to.
@@ -161,7 +163,7 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
             let [xi, eta] = frame.to_local(point)?;
             let reached = solve(kind, &Datum { theta, xi, eta })?;
             let segment = if case == 1 { reached.case1 } else { reached.case2 };
-            let Some(s) = segment else { return Ok(Outcome::None { why: why(case, theta, xi, eta) }) };
+            let Some(s) = segment else { return Ok(Outcome::None { why: why(case, theta, point, [xi, eta]) }) };
             (xi, eta, s.m, s.q, s.level)
         }
     };
@@ -212,15 +214,16 @@ fn positive(name: &str, value: f64) -> Result<()> {
 }
 
 /// Why there is no segment: one of the two legs would have to run backwards.
-fn why(case: u8, theta: f64, xi: f64, eta: f64) -> String {
+fn why(case: u8, theta: f64, point: Vector, [xi, eta]: Vector) -> String {
     let (s, c) = theta.sin_cos();
     let (round, name) = if case == 1 { (eta, "eta") } else { (xi * s - eta * c, "xi sin(theta) - eta cos(theta)") };
-    let place = format!("the end point (xi, eta) = ({xi:?}, {eta:?}) at theta = {theta:?}");
-    if round <= 0.0 {
-        format!("{place} has {name} = {round:?}, which must be above 0: it lies behind the tangent of the flat end")
+    let what = if round <= 0.0 {
+        format!("has {name} = {}, which must be above 0: it lies behind the tangent of the flat end", told(round))
     } else {
-        format!("{place} needs m <= 0: it lies too near, so that the flat end's tangent would run backwards")
-    }
+        "needs m <= 0: it lies too near, so that the flat end's tangent would run backwards".into()
+    };
+    let ([x, y], [xi, eta], theta) = (point.map(told), [xi, eta].map(told), degrees(theta));
+    format!("the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, {what}")
 }
 
 /// The start's frame: radius 1, turning left from (0, 0) along (1, 0).

@@ -47,6 +47,28 @@ fn no_curve_is_an_answer_with_numbers() {
     assert!(!folder.at("none.png").exists());
 }
 
+#[test]
+fn angles_may_be_written_in_many_ways() {
+    let ask = |start: &str, end: &str| {
+        let json = curve("0,0", "200,0", [start, end], ["0.004", "0.04"], &["--json"]).json();
+        let points = json["paths"][0]["pieces"][0]["control_points"].clone();
+        points.as_array().unwrap().iter().flat_map(|p| [number(&p[0]), number(&p[1])]).collect::<Vec<f64>>()
+    };
+    let (plain, mut others) = (ask("-40deg", "80deg"), 0);
+    let radians = [format!("{:?}", -40f64.to_radians()), format!("{:?}rad", 80f64.to_radians())];
+    let starts =
+        ["-40°", "-40 deg", " -40.0° ", "-4e1deg", "320deg", "-400°", "0.766044443118978,-0.642787609686539", &radians[0]];
+    let ends = ["80°", "80 deg", "+80°", "80 °", "440deg", "-280deg", "1.736481776669303,9.84807753012208", &radians[1]];
+    for (start, end) in starts.into_iter().zip(ends) {
+        // A turn more loses an ulp of itself, and vectors are given to 15 digits; 200 long.
+        let off = ask(start, end).iter().zip(&plain).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 200.0 * 1e-13, "{start} {end}: {off}");
+        others += usize::from(off > 0.0);
+    }
+    assert!(others > 0);
+    assert_ne!(ask("-41deg", "80deg"), plain);
+}
+
 fn point(sample: &serde_json::Value) -> [f64; 2] {
     [number(&sample["x"]), number(&sample["y"])]
 }

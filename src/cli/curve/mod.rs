@@ -36,7 +36,7 @@ const SAMPLES: usize = 801;
 /// the angle that it turns, its radius and its shape numbers.
 ///
 /// Exit status: 0 when there is such a spiral, 1 when there is none, 2 for an error. A no comes with the condition that fails, in your
-/// units, and with the other families that have a spiral there.
+/// units, and with what to type for the other families that have a spiral there.
 ///
 /// With --points, one line of JSON for each row, in order, as of --json but without advice (no other families or curvatures are tried); a
 /// bad row gives {"line":..,"error":".."}. The exit status is 0 when every row was answered, whatever the answers, and 2 when one was bad.
