@@ -158,6 +158,16 @@ fn options_of_other_families_are_refused() {
     refused(&["curve", "--from", "0,0"], &["`--family cubic` needs", "`--to`", "`--end-curvature`"]);
     refused(&["curve", "--family", "reach-ph", "--to", "1,1"], &["needs", "`--radius`"]);
     refused(&["curve", "--family", "reach-ph", "--m", "1"], &["`--to` or its shape `--m` and `--q`"]);
+    let usage = "Usage: spiral-atlas curve --family reach-ph --from <X,Y> --start-direction <ANGLE|DX,DY> --base <BASE> --turn <TURN> \
+                 --radius <NUMBER> --angle <ANGLE> [--to <X,Y>] [--m <NUMBER>] [--q <NUMBER>] [OPTIONS]";
+    refused(&["curve", "--family", "reach-ph", "--m", "1"], &[usage, "'spiral-atlas curve --help'"]);
+    let template =
+        ["curve", "--family", "trig-quintic", "--template", "circle-in-circle", "--from", "0,0", "--second", "1,1,1,1,1,1"];
+    refused(
+        &template,
+        &["`--template circle-in-circle` needs", "`--outer`", "--family trig-quintic --template circle-in-circle --from"],
+    );
+    refused(&["curve", "--points", "-", "--from", "0,0"], &["`--from` means nothing to `--points`", "--points <FILE>"]);
     refused(&["curve", "--family", "clothoid"], &["clothoid", "involute"]);
     let ends =
         ["curve", "--from", "0,0", "--to", "1,0", "--start-direction", "0", "--end-direction", "1", "--start-curvature", "1"];

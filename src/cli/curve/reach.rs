@@ -12,7 +12,7 @@ use spiral_atlas::{Error, Result};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub struct Told {
+pub struct Answer {
     #[serde(skip)]
     kind: Kind,
     request: Request,
@@ -20,8 +20,8 @@ pub struct Told {
     outcome: Outcome,
 }
 
-pub fn find(kind: Kind, request: &Request) -> Result<Told> {
-    Ok(Told { kind, request: *request, outcome: add_segment(kind, request)? })
+pub fn find(kind: Kind, request: &Request) -> Result<Answer> {
+    Ok(Answer { kind, request: *request, outcome: add_segment(kind, request)? })
 }
 
 /// What to type for a segment that ends at a point.
@@ -39,7 +39,7 @@ pub fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
     )
 }
 
-impl Found for Told {
+impl Found for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
             Outcome::None { why } => Err(format!("no segment of `{}`: {why}", self.kind.name())),

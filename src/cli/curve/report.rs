@@ -1,16 +1,17 @@
-//! What every family of `curve` tells alike: paths, reasons, other families, samples.
+//! What every family of `curve` reports alike: paths, reasons, other families, samples.
 
 use super::super::{Outcome, output};
 use super::{Family, Found, involute, reach};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::Kind;
+use spiral_atlas::path::{Course, Summary};
 use spiral_atlas::transition::segment::Request;
-use spiral_atlas::transition::{Ends, Piece, Station, ph_spiral, spiral, stations};
+use spiral_atlas::transition::{Ends, Piece, Station, ph_spiral, spiral};
 use spiral_atlas::{Error, Result};
 
 /// An answer as JSON.
 #[derive(Debug, Serialize)]
-pub struct Told<'f, F: Found> {
+pub struct Report<'f, F: Found> {
     #[serde(flatten)]
     pub found: &'f F,
     /// The path that was asked for; none where there is none.
@@ -24,37 +25,34 @@ pub struct Told<'f, F: Found> {
     pub samples: Option<Vec<Station>>,
 }
 
-/// A path of spirals. Null stands for what is not finite.
+/// A path of spirals.
 #[derive(Debug, Serialize)]
 struct Path {
-    length: f64,
-    greatest_curvature: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    bending_energy: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    absolute_rotation: Option<f64>,
-    pieces: Vec<Piece>,
+    #[serde(flatten)]
+    summary: Summary,
+    #[serde(rename = "pieces", serialize_with = "pieces")]
+    course: Course,
+}
+
+fn pieces<S: Serializer>(course: &Course, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    course.pieces().serialize(serializer)
 }
 
 impl Path {
-    /// Of pieces whose curvature is monotone, so that it is greatest at an end of one.
-    fn new(pieces: Vec<Piece>) -> Path {
-        let ends = pieces.iter().flat_map(|piece| piece.range().map(|t| piece.at(t).curvature.abs()));
-        let only = match pieces.as_slice() {
-            [Piece::PhQuintic(curve)] => Some(*curve),
-            _ => None,
-        };
-        Path {
-            length: pieces.iter().map(Piece::length).sum(),
-            greatest_curvature: ends.fold(0.0, f64::max),
-            bending_energy: only.map(|curve| curve.bending_energy()),
-            absolute_rotation: only.map(|curve| curve.absolute_rotation()),
-            pieces,
+    /// # Errors
+    /// Those of [`Course::new`], and [`Error::Domain`] where another number leaves the range of doubles.
+    fn new(pieces: Vec<Piece>) -> Result<Path> {
+        let course = Course::new(pieces)?;
+        let summary = course.summary();
+        let Summary { greatest_curvature, bending_energy, .. } = summary;
+        if greatest_curvature.is_finite() && bending_energy.is_none_or(f64::is_finite) {
+            return Ok(Path { summary, course });
         }
-    }
-
-    fn is_finite(&self) -> bool {
-        [self.length, self.greatest_curvature].into_iter().chain(self.bending_energy).all(f64::is_finite)
+        Err(Error::Domain(format!(
+            "the curve leaves the range of doubles: its greatest curvature is {greatest_curvature:?}, its bending energy {} (change the unit \
+             of length)",
+            bending_energy.unwrap_or_default()
+        )))
     }
 }
 
@@ -75,34 +73,27 @@ impl Wish {
     }
 }
 
-impl<'f, F: Found> Told<'f, F> {
+impl<'f, F: Found> Report<'f, F> {
     /// # Errors
     /// [`Error::Domain`] where a number leaves the range of doubles.
-    pub fn new(found: &'f F, wish: Wish) -> Result<Told<'f, F>> {
-        let (paths, reason) = match found.spirals() {
+    pub fn new(found: &'f F, wish: Wish) -> Result<Report<'f, F>> {
+        let (paths, reason) = match found.spirals().map(Path::new) {
             Err(why) => (Vec::new(), Some(why)),
-            Ok(pieces) => {
-                let path = Path::new(pieces);
-                match wish.longest.filter(|longest| path.length > *longest) {
-                    Some(longest) => (
-                        Vec::new(),
-                        Some(format!("the curve is {:?} long, more than the {longest:?} that are allowed", path.length)),
-                    ),
+            Ok(path) => {
+                let path = path?;
+                let length = path.summary.length;
+                match wish.longest.filter(|longest| length > *longest) {
+                    Some(longest) => {
+                        (Vec::new(), Some(format!("the curve is {length:?} long, more than the {longest:?} that are allowed")))
+                    }
                     None => (vec![path], None),
                 }
             }
         };
-        if let Some(path) = paths.iter().find(|path| !path.is_finite()) {
-            let Path { length, greatest_curvature, .. } = path;
-            return Err(Error::Domain(format!(
-                "the curve leaves the range of doubles: its length is {length:?}, its greatest curvature {greatest_curvature:?} (change the \
-                 unit of length)"
-            )));
-        }
         let unsure = found.ends().filter(|_| wish.advice && reason.is_some());
         let others = unsure.map(|ends| Others::new(ends, wish));
-        let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| stations(&path.pieces, n as usize)));
-        Ok(Told { found, paths, reason, others, samples: samples.transpose()? })
+        let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.course.stations(n as usize)));
+        Ok(Report { found, paths, reason, others, samples: samples.transpose()? })
     }
 
     pub fn outcome(&self) -> Outcome {
@@ -146,7 +137,7 @@ fn table(samples: &[Station], comma: &str) -> String {
 #[derive(Debug, Default, Serialize)]
 struct Others {
     /// Those that take the same ends.
-    families: Vec<&'static str>,
+    families: Vec<String>,
     /// Commands for a segment added to the straight end, where one of the ends is straight.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     segments: Vec<String>,
@@ -164,9 +155,9 @@ impl Others {
         let ph = || ph_spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
         // Where no involute exists no spiral does.
         let involute = || involute::find(ends, [0, 0]).is_ok_and(|found| short(found.spirals()));
-        let all: [(Family, &'static str, &dyn Fn() -> bool); 3] =
-            [(Family::Cubic, "cubic", &cubic), (Family::PhQuintic, "ph-quintic", &ph), (Family::Involute, "involute", &involute)];
-        let families = all.into_iter().filter(|(family, _, has)| *family != wish.family && has()).map(|(_, name, _)| name);
+        let all: [(Family, &dyn Fn() -> bool); 3] =
+            [(Family::Cubic, &cubic), (Family::PhQuintic, &ph), (Family::Involute, &involute)];
+        let families = all.into_iter().filter(|(family, has)| *family != wish.family && has()).map(|(family, _)| family.name());
         let segment = Request::between(ends).ok().flatten();
         let added = |kind: Kind| {
             let request = segment.filter(|request| reach::find(kind, request).is_ok_and(|found| short(found.spirals())))?;
