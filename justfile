@@ -6,7 +6,7 @@ export NODEVICE_SELECT := "1"
 swiftshader := env("XDG_CACHE_HOME", env("HOME", "") / ".cache") / "spiral-atlas/swiftshader/icd.json"
 
 # Every check and test, as continuous integration runs them
-ci: setup lint test fuzz swiftshader
+ci: setup lint test examples fuzz swiftshader
 
 # Installs what the tests need
 setup:
@@ -22,6 +22,10 @@ lint:
 # All tests, or those whose name contains a text
 test *filter:
     cargo test --locked --release {{filter}}
+
+# The programs in examples/
+examples:
+    for example in examples/*.rs; do cargo run --quiet --locked --release --example "$(basename "$example" .rs)"; done
 
 # The coverage-guided fuzzers of the readers, for some seconds each
 fuzz seconds="15":

@@ -12,6 +12,7 @@ mod files;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod path;
+mod snapshots;
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
