@@ -1,8 +1,8 @@
 //! Which options each family needs and which it takes.
 //!
-//! One command answers for all families, so that `--family` can be changed or left out without learning other words. Conditions of clap's own
-//! cannot say what the family needs: they do not see a default value, and none forbids an option for a value of another. So the
-//! options that were given are taken from clap, and each family names those that it knows.
+//! One command answers for all families, so that `--family` can be changed or left out without learning other words.
+//! Conditions of clap's own cannot say what a family needs: they do not see a default value, and none forbids an option
+//! for a value of another. So the options that were given are taken from clap, and each family names those it knows.
 
 use super::super::{given, refuse_by};
 use super::{Args, Family, reach, trig};
