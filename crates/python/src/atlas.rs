@@ -89,6 +89,12 @@ impl Atlas {
         Ok(axes)
     }
 
+    /// Names of the axes that are angles, in radians.
+    #[getter]
+    fn angles(&self) -> Vec<&str> {
+        self.0.grid().axes().iter().map(|axis| axis.name()).filter(|name| spiral_atlas::recipe::is_angle(name)).collect()
+    }
+
     /// Names and meanings of the bits of `flags`, bit 0 first.
     #[getter]
     fn flag_docs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

@@ -13,6 +13,7 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// How often Ctrl-C is looked for.
@@ -87,9 +88,12 @@ fn watched(
 ) -> PyResult<Writer> {
     let stop = AtomicBool::new(false);
     let (sender, receiver) = channel();
+    // Only this thread receives; the lock tells the compiler so.
+    let receiver = Mutex::new(receiver);
+    let receive = || receiver.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(TICK);
     let watch = || -> PyResult<()> {
         loop {
-            match py.detach(|| receiver.recv_timeout(TICK)) {
+            match py.detach(receive) {
                 Ok(done) => {
                     if let Some(progress) = progress {
                         progress.call1((&plan.name, done, plan.grid.len()))?;
