@@ -68,17 +68,18 @@ impl<N> Ord for Piece<N> {
 
 /// `∫ h²/σ³` over [0, 1] for σ and h with these Bernstein coefficients; `None` when the precision does not suffice.
 ///
-/// The piece that may add most comes first, and the search ends where all that is left adds less than the precision shows: so the work
-/// grows with the halvings to the sharpest bend, and not with all there is between bends.
+/// The piece that may add most comes first, and the search ends where all that is left adds less than 2^-61 of what is found, or than half
+/// the bits show: so the work grows with the halvings to the sharpest bend, and not with all there is between bends.
 pub(crate) fn energy<N: Real>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
     let bits = speed[0].bits();
     // One halving more for each halving of the distance to a zero of σ, as close as data of doubles can put it.
     let deepest = if bits <= 53 { 64 } else { 8192 };
+    let negligible = 0.5 * bits.max(122) as f64 * LN_2;
     let mut waiting = BinaryHeap::from([Piece::new(speed.clone(), turn.clone(), 0, 0.0)]);
     let mut found: Vec<(f64, N)> = Vec::new();
     let mut largest = f64::NEG_INFINITY;
     while let Some(piece) = waiting.pop() {
-        if piece.most + ((waiting.len() + 1) as f64).ln() < largest - (bits + 8) as f64 * LN_2 {
+        if piece.most + ((waiting.len() + 1) as f64).ln() < largest - negligible {
             waiting.push(piece);
             break;
         }
