@@ -7,7 +7,6 @@
 
 use crate::num::bernstein::halve;
 use crate::num::{Number, Real};
-use crate::steps::step;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::LN_2;
@@ -83,7 +82,6 @@ pub(crate) fn energy<N: Real>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
             waiting.push(piece);
             break;
         }
-        step();
         if let Some(c) = centred(&piece.speed)? {
             let part = series(&piece.speed, &c, &piece.turn)?.mul(&piece.width());
             largest = largest.max(if part.is_positive() { part.ln() } else { f64::NEG_INFINITY });

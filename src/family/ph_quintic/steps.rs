@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::steps::counted;
 use std::f64::consts::PI;
 
-const ANGLES: [f64; 11] = [1e-308, 1e-300, 1e-200, 1e-100, 1e-30, 1e-10, 0.01, 0.7, 1.4, 1.5, 3.0];
-const CURVATURES: [f64; 12] = [0.0, 1e-300, 1e-100, 1e-20, 0.01, 0.2, 1.0, 3.0, 1e20, 1e60, 1e150, 1e300];
+const ANGLES: [f64; 6] = [1e-300, 1e-100, 1e-10, 0.7, 1.4, 3.0];
+const CURVATURES: [f64; 8] = [0.0, 1e-300, 1e-20, 0.2, 3.0, 1e60, 1e150, 1e300];
 
 /// Counts one datum; whether it was answered.
 fn case(datum: Datum, most: &mut (usize, Option<Datum>)) -> bool {
@@ -34,23 +34,22 @@ fn few_steps_for_data_of_any_size() {
     let (mut all, mut answered) = (0, 0);
     for (i, phi0) in ANGLES.into_iter().enumerate() {
         for (j, phi1) in ANGLES.into_iter().enumerate().filter(|(_, phi1)| phi0 + phi1 < PI) {
-            for (k, kappa0) in CURVATURES.into_iter().enumerate() {
-                // Three of the last curvatures for each of the first.
-                for kappa1 in CURVATURES.into_iter().skip((i + j + k) % 4).step_by(4) {
-                    all += 1;
-                    answered += usize::from(case(Datum { phi0, phi1, kappa0, kappa1 }, &mut most));
-                }
+            for (k, kappa0) in CURVATURES.into_iter().enumerate().skip((i + j) % 3).step_by(3) {
+                // Another last curvature for each.
+                let kappa1 = CURVATURES[(i + 3 * j + 5 * k) % CURVATURES.len()];
+                all += 1;
+                answered += usize::from(case(Datum { phi0, phi1, kappa0, kappa1 }, &mut most));
             }
         }
     }
     println!("{answered} of {all} answered; most steps {most:?}");
-    assert!(most.0 < 1500 && answered * 100 > all * 95, "{answered} of {all} answered; most steps {most:?}");
+    assert!(most.0 < 400 && answered * 10 > all * 8, "{answered} of {all} answered; most steps {most:?}");
 }
 
 #[test]
 fn few_steps_beside_the_limits_of_angles_and_curvatures() {
     let mut most = (0, None);
-    let next = |x: f64| [x.next_down().next_down(), x.next_down(), x, x.next_up(), x.next_up().next_up()];
+    let next = |x: f64| [x.next_down(), x, x.next_up()];
     for phi0 in next(0.7) {
         for phi1 in next(0.7).into_iter().chain(next(PI - 0.7)).filter(|phi1| crate::num::sines::sum_below_pi(phi0, *phi1)) {
             for kappa in [0.3, 1.0, 1e40] {
@@ -61,5 +60,5 @@ fn few_steps_beside_the_limits_of_angles_and_curvatures() {
         }
     }
     println!("most steps {most:?}");
-    assert!(most.0 < 1500, "{most:?}");
+    assert!(most.0 < 400, "{most:?}");
 }
