@@ -205,6 +205,12 @@ impl Real for Quadratic {
     fn approx(&self) -> f64 {
         self.value
     }
+    fn power_of_two(exponent: i32, bits: usize) -> Quadratic {
+        Quadratic::of(2f64.powi(exponent), bits)
+    }
+    fn ln(&self) -> f64 {
+        self.value.ln()
+    }
     fn to_f32(&self) -> Option<f32> {
         self.range().to_f32()
     }
