@@ -181,8 +181,7 @@ impl Atlas {
     }
 
     fn __repr__(&self) -> String {
-        let axes: Vec<String> =
-            self.0.grid().axes().iter().map(|a| format!("{} {}", a.name(), a.values().len())).collect();
+        let axes: Vec<String> = self.0.grid().axes().iter().map(|a| format!("{} {}", a.name(), a.values().len())).collect();
         format!("<spiral_atlas.Atlas of {}: {}>", self.0.family_name(), axes.join(" x "))
     }
 }

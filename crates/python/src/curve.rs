@@ -7,8 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use spiral_atlas::family::any_spiral::InvoluteOutcome;
 use spiral_atlas::transition::{
-    Ends, InvoluteBetween, Outcome, PhOutcome, Piece, Station, direction_of, involute_between, ph_spiral, spiral,
-    stations,
+    Ends, InvoluteBetween, Outcome, PhOutcome, Piece, Station, direction_of, involute_between, ph_spiral, spiral, stations,
 };
 
 /// A curve between two points, in your own unit of length. Made by `fit` and `Curve.from_dict`.
@@ -114,9 +113,7 @@ impl Curve {
         n: usize,
         kwargs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let missing = |e: PyErr| {
-            PyImportError::new_err(format!("plot needs matplotlib: pip install spiral-atlas[plot] ({e})"))
-        };
+        let missing = |e: PyErr| PyImportError::new_err(format!("plot needs matplotlib: pip install spiral-atlas[plot] ({e})"));
         let ax = match ax {
             Some(ax) => ax,
             None => py.import("matplotlib.pyplot").map_err(missing)?.call_method0("gca")?,

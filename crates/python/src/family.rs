@@ -84,11 +84,7 @@ fn about(family: &dyn Family) -> About {
 ///     UndecidedError: not proved at the precision cap.
 #[pyfunction]
 #[pyo3(signature = (family, **coordinates))]
-pub fn solve<'py>(
-    py: Python<'py>,
-    family: &str,
-    coordinates: Option<&Bound<'py, PyDict>>,
-) -> PyResult<Bound<'py, PyDict>> {
+pub fn solve<'py>(py: Python<'py>, family: &str, coordinates: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyDict>> {
     let family = known(family)?;
     let given = match coordinates {
         Some(all) => all.iter().map(|(name, x)| Ok((name.extract()?, x))).collect::<PyResult<_>>()?,
@@ -139,9 +135,7 @@ fn known(name: &str) -> PyResult<&'static dyn Family> {
 
 /// Chart and coordinates of a datum that was given by name.
 fn datum(family: &dyn Family, given: &[(String, Bound<'_, PyAny>)]) -> PyResult<(usize, Vec<f64>)> {
-    let fits = |chart: &Chart| {
-        chart.axes.len() == given.len() && given.iter().all(|(name, _)| chart.axes.contains(&&name[..]))
-    };
+    let fits = |chart: &Chart| chart.axes.len() == given.len() && given.iter().all(|(name, _)| chart.axes.contains(&&name[..]));
     let chart = family.charts().iter().position(fits).ok_or_else(|| {
         let known: Vec<String> = family.charts().iter().map(|c| c.axes.join(", ")).collect();
         let names: Vec<&str> = given.iter().map(|(name, _)| &name[..]).collect();
@@ -189,8 +183,7 @@ pub fn solve_batch<'py>(
     let data = data.as_array();
     let fits = |c: &Chart| c.axes.len() == data.ncols() && chart.is_none_or(|name| c.name == name);
     let chart = family.charts().iter().position(fits).ok_or_else(|| {
-        let known: Vec<String> =
-            family.charts().iter().map(|c| format!("{} ({})", c.name, c.axes.join(", "))).collect();
+        let known: Vec<String> = family.charts().iter().map(|c| format!("{} ({})", c.name, c.axes.join(", "))).collect();
         let asked = chart.map_or(String::new(), |name| format!(", the chart asked for is `{name}`"));
         PyValueError::new_err(format!(
             "`{}` has the charts {}; the data have {} columns{asked}",

@@ -71,9 +71,8 @@ fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
         let table: toml::Table = pythonize::depythonize(dict).map_err(|e| wrong(&e))?;
         return Recipe::parse(&toml::to_string(&table).map_err(|e| wrong(&e))?).map_err(raise);
     }
-    let path: PathBuf = recipe
-        .extract()
-        .map_err(|_| PyTypeError::new_err("the recipe must be a dictionary or the path of a TOML file"))?;
+    let path: PathBuf =
+        recipe.extract().map_err(|_| PyTypeError::new_err("the recipe must be a dictionary or the path of a TOML file"))?;
     Recipe::read(path).map_err(raise)
 }
 
@@ -117,17 +116,9 @@ fn watched(
     })
 }
 
-fn write(
-    recipe: &Recipe,
-    plan: &AtlasPlan,
-    path: &Path,
-    threads: usize,
-    stop: &AtomicBool,
-    done: Sender<u64>,
-) -> Result<Writer> {
+fn write(recipe: &Recipe, plan: &AtlasPlan, path: &Path, threads: usize, stop: &AtomicBool, done: Sender<u64>) -> Result<Writer> {
     let job = Job { family: plan.family, grid: &plan.grid, scalars: &plan.scalars };
-    let spec =
-        Spec { name: &plan.name, family: plan.family, grid: &plan.grid, scalars: &plan.scalars, recipe: &recipe.text };
+    let spec = Spec { name: &plan.name, family: plan.family, grid: &plan.grid, scalars: &plan.scalars, recipe: &recipe.text };
     let mut writer = Writer::create(path, &spec)?;
     evaluate(&job, &Backend::Cpu, threads, stop, |chunk| {
         writer.put(&chunk)?;

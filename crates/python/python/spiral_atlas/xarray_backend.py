@@ -61,9 +61,9 @@ def to_dataset(atlas: Atlas, drop_variables: Iterable[str] = ()) -> xr.Dataset:
         values = lazy(atlas.scalar(name), {"long_name": doc, "_FillValue": np.float32(NO_VALUE)})
         variables[name] = xr.conventions.decode_cf_variable(name, values)
     coords = {}
-    for name, values in atlas.axes.items():
+    for name, axis in atlas.axes.items():
         unit = {"units": "radian"} if name in atlas.angles else {}
-        coords[name] = xr.Variable((name,), values, {"long_name": name} | unit)
+        coords[name] = xr.Variable((name,), axis, {"long_name": name} | unit)
     kept = {name: variable for name, variable in variables.items() if name not in dropped}
     return xr.Dataset(kept, coords, {"Conventions": "CF-1.11", "title": f"atlas of {atlas.family}", **atlas.metadata})
 
