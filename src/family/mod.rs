@@ -12,11 +12,13 @@ pub mod ph_path;
 pub mod ph_quintic;
 pub mod reach;
 mod record;
+mod region;
 mod rows;
 pub mod trig_quintic;
 
 pub use answer::{Answer, Value, Values};
 pub use kernel::{Kernel, Shader, ShaderInputs};
+pub use region::{Facts, MOST_SIDES, Region};
 
 use crate::error::{Error, Result};
 use crate::grid::{Axis, Grid, Spacing};
@@ -152,6 +154,10 @@ pub trait Family: Sync {
                 )))
             }
         }
+    }
+    /// Proofs over whole boxes of data, where the family has them.
+    fn region(&self) -> Option<&dyn Region> {
+        None
     }
     /// Whether what the family looks for exists, by the flags of a datum.
     fn holds(&self, code: Code) -> bool {
