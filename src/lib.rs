@@ -2,6 +2,7 @@
 //! monotone curvature of a given family, and which one?
 
 pub mod atlas;
+pub mod cells;
 pub mod curve;
 pub mod error;
 pub mod eval;

@@ -166,6 +166,12 @@ pub trait Family: Sync {
     }
 }
 
+impl std::fmt::Debug for dyn Family {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
 /// Which of a family's charts a grid has, as an index into [`Family::charts`].
 fn chart_of(family: &dyn Family, grid: &Grid) -> Result<usize> {
     let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
@@ -181,7 +187,10 @@ fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
 }
 
 /// The code of one datum, as a grid of one node has it.
-fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
+///
+/// # Errors
+/// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
+pub(crate) fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
     let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
     let grid = Grid::new(family.charts()[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
     let table = family.table(&grid)?;

@@ -16,6 +16,9 @@ pub struct Facts {
 
 /// Proofs over boxes, beside a family's proofs at points.
 pub trait Region: Sync {
+    /// Whether it has proofs in the family's chart of this name.
+    fn covers(&self, chart: &str) -> bool;
+
     /// Proves what it can of the flags in `wanted` over the closed box of all real points between `low` and `high`, both included.
     ///
     /// What is said of a flag holds at every point of the box that lies in the family's domain. So a box may leave the domain, and a flag's

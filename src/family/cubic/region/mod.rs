@@ -100,6 +100,10 @@ fn angles_of(phi0: [f64; 2], phi1: [f64; 2]) -> Option<Angles> {
 }
 
 impl Region for Cubic {
+    fn covers(&self, chart: &str) -> bool {
+        chart == super::CHARTS[0].name
+    }
+
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
         let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else { return Facts::default() };
         if chart != 0 {
