@@ -293,6 +293,16 @@ impl Atlas {
     }
 }
 
+/// What the file of a path holds: nodes, which [`Atlas`] opens, or cells, which [`crate::cells::Cells`] opens.
+///
+/// # Errors
+/// Those of [`Atlas::open`].
+pub fn kind(path: impl AsRef<Path>) -> Result<Kind> {
+    let path = path.as_ref();
+    let map = map_path(path)?;
+    Header::parse(&map).map(|(header, _)| header.about.kind).map_err(|what| Error::Atlas { path: path.to_owned(), what })
+}
+
 /// Maps the file of a path.
 pub(crate) fn map_path(path: &Path) -> Result<Mmap> {
     // Asked before opening, because opening a pipe would wait for its other end.

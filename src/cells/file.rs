@@ -14,11 +14,19 @@ use memmap2::Mmap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Writes cells to a file, which appears whole or not at all; returns the hash that stands for it.
+/// Writes cells to a file, which appears whole or not at all.
 ///
 /// # Errors
-/// [`Error::Domain`] for a specification that does not fit the cells, or a recipe too long; [`Error::Io`] when the system refuses.
-pub fn write(path: &Path, spec: &Spec, built: &Built) -> Result<Hash> {
+/// As [`bytes`], and [`Error::Io`] when the system refuses.
+pub fn write(path: &Path, spec: &Spec, built: &Built) -> Result<()> {
+    write_file(path, &bytes(spec, built)?)
+}
+
+/// The bytes of a file of cells.
+///
+/// # Errors
+/// [`Error::Domain`] for a specification that does not fit the cells, or a recipe too long.
+pub fn bytes(spec: &Spec, built: &Built) -> Result<Vec<u8>> {
     let domain = |what| Error::Domain(format!("the atlas `{}`: {what}", spec.name));
     let Spec { name, family, grid, recipe, .. } = *spec;
     let about = About::of(&crate::atlas::Spec { name, family, grid, scalars: &[], recipe }).map_err(domain)?;
@@ -33,10 +41,7 @@ pub fn write(path: &Path, spec: &Spec, built: &Built) -> Result<Hash> {
     }
     let hashes = header.tensors.iter().map(|t| blake3::hash(&body[t.info.data_offsets.0..t.info.data_offsets.1])).collect();
     header.hashes = hashes;
-    let id = header.id().map_err(domain)?;
-    let head = header.render().map_err(domain)?;
-    write_file(path, &[head, body].concat())?;
-    Ok(id)
+    Ok([header.render().map_err(domain)?, body].concat())
 }
 
 /// A file of cells, mapped into memory and checked; what is said of [`crate::atlas::Atlas`] and changes of an open file holds here, too.

@@ -22,7 +22,7 @@ mod tree;
 
 pub use build::{Built, build};
 pub use check::{Attack, attack, differences};
-pub use file::{Cells, write};
+pub use file::{Cells, bytes, write};
 pub use tree::Known;
 
 use crate::family::{self, Family};
@@ -50,6 +50,15 @@ pub struct Spec<'a> {
 pub fn check_resolution(resolution: usize) -> Result<(), String> {
     let fits = resolution.is_power_of_two() && (2..=2048).contains(&resolution);
     if fits { Ok(()) } else { Err(format!("the resolution is {resolution}; it must be a power of two from 2 to 2048")) }
+}
+
+/// Checks, before any work, that cells of a specification can be made.
+///
+/// # Errors
+/// [`crate::Error::Domain`] as of [`build`].
+pub fn check(spec: &Spec) -> crate::Result<()> {
+    region(spec.family, spec.grid)?;
+    build::shape(spec.grid, spec.family.flags().len()).map(|_| ())
 }
 
 /// The mask of all flags of a family.
