@@ -19,7 +19,7 @@ pub struct Built {
     pub(super) shape: Shape,
     pub(super) roots: Vec<u32>,
     pub(super) trees: Vec<u32>,
-    pub(super) top: Vec<u8>,
+    pub(super) top: Vec<[u8; 2]>,
     /// Bytes of the tensors: less than the budget.
     pub bytes: u64,
 }
@@ -61,7 +61,7 @@ pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(
     let work = Work { threads: threads.max(1), stop };
     let size = shape.depth - shape.top;
     let tops: Vec<[u16; MOST_AXES]> = (0..shape.top_cells()).map(|at| unpack(at, shape.top, shape.axes)).collect();
-    let known = work.map(&tops, |place| prover.classify(&edges.bounds(place, size), all))?;
+    let known = work.map(&tops, |place| prover.classify(&edges.bounds(place, size), size, all))?;
     let mut left = (spec.budget / WORD).saturating_sub(fixed_words(shape, &tops));
     if spec.budget / WORD < fixed_words(shape, &tops) {
         return Err(Error::Domain(format!(
@@ -161,7 +161,7 @@ fn unpack(mut at: usize, bits: u32, axes: usize) -> [u16; MOST_AXES] {
 fn divide(prover: &Prover, edges: &Edges, shape: Shape, place: &[u16; MOST_AXES], size: u32, flag: u8) -> Node {
     let mut node = Node { place: *place, yes: 0, no: 0, divided: false };
     for child in 0..1 << shape.axes {
-        let known = prover.classify(&edges.bounds(&child_place(place, child, shape.axes), size), 1 << flag);
+        let known = prover.classify(&edges.bounds(&child_place(place, child, shape.axes), size), size, 1 << flag);
         node.yes |= u16::from(known.inside >> flag & 1) << child;
         node.no |= u16::from(known.outside >> flag & 1) << child;
     }
@@ -171,30 +171,34 @@ fn divide(prover: &Prover, edges: &Edges, shape: Shape, place: &[u16; MOST_AXES]
 fn lay_out(shape: Shape, known: &[Known], trees: &[Tree]) -> Built {
     let mut roots = vec![0; known.len() * shape.flags];
     let mut words = vec![0];
-    for tree in trees {
-        let mut next = words.len();
-        let mut size = shape.depth - shape.top;
-        let open = known.iter().enumerate().filter(|(_, known)| (known.inside | known.outside) >> tree.flag & 1 == 0);
-        for ((i, _), divided) in open.zip(&tree.roots) {
-            if *divided {
-                roots[i * shape.flags + usize::from(tree.flag)] = next as u32;
-                next += Shape::words(size - 1);
+    // Of each flag, what is left of the top cells that it leaves open, and of each level: those of one top cell come first.
+    let mut left: Vec<(std::slice::Iter<bool>, Vec<std::slice::Iter<Node>>)> =
+        trees.iter().map(|tree| (tree.roots.iter(), tree.levels.iter().map(|level| level.iter()).collect())).collect();
+    for (cell, known) in known.iter().enumerate() {
+        for (tree, (tops, levels)) in trees.iter().zip(&mut left) {
+            if (known.inside | known.outside) >> tree.flag & 1 == 1 || tops.next() != Some(&true) {
+                continue;
             }
-        }
-        for level in &tree.levels {
-            size -= 1;
-            for node in level {
-                words.push(u32::from(node.yes) | u32::from(node.no) << 16);
-                if size > 0 {
-                    words.push(if node.divided { next as u32 } else { 0 });
-                    let mixed = if node.divided { node.mixed(shape).count_ones() } else { 0 };
-                    next += mixed as usize * Shape::words(size - 1);
+            roots[cell * shape.flags + usize::from(tree.flag)] = words.len() as u32;
+            let mut count = 1;
+            for (level, size) in levels.iter_mut().zip((0..shape.depth - shape.top).rev()) {
+                let mut next = words.len() + count * Shape::words(size);
+                let mut below = 0;
+                for node in level.take(count) {
+                    words.push(u32::from(node.yes) | u32::from(node.no) << 16);
+                    let mixed = if node.divided { node.mixed(shape).count_ones() as usize } else { 0 };
+                    if size > 0 {
+                        words.push(if mixed > 0 { next as u32 } else { 0 });
+                        next += mixed * Shape::words(size - 1);
+                        below += mixed;
+                    }
                 }
+                count = below;
             }
         }
     }
-    let top = known.iter().flat_map(|known| [known.inside, known.outside]).collect::<Vec<u8>>();
-    let bytes = WORD * (roots.len() + words.len()) as u64 + top.len() as u64;
+    let top = known.iter().map(|known| [known.inside, known.outside]).collect::<Vec<_>>();
+    let bytes = WORD * (roots.len() + words.len()) as u64 + 2 * top.len() as u64;
     Built { shape, roots, trees: words, top, bytes }
 }
 

@@ -28,7 +28,7 @@ pub fn differences(cells: &Cells, fresh: &Built) -> (u64, Option<String>) {
         return (1, Some("the cells made anew have another shape".into()));
     }
     let mut found = (0, None);
-    let mut compare = |name: &str, stored: &[u32], fresh: &[u32]| {
+    let mut compare = |name: &str, stored: Vec<u32>, fresh: &[u32]| {
         let differ = stored.iter().zip(fresh).enumerate().filter(|(_, (a, b))| a != b);
         let mut count = stored.len().abs_diff(fresh.len()) as u64;
         let mut first = (count > 0).then(|| format!("`{name}` has {} words, made anew it has {}", stored.len(), fresh.len()));
@@ -39,10 +39,11 @@ pub fn differences(cells: &Cells, fresh: &Built) -> (u64, Option<String>) {
         found.0 += count;
         found.1 = found.1.take().or(first);
     };
-    let wide = |bytes: &[u8]| bytes.iter().map(|b| u32::from(*b)).collect::<Vec<u32>>();
-    compare("top", &wide(words.top), &wide(&fresh.top));
-    compare("roots", words.roots, &fresh.roots);
-    compare("trees", words.trees, &fresh.trees);
+    let wide = |top: &[[u8; 2]]| top.iter().map(|pair| u32::from(u16::from_le_bytes(*pair))).collect::<Vec<u32>>();
+    let numbers = |words: &[[u8; 4]]| words.iter().map(|word| u32::from_le_bytes(*word)).collect::<Vec<u32>>();
+    compare("top", wide(words.top), &wide(&fresh.top));
+    compare("roots", numbers(words.roots), &fresh.roots);
+    compare("trees", numbers(words.trees), &fresh.trees);
     found
 }
 

@@ -8,7 +8,9 @@ use std::collections::VecDeque;
 ///
 /// The first is the cell itself. A cell whose flag is uniform but was not proved so is often proved by its halves; one where a half has the flag and
 /// another has not is MIXED at once.
-const MOST_TESTS: u32 = 24;
+///
+/// Cells of the finest size get more than those that are divided if they stay MIXED.
+const MOST_TESTS: [u32; 2] = [20, 12];
 
 /// A box, as its least and its greatest coordinates; those beyond the axes mean nothing.
 pub(super) type Bounds = [[f64; MOST_AXES]; 2];
@@ -29,7 +31,10 @@ impl Prover {
     }
 
     /// What is known of the wanted flags all over a cell, by the cell itself and its halves, breadth first.
-    pub fn classify(&self, cell: &Bounds, wanted: u8) -> Known {
+    ///
+    /// `size` is 0 for a cell of the finest size.
+    pub fn classify(&self, cell: &Bounds, size: u32, wanted: u8) -> Known {
+        let most = MOST_TESTS[usize::from(size > 0)];
         // Flags that some part of the cell has, that some part has not, and that some part leaves open.
         let (mut some, mut none, mut open) = (0, 0, 0);
         let mut queue = VecDeque::from([(*cell, wanted)]);
@@ -39,7 +44,7 @@ impl Prover {
             if wanted == 0 {
                 continue;
             }
-            if tests == MOST_TESTS {
+            if tests == most {
                 open |= wanted;
                 continue;
             }

@@ -35,7 +35,7 @@ pub fn bytes(spec: &Spec, built: &Built) -> Result<Vec<u8>> {
     let mut body = Vec::with_capacity(header.body_len());
     grid.axes().iter().flat_map(|axis| axis.values()).for_each(|x| body.extend(x.to_le_bytes()));
     built.roots.iter().chain(&built.trees).for_each(|word| body.extend(word.to_le_bytes()));
-    body.extend(&built.top);
+    body.extend(built.top.as_flattened());
     if body.len() != header.body_len() {
         return Err(domain("its cells are those of another grid".into()));
     }
@@ -68,6 +68,7 @@ pub struct Cells {
     family: &'static dyn Family,
     chart: usize,
     lookups: Vec<Lookup>,
+    spread: Box<[u32]>,
     roots: Range<usize>,
     trees: Range<usize>,
     top: Range<usize>,
@@ -118,7 +119,8 @@ impl Cells {
             return Err(invalid(format!("`{TOP}` has {} bytes; these axes need {}", top.len(), 2 * shape.top_cells())));
         }
         let lookups = header.grid.axes().iter().map(Lookup::new).collect();
-        let cells = Cells { path, map, header, body, shape, family, chart, lookups, roots, trees, top };
+        let spread = shape.spread();
+        let cells = Cells { path, map, header, body, shape, family, chart, lookups, spread, roots, trees, top };
         let checked = cells.words().check();
         checked.map_err(|what| Error::Atlas { path: cells.path.clone(), what })?;
         Ok(cells)
@@ -172,16 +174,11 @@ impl Cells {
     pub(super) fn words(&self) -> Words<'_> {
         Words {
             shape: self.shape,
-            roots: self.u32s(self.roots.clone()),
-            trees: self.u32s(self.trees.clone()),
-            top: &self.map[self.top.clone()],
+            roots: self.map[self.roots.clone()].as_chunks().0,
+            trees: self.map[self.trees.clone()].as_chunks().0,
+            top: self.map[self.top.clone()].as_chunks().0,
+            spread: &self.spread,
         }
-    }
-
-    #[inline]
-    fn u32s(&self, range: Range<usize>) -> &[u32] {
-        // SAFETY: every bit pattern is a valid u32, and `align_to` gives only aligned, whole numbers; the header's layout aligns all of them.
-        unsafe { self.map[range].align_to::<u32>() }.1
     }
 
     /// The file it was opened from.

@@ -8,8 +8,9 @@
 //! the flag holds all over child c, and in bit `16 + c`, whether it holds nowhere in it. A child with neither is MIXED. Where the children are not
 //! of the finest size, a second word says where the nodes of all MIXED children lie, one after another by c; 0: they are not divided.
 //!
-//! Word 0 of `trees` is 0 and belongs to nobody. The nodes of flag 0 come next, then those of flag 1, and so on; those of a flag level by level, each level in the
-//! order of the level above. So each place that a word names is known from the words before it, and one pass checks them all.
+//! Word 0 of `trees` is 0 and belongs to nobody. The trees of the first top cell come next, in the order of the flags, then those of the next top cell, and so on.
+//! The nodes of a tree stand level by level, each level in the order of the level above. So each place that a word names is known from the words before
+//! it, one pass checks them all, and what a lookup reads lies close together.
 
 /// What a cell says of each flag, as two masks: a flag in neither is MIXED.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -61,15 +62,31 @@ impl Shape {
         let shift = self.depth - self.top;
         place.iter().fold(0, |at, i| at << self.top | (i >> shift) as usize)
     }
+
+    /// Numbers within a top cell with room for the bits of the other axes between their own.
+    pub fn spread(&self) -> Box<[u32]> {
+        let depth = self.depth - self.top;
+        let spread = |i: u32| (0..depth).fold(0, |sum, bit| sum | (i >> bit & 1) << (bit as usize * self.axes));
+        (0..1 << depth).map(spread).collect()
+    }
 }
 
 /// The parts of a file.
 #[derive(Clone, Copy)]
 pub(super) struct Words<'w> {
     pub shape: Shape,
-    pub roots: &'w [u32],
-    pub trees: &'w [u32],
-    pub top: &'w [u8],
+    /// Little-endian words.
+    pub roots: &'w [[u8; 4]],
+    /// Likewise.
+    pub trees: &'w [[u8; 4]],
+    pub top: &'w [[u8; 2]],
+    /// [`Shape::spread`].
+    pub spread: &'w [u32],
+}
+
+#[inline]
+fn word(words: &[[u8; 4]], at: usize) -> Option<u32> {
+    words.get(at).map(|word| u32::from_le_bytes(*word))
 }
 
 impl Words<'_> {
@@ -77,14 +94,17 @@ impl Words<'_> {
     #[inline]
     pub fn find(&self, place: &[u32], wanted: u8) -> Known {
         let at = self.shape.top_of(place);
-        let (Some(inside), Some(outside)) = (self.top.get(2 * at), self.top.get(2 * at + 1)) else { return Known::default() };
+        let Some([inside, outside]) = self.top.get(at) else { return Known::default() };
         let mut known = Known { inside: inside & wanted, outside: outside & wanted };
         let mut open = wanted & !(inside | outside);
+        // The way down: the number of the child at each level, the finest in the lowest bits.
+        let within = self.spread.len().wrapping_sub(1);
+        let way = place.iter().fold(0, |way, i| way << 1 | self.spread.get(*i as usize & within).copied().unwrap_or_default());
         while open != 0 {
             let flag = open.trailing_zeros();
             open &= open - 1;
-            let root = self.roots.get(at * self.shape.flags + flag as usize);
-            match self.descend(root.map_or(0, |root| *root), place) {
+            let root = word(self.roots, at * self.shape.flags + flag as usize);
+            match self.descend(root.unwrap_or_default(), way) {
                 Some(true) => known.inside |= 1 << flag,
                 Some(false) => known.outside |= 1 << flag,
                 None => {}
@@ -95,23 +115,21 @@ impl Words<'_> {
 
     /// Down a flag's tree.
     #[inline]
-    fn descend(&self, root: u32, place: &[u32]) -> Option<bool> {
+    fn descend(&self, root: u32, way: u32) -> Option<bool> {
+        let last = (1 << self.shape.axes) - 1;
         let (mut at, mut size) = (root as usize, self.shape.depth - self.shape.top);
         while at != 0 && size > 0 {
             size -= 1;
-            let child = place.iter().fold(0, |child, i| child << 1 | (i >> size & 1));
-            let word = *self.trees.get(at)?;
-            if word >> child & 1 == 1 {
-                return Some(true);
-            }
-            if word >> (16 + child) & 1 == 1 {
-                return Some(false);
+            let child = way >> (size as usize * self.shape.axes) & last;
+            let node = word(self.trees, at)?;
+            if (node | node >> 16) >> child & 1 == 1 {
+                return Some(node >> child & 1 == 1);
             }
             if size == 0 {
                 return None;
             }
-            let next = *self.trees.get(at + 1)? as usize;
-            let before = !(word | word >> 16) & ((1 << child) - 1);
+            let next = word(self.trees, at + 1)? as usize;
+            let before = !(node | node >> 16) & ((1 << child) - 1);
             at = if next == 0 { 0 } else { next + before.count_ones() as usize * Shape::words(size - 1) };
         }
         None
@@ -124,25 +142,24 @@ impl Words<'_> {
     pub fn check(&self) -> Result<(), String> {
         let shape = self.shape;
         let all = ((1u32 << shape.flags) - 1) as u8;
-        if self.trees.first() != Some(&0) {
+        if word(self.trees, 0) != Some(0) {
             return Err("`trees` does not begin with the word 0".into());
         }
-        for (i, known) in self.top.as_chunks::<2>().0.iter().enumerate() {
+        for (i, known) in self.top.iter().enumerate() {
             if known[0] & known[1] != 0 || (known[0] | known[1]) & !all != 0 {
                 return Err(format!("`top` says of cell {i} both yes and no, or names a flag that there is not: {known:?}"));
             }
         }
         let mut next = 1;
-        for flag in 0..shape.flags {
+        for (i, root) in self.roots.iter().enumerate() {
+            let (cell, flag) = (i / shape.flags, i % shape.flags);
             let mut size = shape.depth - shape.top;
+            let known = (self.top[cell][0] | self.top[cell][1]) >> flag & 1 == 1;
             let mut level = next..next;
-            for (i, root) in self.roots.iter().skip(flag).step_by(shape.flags).enumerate() {
-                let known = (self.top[2 * i] | self.top[2 * i + 1]) >> flag & 1 == 1;
-                match *root as usize {
-                    0 => continue,
-                    at if at == next && !known && size > 0 => next += Shape::words(size - 1),
-                    at => return Err(format!("`roots` has {at} for flag {flag} of top cell {i}, where 0 or {next} may be")),
-                }
+            match u32::from_le_bytes(*root) as usize {
+                0 => continue,
+                at if at == next && !known && size > 0 => next += Shape::words(size - 1),
+                at => return Err(format!("`roots` has {at} for flag {flag} of top cell {cell}, where 0 or {next} may be")),
             }
             while size > 0 {
                 size -= 1;
@@ -150,9 +167,6 @@ impl Words<'_> {
                 for at in level.clone().step_by(Shape::words(size)) {
                     next += self.check_node(at, size, next)?;
                 }
-            }
-            if next != level.end {
-                return Err(format!("`trees` of flag {flag} go on below the finest cells"));
             }
         }
         if next == self.trees.len() {
@@ -164,7 +178,7 @@ impl Words<'_> {
 
     /// The words that the children of a node take, when they begin at `next`.
     fn check_node(&self, at: usize, size: u32, next: usize) -> Result<usize, String> {
-        let word = |at: usize| self.trees.get(at).copied().ok_or_else(|| format!("`trees` ends before its word {at}"));
+        let word = |at: usize| word(self.trees, at).ok_or_else(|| format!("`trees` ends before its word {at}"));
         let node = word(at)?;
         let (yes, no) = (node & 0xffff, node >> 16);
         if yes & no != 0 || (yes | no) & !self.shape.children() != 0 {

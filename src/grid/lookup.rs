@@ -78,7 +78,8 @@ impl Lookup {
         if !((values[0] <= x) & (x <= values[last + 1])) {
             return None;
         }
-        let index = (self.guess(x).max(0.0) as usize).min(last);
+        // Between two values the guess lies between their indices; the comparisons tell a wrong one.
+        let index = (nearest_integer(self.guess(x) - 0.5) as usize).min(last);
         if (values[index] <= x) & (x <= values[index + 1]) {
             return Some(index);
         }
