@@ -30,6 +30,8 @@ pub use error::{Error, Result};
 mod pages {
     #[doc = include_str!("../README.md")]
     struct Readme;
+    #[doc = include_str!("../docs/cells.md")]
+    struct Cells;
     #[doc = include_str!("../docs/any-spiral.md")]
     struct AnySpiral;
     #[doc = include_str!("../docs/reach.md")]

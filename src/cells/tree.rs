@@ -24,9 +24,9 @@ pub struct Known {
 /// Most axes: a node has a bit for each child, in half a word.
 pub(super) const MOST_AXES: usize = crate::family::MOST_SIDES;
 
-/// How many top cells there are along each axis: at most 65,536 together.
+/// How many top cells there are along each axis: at most 4,096 together.
 pub(super) fn top_count(axes: usize, resolution: usize) -> usize {
-    resolution.min(1 << (16 / axes))
+    resolution.min(1 << (12 / axes))
 }
 
 /// The shape of a file: what its words mean depends on it.

@@ -22,7 +22,7 @@ pub fn plans(cells: &Cells) -> Result<Vec<PicturePlan>> {
 }
 
 /// Draws a slice through the finest cells. Of each region of the plan (of its family's widest flag and those of its answer, where it chooses none)
-/// two are drawn: where the flag may hold, that is MIXED or INSIDE, and where it is INSIDE.
+/// two are drawn: where it is MIXED, and where it is INSIDE.
 ///
 /// # Errors
 /// Those of [`plot`].
@@ -48,7 +48,7 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
         let label = family.flags()[*bit].label;
         let mask = |holds: &dyn Fn(&Known) -> bool| known.iter().map(holds).collect();
         [
-            Region { label: format!("{label}: MIXED"), mask: mask(&|k| k.outside >> bit & 1 == 0) },
+            Region { label: format!("{label}: MIXED"), mask: mask(&|k| (k.inside | k.outside) >> bit & 1 == 0) },
             Region { label: format!("{label}: INSIDE"), mask: mask(&|k| k.inside >> bit & 1 == 1) },
         ]
     });
@@ -61,8 +61,7 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
         regions: regions.collect(),
         outlines: Vec::new(),
         marks: plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect(),
-        note: "each node stands for a cell, all over which what is shown is proved; a region called MIXED holds the INSIDE one"
-            .into(),
+        note: "each node is a cell: INSIDE is proved at every point of it; MIXED is not known, or true in a part of it".into(),
     };
     plot::slice_png(&slice, sheet(&plan.look, SLICE_SIZE))
 }
