@@ -1,7 +1,7 @@
 //! What the commands do with an atlas of cells.
 
+use super::Outcome;
 use super::output::{self, Object, Product, grouped};
-use super::{Outcome, generate};
 use spiral_atlas::atlas::{Atlas, Kind};
 use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec};
 use spiral_atlas::files::{size, write_file};
@@ -68,13 +68,13 @@ pub fn make(recipe: &Recipe, plan: &AtlasPlan, budget: u64, out: &Path, threads:
     let spec = spec(recipe, plan, budget);
     let started = Instant::now();
     let built = build(&spec, threads, stop)?;
-    let path = generate::atlas_path(out, &plan.name);
+    let path = output::atlas_path(out, &plan.name);
     cells::write(&path, &spec, &built)?;
     let cells = Cells::open(&path)?;
     let (id, seconds) = (cells.id()?.to_hex().to_string(), started.elapsed().as_secs_f64());
     let mut made =
         Made { atlas: plan.name.clone(), id, kind: "cells", resolution: cells.resolution(), threads, seconds, files: Vec::new() };
-    let beside = generate::report_path(out, &plan.name);
+    let beside = output::report_path(out, &plan.name);
     write_file(&beside, (output::to_json(&made)? + "\n").as_bytes())?;
     made.files = vec![Product::of(&path)?, Product::of(&beside)?];
     made.files.extend(draw(&cells, &plan.pictures, out)?);

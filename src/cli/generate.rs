@@ -2,7 +2,7 @@
 
 use super::backend::{self, BackendArgs};
 use super::cells;
-use super::output::{self, Product, grouped};
+use super::output::{self, Product, atlas_path, grouped, report_path};
 use super::verify::{self, Compared};
 use super::{Outcome, draw};
 use spiral_atlas::Result;
@@ -113,15 +113,6 @@ pub fn run(args: &Args) -> Result<Outcome> {
         output::complain("the check found differences; the files were kept");
     }
     Ok(if good { Outcome::Fine } else { Outcome::Bad })
-}
-
-/// Where the atlas of a name goes.
-pub fn atlas_path(folder: &Path, name: &str) -> PathBuf {
-    folder.join(format!("{name}.atlas.safetensors"))
-}
-
-pub fn report_path(folder: &Path, name: &str) -> PathBuf {
-    folder.join(format!("{name}.report.json"))
 }
 
 /// Makes sure, before any work, that the disk has room for all atlases of a recipe together.

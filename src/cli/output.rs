@@ -95,6 +95,16 @@ impl Product {
     }
 }
 
+/// Where the atlas of a name goes.
+pub fn atlas_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.atlas.safetensors"))
+}
+
+/// Where its report goes.
+pub fn report_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.report.json"))
+}
+
 /// Creates a folder with its parents, unless it is there.
 pub fn make_folder(path: &Path) -> Result<()> {
     if path.exists() && !path.is_dir() {

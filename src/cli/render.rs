@@ -64,7 +64,7 @@ fn of_recipe(args: &Args) -> Result<Vec<Product>> {
             continue;
         }
         // Beside the pictures: there is room for them, and the system's own folder may be memory.
-        let path = generate::atlas_path(&args.out, &plan.name);
+        let path = output::atlas_path(&args.out, &plan.name);
         let (_, writer) = generate::write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
         let atlas = writer.open()?;
         products.extend(draw::one(&atlas, &picture::plans(&atlas)?, &args.out)?);

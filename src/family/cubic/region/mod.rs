@@ -159,7 +159,10 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     }
     if open & curves != 0 {
         let branches = data.branches(open, any, &mut facts.pull);
-        let some = |of: fn(&Branch) -> Known| branches.iter().fold(Some(false), |known, b| or(known, and(b.exists, of(b))));
+        let some = |of: fn(&Branch) -> Known| {
+            let [left, middle, right] = branches.map(|b| and(b.exists, of(&b)));
+            or(or(left, middle), right)
+        };
         let first = and(solvable, and(branches[1].exists, branches[1].theorem));
         note(&mut facts, SPIRAL, sure(and(any, some(|b| b.spiral))));
         note(&mut facts, THEOREM31_ANY, sure(and(any, some(|b| b.theorem))));
