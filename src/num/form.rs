@@ -363,6 +363,50 @@ mod tests {
         }
     }
 
+    /// In four symbols, each operation holds the truth at corners and inside, and the extremes hold every number.
+    #[test]
+    fn four_symbols_hold_the_truth() {
+        type Four = Form<4, 10>;
+        let mut noise = Noise(3);
+        let (mut worst, mut held) = (0.0f64, 0);
+        for _ in 0..1500 {
+            let width = 2f64.powi((30.0 * (noise.signed() - 1.0)) as i32);
+            let ranges = [0; 4].map(|_| {
+                let (middle, half) = (scaled(&mut noise), width * noise.signed().abs());
+                [middle - half * middle.abs(), middle + half * middle.abs()]
+            });
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| Four::along(ranges[i], i));
+            let Some(found) = a.mul(&b).sub(&c.times(0.3)).over(&d.plus(0.7)).map(|q| q.mul(&a).add(&b.mul(&d))) else {
+                continue;
+            };
+            for _ in 0..3 {
+                let place = [0; 4].map(|_| (2.0 * noise.signed()).clamp(-1.0, 1.0));
+                let at: [Interval; 4] = std::array::from_fn(|i| {
+                    let [low, high] = ranges[i].map(|x| Interval::new(x, 300));
+                    &low.scale(0.5 - 0.5 * place[i]) + &high.scale(0.5 + 0.5 * place[i])
+                });
+                let quotient = (&(&at[0] * &at[1]) - &at[2].scale(0.3)).over(&at[3].plus(0.7)).expect("not zero");
+                let truth = &(&quotient * &at[0]) + &(&at[1] * &at[3]);
+                let symbols = place.map(|x| Interval::new(x, 300));
+                let mut sum = Interval::new(found.value, 300);
+                let mut next = 0;
+                for i in 0..4 {
+                    sum = &sum + &symbols[i].scale(found.slope[i]);
+                    for other in &symbols[i..] {
+                        sum = &sum + &(&symbols[i] * other).scale(found.bend[next]);
+                        next += 1;
+                    }
+                }
+                let off = (&truth - &sum).approx().abs();
+                assert!(off <= found.error, "{ranges:?} {place:?}: {found:?} is off by {off}");
+                assert!(found.low() <= truth.approx() && truth.approx() <= found.high(), "{ranges:?} {place:?}: {found:?}");
+                worst = worst.max(off / found.error);
+                held += 1;
+            }
+        }
+        assert!(worst > 0.05 && held > 2000, "{worst} {held}");
+    }
+
     /// The same numbers as balls would lose what cancels.
     #[test]
     fn what_depends_on_the_same_cancels() {
