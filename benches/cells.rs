@@ -1,4 +1,5 @@
-//! Cells of the cubic, by hand: `cargo bench --bench cells -- [resolution] [MiB]`. What is MIXED, and what a lookup and a verdict cost.
+//! Cells of the cubic, by hand: `cargo bench --bench cells -- [resolution] [MiB]`. What is MIXED, and what a lookup
+//! and a verdict cost.
 
 use spiral_atlas::cells::{Cells, Spec, build, write};
 use spiral_atlas::family::cubic::{ANY_SPIRAL, Datum, SPIRAL, solve};

@@ -52,8 +52,8 @@ struct Tree {
 /// - `progress`: is told how many cells have been divided, whenever some more have.
 ///
 /// # Errors
-/// [`Error::Domain`] for a family without proofs over boxes, axes of unlike or impossible counts, more than four axes, or a budget that
-/// is too small even for the top cells.
+/// [`Error::Domain`] for a family without proofs over boxes, axes of unlike or impossible counts, more than four
+/// axes, or a budget that is too small even for the top cells.
 pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(u64) + Sync)) -> Result<Built> {
     let (region, chart) = region(spec.family, spec.grid)?;
     let (shape, prover) = (shape(spec.grid, spec.family.flags().len())?, prover(spec.grid, region, chart));
@@ -106,14 +106,16 @@ pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(
     Ok(lay_out(shape, &known, &trees))
 }
 
-/// Words that do not depend on the trees: top cells, roots, the axes' edges, and the header with a recipe of ordinary length.
+/// Words that do not depend on the trees: top cells, roots, the axes' edges, and the header with a recipe of ordinary
+/// length.
 fn fixed_words(shape: Shape, tops: &[[u16; MOST_AXES]]) -> u64 {
     let header = 1 << 12;
     let axes = shape.axes as u64 * 2 * ((1 << shape.depth) + 1);
     tops.len() as u64 * (shape.flags as u64 + 1) + axes + header + 1
 }
 
-/// Which parents have their cells divided, within the words that are left, which it takes away: all of them, or an even choice.
+/// Which parents have their cells divided, within the words that are left, which it takes away: all of them, or an
+/// even choice.
 fn choose(counts: &[u64], words: u64, left: &mut u64) -> Vec<bool> {
     let needed = words * counts.iter().sum::<u64>();
     let share = if needed <= *left { 1 << 32 } else { ((*left as u128) << 32) as u64 / needed.max(1) };
@@ -171,7 +173,8 @@ fn divide(prover: &Prover, edges: &Edges, shape: Shape, place: &[u16; MOST_AXES]
 fn lay_out(shape: Shape, known: &[Known], trees: &[Tree]) -> Built {
     let mut roots = vec![0; known.len() * shape.flags];
     let mut words = vec![0];
-    // Of each flag, what is left of the top cells that it leaves open, and of each level: those of one top cell come first.
+    // Of each flag, what is left of the top cells that it leaves open, and of each level: those of one top cell come
+    // first.
     let mut left: Vec<(std::slice::Iter<bool>, Vec<std::slice::Iter<Node>>)> =
         trees.iter().map(|tree| (tree.roots.iter(), tree.levels.iter().map(|level| level.iter()).collect())).collect();
     for (cell, known) in known.iter().enumerate() {

@@ -47,8 +47,9 @@ pub fn differences(cells: &Cells, fresh: &Built) -> (u64, Option<String>) {
     found
 }
 
-/// Asks the family itself about points and compares its answers with those of the cells: a third of the coordinates are anywhere in the box, a third are
-/// edges of cells, a third are doubles beside edges. Where a point leaves the family's domain, it is left out.
+/// Asks the family itself about points and compares its answers with those of the cells: a third of the coordinates
+/// are anywhere in the box, a third are edges of cells, a third are doubles beside edges. Where a point leaves the
+/// family's domain, it is left out.
 ///
 /// # Arguments
 /// - `rounds`: each asks about all combinations of four coordinates an axis, up to 256 points.

@@ -6,8 +6,8 @@ use std::collections::VecDeque;
 
 /// Most boxes that are tried for a cell before it is MIXED.
 ///
-/// The first is the cell itself. A cell whose flag is uniform but was not proved so is often proved by its halves; one where a half has the flag and
-/// another has not is MIXED at once.
+/// The first is the cell itself. A cell whose flag is uniform but was not proved so is often proved by its halves;
+/// one where a half has the flag and another has not is MIXED at once.
 ///
 /// Cells of the finest size get more than those that are divided if they stay MIXED.
 const MOST_TESTS: [u32; 2] = [20, 12];

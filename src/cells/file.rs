@@ -44,7 +44,8 @@ pub fn bytes(spec: &Spec, built: &Built) -> Result<Vec<u8>> {
     Ok([header.render().map_err(domain)?, body].concat())
 }
 
-/// A file of cells, mapped into memory and checked; what is said of [`crate::atlas::Atlas`] and changes of an open file holds here, too.
+/// A file of cells, mapped into memory and checked; what is said of [`crate::atlas::Atlas`] and changes of an open
+/// file holds here, too.
 ///
 /// It may be used from several threads at once, and several processes share its memory.
 ///
@@ -126,13 +127,14 @@ impl Cells {
         Ok(cells)
     }
 
-    /// What the cell of a point says of all flags: of each, that it holds at every point of the cell, at none, or neither.
+    /// What the cell of a point says of all flags: of each, that it holds at every point of the cell, at none, or
+    /// neither.
     ///
     /// No memory is allocated, and nothing is computed that costs more than a few comparisons and reads.
     ///
     /// # Returns
-    /// `None` outside the box of the file, for NaN, and for a wrong number of coordinates. A point on a common face of cells gets one of them; what
-    /// that says is true, because cells are closed.
+    /// `None` outside the box of the file, for NaN, and for a wrong number of coordinates. A point on a common face
+    /// of cells gets one of them; what that says is true, because cells are closed.
     #[inline]
     pub fn lookup(&self, point: &[f64]) -> Option<Known> {
         self.find(point, u8::MAX)
@@ -157,7 +159,8 @@ impl Cells {
     /// Those of the wanted flags that hold.
     ///
     /// # Errors
-    /// [`Error::Domain`], naming the coordinate, outside the family's domain; [`Error::Undecided`] at the precision cap.
+    /// [`Error::Domain`], naming the coordinate, outside the family's domain; [`Error::Undecided`] at the precision
+    /// cap.
     pub fn verdict(&self, point: &[f64], wanted: u8) -> Result<u8> {
         let wanted = wanted & all_flags(self.family);
         let known = self.find(point, wanted).unwrap_or_default();

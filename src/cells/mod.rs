@@ -1,16 +1,18 @@
 //! Certified cells: an atlas whose verdicts hold at every point between its nodes, not at nodes alone.
 //!
-//! The box of a recipe is divided into cells, `resolution` along each axis, a power of two. Of each flag a cell says INSIDE (it holds at every real point
-//! of the closed cell that lies in the family's domain), OUTSIDE (it holds at none) or MIXED (neither is known). These are proofs of
-//! [`crate::family::Region`]. [`Cells::lookup`] gives what the cell of a point says, in nanoseconds; [`Cells::verdict`] gives the truth, because it
-//! asks the family itself where the cell is MIXED.
+//! The box of a recipe is divided into cells, `resolution` along each axis, a power of two. Of each flag a cell says
+//! INSIDE (it holds at every real point of the closed cell that lies in the family's domain), OUTSIDE (it holds at
+//! none) or MIXED (neither is known). These are proofs of [`crate::family::Region`]. [`Cells::lookup`] gives what the
+//! cell of a point says, in nanoseconds; [`Cells::verdict`] gives the truth, because it asks the family itself where
+//! the cell is MIXED.
 //!
 //! # How it is done
-//! - `tree.rs`: the file's words. A few top cells say what is known of all flags at once. Below, each flag has a tree of its own, whose nodes divide a
-//!   MIXED cell in two along each axis. So it is coarse where a flag is uniform, and fine at its boundary.
+//! - `tree.rs`: the file's words. A few top cells say what is known of all flags at once. Below, each flag has a tree
+//!   of its own, whose nodes divide a MIXED cell in two along each axis. So it is coarse where a flag is uniform, and
+//!   fine at its boundary.
 //! - `classify.rs`: what is proved of one cell, also by halves of it.
-//! - `build.rs`: the trees, level by level, the flags that matter most first, until the budget is used up. Cells are independent of each other
-//!   and results are taken in order, so the bytes do not depend on the number of threads.
+//! - `build.rs`: the trees, level by level, the flags that matter most first, until the budget is used up. Cells are
+//!   independent of each other and results are taken in order, so the bytes do not depend on the number of threads.
 //! - `file.rs`: one safetensors file, mapped and checked. docs/cells.md states it byte by byte.
 //! - `check.rs`: recomputes a file, and attacks it with points.
 

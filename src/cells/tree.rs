@@ -1,16 +1,19 @@
 //! The words of a file of cells, and how a place is looked up in them.
 //!
-//! There are `T` top cells along each of the `n` axes, first axis slowest; `T` is a power of two, at most the resolution. `top` has two bytes for each: the
-//! flags that hold all over it, and those that hold nowhere in it. `roots` has a word for each flag of each top cell: where in `trees` the flag's node
-//! is, or 0 where the flag is known or the top cell is not divided.
+//! There are `T` top cells along each of the `n` axes, first axis slowest; `T` is a power of two, at most the
+//! resolution. `top` has two bytes for each: the flags that hold all over it, and those that hold nowhere in it.
+//! `roots` has a word for each flag of each top cell: where in `trees` the flag's node is, or 0 where the flag is
+//! known or the top cell is not divided.
 //!
-//! A node divides a cell in two along each axis. Its child `c` has the upper half along the axis i where bit `n-1-i` of c is 1. The first word has, in bit c, whether
-//! the flag holds all over child c, and in bit `16 + c`, whether it holds nowhere in it. A child with neither is MIXED. Where the children are not
-//! of the finest size, a second word says where the nodes of all MIXED children lie, one after another by c; 0: they are not divided.
+//! A node divides a cell in two along each axis. Its child `c` has the upper half along the axis i where bit `n-1-i`
+//! of c is 1. The first word has, in bit c, whether the flag holds all over child c, and in bit `16 + c`, whether it
+//! holds nowhere in it. A child with neither is MIXED. Where the children are not of the finest size, a second word
+//! says where the nodes of all MIXED children lie, one after another by c; 0: they are not divided.
 //!
-//! Word 0 of `trees` is 0 and belongs to nobody. The trees of the first top cell come next, in the order of the flags, then those of the next top cell, and so on.
-//! The nodes of a tree stand level by level, each level in the order of the level above. So each place that a word names is known from the words before
-//! it, one pass checks them all, and what a lookup reads lies close together.
+//! Word 0 of `trees` is 0 and belongs to nobody. The trees of the first top cell come next, in the order of the
+//! flags, then those of the next top cell, and so on. The nodes of a tree stand level by level, each level in the
+//! order of the level above. So each place that a word names is known from the words before it, one pass checks them
+//! all, and what a lookup reads lies close together.
 
 /// What a cell says of each flag, as two masks: a flag in neither is MIXED.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -90,7 +93,8 @@ fn word(words: &[[u8; 4]], at: usize) -> Option<u32> {
 }
 
 impl Words<'_> {
-    /// What the smallest cell that holds the finest cell with these indices says of the wanted flags. Words that lead nowhere say MIXED.
+    /// What the smallest cell that holds the finest cell with these indices says of the wanted flags. Words that lead
+    /// nowhere say MIXED.
     #[inline]
     pub fn find(&self, place: &[u32], wanted: u8) -> Known {
         let at = self.shape.top_of(place);

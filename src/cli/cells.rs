@@ -122,7 +122,8 @@ pub fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
     let about = cells.about();
     let plan = Recipe::parse(&about.recipe).ok().map(|recipe| recipe.atlases.into_iter().find(|plan| plan.name == about.name));
     let same = |plan: &AtlasPlan| plan.family.name() == about.family && plan.grid == *cells.grid() && plan.cells.is_some();
-    // A text that is no recipe (of a file made by a program) says nothing; its cells then have no budget but what they took.
+    // A text that is no recipe (of a file made by a program) says nothing; its cells then have no budget but what
+    // they took.
     match &plan {
         Some(None) => faults.push(format!("its recipe has no atlas `{}`", about.name)),
         Some(Some(plan)) if !same(plan) => faults.push("its recipe gives another family or other cells than the file has".into()),
@@ -227,7 +228,8 @@ pub fn info(cells: &Cells, json: bool) -> Result<()> {
     output::print(&text)
 }
 
-/// What the cell of a datum says of each flag; `None` outside the box, or for a datum in other coordinates than those of the file.
+/// What the cell of a datum says of each flag; `None` outside the box, or for a datum in other coordinates than those
+/// of the file.
 pub fn look_up(cells: &Cells, chart: usize, point: &[f64]) -> Option<Object<&'static str, &'static str>> {
     let Known { inside, outside } = if chart == cells.chart() { cells.lookup(point)? } else { return None };
     let word = |bit: usize| match (inside >> bit & 1, outside >> bit & 1) {

@@ -19,13 +19,16 @@ pub trait Region: Sync {
     /// Whether it has proofs in the family's chart of this name.
     fn covers(&self, chart: &str) -> bool;
 
-    /// Proves what it can of the flags in `wanted` over the closed box of all real points between `low` and `high`, both included.
+    /// Proves what it can of the flags in `wanted` over the closed box of all real points between `low` and `high`,
+    /// both included.
     ///
-    /// What is said of a flag holds at every point of the box that lies in the family's domain. So a box may leave the domain, and a flag's
-    /// verdict may be proved although other conditions change inside. Nothing is said by chance: where rounding could matter, nothing is said.
+    /// What is said of a flag holds at every point of the box that lies in the family's domain. So a box may leave
+    /// the domain, and a flag's verdict may be proved although other conditions change inside. Nothing is said by
+    /// chance: where rounding could matter, nothing is said.
     ///
     /// # Arguments
-    /// - `chart`: index of the family's chart; `low` and `high` have a coordinate for each of its axes, with `low <= high`.
+    /// - `chart`: index of the family's chart; `low` and `high` have a coordinate for each of its axes, with `low <=
+    ///   high`.
     /// - `wanted`: the flags that matter; others may be left open.
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts;
 }

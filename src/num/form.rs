@@ -1,25 +1,28 @@
 //! Quadratic polynomials in a few symbols that know how far they may be off: doubles for proofs over boxes.
 //!
-//! A ball forgets on what its number depends; of a number that varies over a box it holds every combination of the extremes. Here the first two
-//! orders of that dependence are kept, so that terms cancel as they should and what is lost is of the third order in the size of the box.
+//! A ball forgets on what its number depends; of a number that varies over a box it holds every combination of the
+//! extremes. Here the first two orders of that dependence are kept, so that terms cancel as they should and what is
+//! lost is of the third order in the size of the box.
 //!
-//! Every operation adds to the error what its roundings and the terms that it cuts off can do. So a form holds the truth at every place of the
-//! symbols, whatever was computed with it.
+//! Every operation adds to the error what its roundings and the terms that it cuts off can do. So a form holds the
+//! truth at every place of the symbols, whatever was computed with it.
 
-use super::bernstein::Certain;
+mod real;
+
 use super::{Ball, Number, Real};
-use std::cmp::Ordering;
 
 /// Unit roundoff.
 const UNIT: f64 = 0.5 * f64::EPSILON;
-/// Covers the roundings of an error's own computation: fewer than 28 additions and products of numbers that are not negative.
-/// With four symbols the longest chain is that of a product: nine additions for a size, and eleven more operations.
+/// Covers the roundings of an error's own computation: fewer than 28 additions and products of numbers that are not
+/// negative. With four symbols the longest chain is that of a product: nine additions for a size, and eleven more
+/// operations.
 const GROW: f64 = 1.0 + 32.0 * UNIT;
-/// More than underflow can do to a result and to the terms of its error: at most forty products round below the normal range,
-/// each by less than 2^-1074.
+/// More than underflow can do to a result and to the terms of its error: at most forty products round below the
+/// normal range, each by less than 2^-1074.
 const TINY: f64 = f64::MIN_POSITIVE;
 
-/// All functions of `K` symbols from -1 to 1 within `error` of `value + slope · symbols + bend · products of two symbols`.
+/// All functions of `K` symbols from -1 to 1 within `error` of `value + slope · symbols + bend · products of two
+/// symbols`.
 ///
 /// `H` is `K (K + 1) / 2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,7 +120,8 @@ impl<const K: usize, const H: usize> Form<K, H> {
             let slope = slope.abs();
             fall += if slope < 2.0 * bend { 0.25 * slope * (slope / bend) } else { slope - bend };
         }
-        // The roundings are below a few units of what they belong to: each term of a fall passes at most 3 + 2 K + 3 operations.
+        // The roundings are below a few units of what they belong to: each term of a fall passes at most 3 + 2 K + 3
+        // operations.
         let size = self.value.abs() + self.linear() + self.curved();
         fall + (self.error + 32.0 * UNIT * size) * GROW + TINY
     }
@@ -163,7 +167,8 @@ impl<const K: usize, const H: usize> Number for Form<K, H> {
     fn sub(&self, other: &Form<K, H>) -> Form<K, H> {
         self.zip(other, |a, b| a - b)
     }
-    /// Each coefficient is a sum of at most four products, and all these together are terms of the product of the sizes: four roundings of each.
+    /// Each coefficient is a sum of at most four products, and all these together are terms of the product of the
+    /// sizes: four roundings of each.
     #[inline(always)]
     fn mul(&self, other: &Form<K, H>) -> Form<K, H> {
         let (x, y) = (self.value, other.value);
@@ -207,64 +212,14 @@ impl<const K: usize, const H: usize> Number for Form<K, H> {
     }
 }
 
-impl<const K: usize, const H: usize> Certain for Form<K, H> {
-    fn certain_sign(&self, error: f64) -> Option<Ordering> {
-        self.range().certain_sign(error)
-    }
-}
-
-impl<const K: usize, const H: usize> Real for Form<K, H> {
-    fn of(x: f64, _bits: usize) -> Form<K, H> {
-        Form::ball(Ball { value: x, error: 0.0 })
-    }
-    fn bits(&self) -> usize {
-        53
-    }
-    fn over(&self, divisor: &Form<K, H>) -> Option<Form<K, H>> {
-        Some(self.mul(&divisor.inverse()?))
-    }
-    /// With a double s near `1 / value` and `self s = 1 + u` that is `√(1/s) (1 + u/2 - u²/8 + ...)`. All further terms have one sign for `u < 0`,
-    /// so that the rest is largest at the least u: for `u >= -m` it is `1 - m/2 - m²/8 - √(1-m)`, and at most `m³ / 16 (1-m)^(-5/2)`.
-    fn sqrt(&self) -> Option<Form<K, H>> {
-        (self.value > self.around()).then_some(())?;
-        let s = 1.0 / self.value;
-        let u = self.times(s).plus(-1.0);
-        let most = u.most();
-        (most < 1.0).then_some(())?;
-        let left = 1.0 - most;
-        let rest = (most * most * most / (16.0 * left * left * left.sqrt()))
-            .min(1.0 - 0.5 * most - 0.125 * most * most - left.sqrt() + 8.0 * UNIT);
-        let root = u.times(0.5).sub(&u.mul(&u).times(0.125)).plus(1.0).off(rest * GROW);
-        // That √(1/s) is off by three units.
-        let back = root.times((1.0 / s).sqrt());
-        let size = back.most();
-        Some(back.off(4.0 * UNIT * size))
-    }
-    fn union(&self, other: &Form<K, H>) -> Form<K, H> {
-        Form::ball(self.range().union(&other.range()))
-    }
-    fn size(&self) -> Form<K, H> {
-        Form::ball(self.range().size())
-    }
-    fn most(&self) -> f64 {
-        (self.value.abs() + self.around()) * GROW
-    }
-    fn middle(&self) -> Form<K, H> {
-        Form::of(self.value, 53)
-    }
-    fn approx(&self) -> f64 {
-        self.value
-    }
-    fn to_f32(&self) -> Option<f32> {
-        self.range().to_f32()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::noise::Noise;
     use crate::num::Interval;
+
+    use crate::num::bernstein::Certain;
+    use std::cmp::Ordering;
 
     /// Of any size.
     fn scaled(noise: &mut Noise) -> f64 {

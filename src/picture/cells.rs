@@ -21,8 +21,8 @@ pub fn plans(cells: &Cells) -> Result<Vec<PicturePlan>> {
     }
 }
 
-/// Draws a slice through the finest cells. Of each region of the plan (of its family's widest flag and those of its answer, where it chooses none)
-/// two are drawn: where it is MIXED, and where it is INSIDE.
+/// Draws a slice through the finest cells. Of each region of the plan (of its family's widest flag and those of its
+/// answer, where it chooses none) two are drawn: where it is MIXED, and where it is INSIDE.
 ///
 /// # Errors
 /// Those of [`plot`].

@@ -1,4 +1,5 @@
-//! Cells: what a file says is true, its bytes are the same for any number of threads, and any other words are refused or found.
+//! Cells: what a file says is true, its bytes are the same for any number of threads, and any other words are refused
+//! or found.
 
 use spiral_atlas::cells::{Cells, Spec, attack, build, bytes, check, differences};
 use spiral_atlas::family::cubic::{Datum, SPIRAL, solve};

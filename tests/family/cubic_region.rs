@@ -1,4 +1,5 @@
-//! Verdicts over boxes: no point of a box, and no corner, face or neighbour of one inside it, has another verdict than its box.
+//! Verdicts over boxes: no point of a box, and no corner, face or neighbour of one inside it, has another verdict
+//! than its box.
 
 use crate::oracle::judge;
 use crate::oracle::random::Random;

@@ -18,8 +18,8 @@ pub(super) fn centred([low, high]: [f64; 2], symbol: usize) -> Four {
     form
 }
 
-/// A function f of `f'' = -f` and `|f| <= 1`, such as a sine, of an angle that moves by `by` around a middle, where it is `value` and its
-/// derivative is `slope`, each to so many units (`value` relative, `slope` absolute).
+/// A function f of `f'' = -f` and `|f| <= 1`, such as a sine, of an angle that moves by `by` around a middle, where
+/// it is `value` and its derivative is `slope`, each to so many units (`value` relative, `slope` absolute).
 ///
 /// Taylor: `value + slope by - value by² / 2`, and a rest of at most `|by|³ / 6`.
 fn sine(value: f64, slope: f64, by: &Four, units: f64) -> Four {
@@ -45,8 +45,8 @@ pub(super) struct Angles {
 impl Angles {
     /// `None` where the box leaves the domain, comes too near to its end, or is too wide for two orders.
     ///
-    /// The cosine of the sum is taken from those of the angles: two products of numbers within 10 units each and a difference, all at most 1,
-    /// are off by less than 44 units.
+    /// The cosine of the sum is taken from those of the angles: two products of numbers within 10 units each and a
+    /// difference, all at most 1, are off by less than 44 units.
     pub fn new(phi0: [f64; 2], phi1: [f64; 2]) -> Option<Angles> {
         (phi0[0] > 0.0 && phi1[0] > 0.0 && sum_below_pi(phi0[1], phi1[1])).then_some(())?;
         let (first, second) = (centred(phi0, 0), centred(phi1, 1));

@@ -1,13 +1,16 @@
 //! ANY_SPIRAL over a box.
 //!
-//! The flag is `φ0 < φ1`, `u = sin φ0 - κ0 > 0`, `v = κ1 - sin φ1 > 0` and `f = u v - sin²((φ1-φ0)/2) > 0` (`outer.rs`). There φ0 < π/2.
+//! The flag is `φ0 < φ1`, `u = sin φ0 - κ0 > 0`, `v = κ1 - sin φ1 > 0` and `f = u v - sin²((φ1-φ0)/2) > 0`
+//! (`outer.rs`). There φ0 < π/2.
 //!
-//! **Corners.** Where κ0 >= 0 or φ1 <= π/2, and φ0 < φ1 all over the box, the flag rises with φ0 and κ1 and falls with φ1 and κ0. On the way, where
-//! the flag holds, `∂f/∂κ1 = u > 0`, `∂f/∂κ0 = -v < 0`, `∂f/∂φ0 = v cos φ0 + sin(φ1-φ0)/2 > 0` and `∂f/∂φ1 = -u cos φ1 - sin(φ1-φ0)/2`. The last is
-//! negative for φ1 <= π/2. Beyond, κ0 >= 0 gives `u <= sin φ0`, and it is at most
-//! `(sin φ0 |cos φ1| - sin φ1 cos φ0) / 2 = -sin(φ0+φ1)/2 < 0`. So f only grows on the way from a point where the flag holds to the corner of greatest
-//! φ0, κ1 and least φ1, κ0, moving κ1, κ0, φ1, φ0 in turn (u grows or stays, and f > 0 with u > 0 keeps v > 0). Hence the flag holds all over the box when
-//! it holds at the opposite corner, and nowhere when it does not hold at this one. For κ0 < 0 and φ1 > π/2 this is not so.
+//! **Corners.** Where κ0 >= 0 or φ1 <= π/2, and φ0 < φ1 all over the box, the flag rises with φ0 and κ1 and falls
+//! with φ1 and κ0. On the way, where the flag holds, `∂f/∂κ1 = u > 0`, `∂f/∂κ0 = -v < 0`, `∂f/∂φ0 = v cos φ0 +
+//! sin(φ1-φ0)/2 > 0` and `∂f/∂φ1 = -u cos φ1 - sin(φ1-φ0)/2`. The last is negative for φ1 <= π/2. Beyond, κ0 >= 0
+//! gives `u <= sin φ0`, and it is at most `(sin φ0 |cos φ1| - sin φ1 cos φ0) / 2 = -sin(φ0+φ1)/2 < 0`. So f only
+//! grows on the way from a point where the flag holds to the corner of greatest φ0, κ1 and least φ1, κ0, moving κ1,
+//! κ0, φ1, φ0 in turn (u grows or stays, and f > 0 with u > 0 keeps v > 0). Hence the flag holds all over the box
+//! when it holds at the opposite corner, and nowhere when it does not hold at this one. For κ0 < 0 and φ1 > π/2 this
+//! is not so.
 //!
 //! **Factors.** Always, u, v and the square lie between the values that their own coordinates allow.
 

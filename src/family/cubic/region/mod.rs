@@ -1,32 +1,38 @@
 //! What is proved of the cubic over boxes of (φ0, φ1, κ0, κ1).
 //!
 //! # How it is done
-//! Everything is a form of second order in the four coordinates of the box (`num/form.rs`), which holds its own rounding errors and what it cuts off.
-//! So a form with only positive numbers is a proof for every real point of the closed box. Outside the domain nothing is said, and a datum is
-//! judged by the module `cubic`: no root where a or k is not positive, no spiral where ANY_SPIRAL fails.
+//! Everything is a form of second order in the four coordinates of the box (`num/form.rs`), which holds its own
+//! rounding errors and what it cuts off. So a form with only positive numbers is a proof for every real point of the
+//! closed box. Outside the domain nothing is said, and a datum is judged by the module `cubic`: no root where a or k
+//! is not positive, no spiral where ANY_SPIRAL fails.
 //!
 //! - ANY_SPIRAL: closed forms (`any.rs`).
 //! - SOLVABLE: the signs of 3k - 1, 3a - 1 and Δ, as in the module `cubic`.
-//! - A flag that asks for *some* root with a property (SPIRAL, THEOREM31_ANY) holds over the box when one enclosed root (`root.rs`) lies in the open square
-//!   and has it, over the whole box. Which root that is does not matter.
+//! - A flag that asks for *some* root with a property (SPIRAL, THEOREM31_ANY) holds over the box when one enclosed
+//!   root (`root.rs`) lies in the open square and has it, over the whole box. Which root that is does not matter.
 //! - It fails over the box when *every* root of every datum fails. For that, all roots must be accounted for.
 //!
 //! # All roots
-//! Of a datum with a, k > 0 take the roots in the square (0, 3)². F' is -1 at x = 0 and at y = 0, and positive on one interval around 1/√a at most.
-//! A root with F' > 0 is the *middle* one; there is one at most. A root with F' < 0 and `a x² < 1` is the *left* one: F falls from x = 0 to it, so there is
-//! one at most, and it needs F(0) > 0, that is k < 1/3. The *right* one has F' < 0 and `k y² < 1`; it is the left one with x and y exchanged, and needs a < 1/3.
+//! Of a datum with a, k > 0 take the roots in the square (0, 3)². F' is -1 at x = 0 and at y = 0, and positive on one
+//! interval around 1/√a at most. A root with F' > 0 is the *middle* one; there is one at most. A root with F' < 0 and
+//! `a x² < 1` is the *left* one: F falls from x = 0 to it, so there is one at most, and it needs F(0) > 0, that is k
+//! < 1/3. The *right* one has F' < 0 and `k y² < 1`; it is the left one with x and y exchanged, and needs a < 1/3.
 //!
-//! An enclosure of F' < 0 and `a x² < 1` may reach below x = 0. Where k < 1/3 it still holds the left root and no other: F is negative far to the left and
-//! positive at 0, so its one negative root is met rising. Where k >= 1/3 there is no left root, and nothing is said of what the enclosure holds.
+//! An enclosure of F' < 0 and `a x² < 1` may reach below x = 0. Where k < 1/3 it still holds the left root and no
+//! other: F is negative far to the left and positive at 0, so its one negative root is met rising. Where k >= 1/3
+//! there is no left root, and nothing is said of what the enclosure holds.
 //!
-//! - Δ > 0, or a and k above 1/3: these three are all roots. A double root has Δ = 0. A root with F' < 0, `a x² >= 1` and `k y² >= 1` would have a larger x and a
-//!   larger y than the middle root, which exists here; but y falls with x.
-//! - Δ < 0 and not both above 1/3: no root, or one where a and k are below 1/3. F has two real roots then, one of them negative and met rising. So a
-//!   root with F' < 0 is the one.
-//! - Δ = 0 inside the box: the roots are the left one and those of a span (`root.rs`), or the same with x and y exchanged. In the span x itself, within its
-//!   range, takes the place of the symbol of κ1, on which `y = 3 - a x²` does not depend (κ0, when exchanged).
+//! - Δ > 0, or a and k above 1/3: these three are all roots. A double root has Δ = 0. A root with F' < 0, `a x² >= 1`
+//!   and `k y² >= 1` would have a larger x and a larger y than the middle root, which exists here; but y falls with
+//!   x.
+//! - Δ < 0 and not both above 1/3: no root, or one where a and k are below 1/3. F has two real roots then, one of
+//!   them negative and met rising. So a root with F' < 0 is the one.
+//! - Δ = 0 inside the box: the roots are the left one and those of a span (`root.rs`), or the same with x and y
+//!   exchanged. In the span x itself, within its range, takes the place of the symbol of κ1, on which `y = 3 - a x²`
+//!   does not depend (κ0, when exchanged).
 //!
-//! THEOREM31 is about the smaller root of a solvable datum. k > 1/3 there, so that is the middle one (or the double one, which lies in the span).
+//! THEOREM31 is about the smaller root of a solvable datum. k > 1/3 there, so that is the middle one (or the double
+//! one, which lies in the span).
 
 mod angles;
 mod any;
@@ -305,10 +311,11 @@ fn half(b: &[Four; 3], w: &Four) -> Known {
     and(outer, middle)
 }
 
-/// Whether the spiral polynomial is positive on [0, 1] all over the box, or negative somewhere on [0, 1] at each place of it.
+/// Whether the spiral polynomial is positive on [0, 1] all over the box, or negative somewhere on [0, 1] at each
+/// place of it.
 ///
-/// x and y are positive at the root that is asked about, wherever there is one. So the sign of B0 or C0, H0 and H5 without their squares, says it all when
-/// it is negative, also where x or y comes near 0.
+/// x and y are positive at the root that is asked about, wherever there is one. So the sign of B0 or C0, H0 and H5
+/// without their squares, says it all when it is negative, also where x or y comes near 0.
 fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Known {
     if positive(&start[0]) == Some(false) || positive(&end[0]) == Some(false) {
         return Some(false);
@@ -329,7 +336,8 @@ fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Known {
     above(&quintic, 6).then_some(true)
 }
 
-/// The quintic at t times a positive number: Horner's rule in `s = t / (1 - t)`, or in 1/s from the other end. Any s is some t, so its rounding does not matter.
+/// The quintic at t times a positive number: Horner's rule in `s = t / (1 - t)`, or in 1/s from the other end. Any s
+/// is some t, so its rounding does not matter.
 fn at(c: &Quintic<Four>, t: f64) -> Four {
     const BINOMIALS: [f64; 6] = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
     let back = t > 0.5;

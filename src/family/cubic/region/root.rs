@@ -1,22 +1,26 @@
 //! Roots of the two parabolas `3 - y = a x²`, `3 - x = k y²` over a box, as forms.
 //!
-//! **Enclosure.** X and Y are any forms; Newton's method and two orders of implicit differentiation give good ones. With `x = X + u`, `y = Y + v`,
-//! and the residuals `R = 3 - Y - a X²`, `T = 3 - X - k Y²`, (x, y) is a root exactly when (u, v) is a fixed point of
+//! **Enclosure.** X and Y are any forms; Newton's method and two orders of implicit differentiation give good ones.
+//! With `x = X + u`, `y = Y + v`, and the residuals `R = 3 - Y - a X²`, `T = 3 - X - k Y²`, (x, y) is a root exactly
+//! when (u, v) is a fixed point of
 //!
 //! ```text
 //! u = [(T - k v²) - 2kY (R - a u²)] / D,   v = [(R - a u²) - 2aX (T - k v²)] / D,   D = 1 - 4akXY
 //! ```
 //!
-//! (the two equations are `v + 2aX u = R - a u²` and `u + 2kY v = T - k v²`, solved for the linear part). At each place of the box this is a
-//! continuous map. Where it takes the rectangle `|u| <= e, |v| <= f` into itself, Brouwer's theorem puts a root into the rectangle. The bounds
-//! below are those of the whole box, so there is a root within (e, f) of (X, Y) at every place of it. Which root that is, is left to the caller.
+//! (the two equations are `v + 2aX u = R - a u²` and `u + 2kY v = T - k v²`, solved for the linear part). At each
+//! place of the box this is a continuous map. Where it takes the rectangle `|u| <= e, |v| <= f` into itself,
+//! Brouwer's theorem puts a root into the rectangle. The bounds below are those of the whole box, so there is a root
+//! within (e, f) of (X, Y) at every place of it. Which root that is, is left to the caller.
 //!
-//! **A span.** Where two roots merge inside the box, neither is a form. With `F(x) = 3 - x - k (3 - a x²)²`, and only for y >= 0, F rises with a and falls
-//! with k. So at each root of each datum of the box, `F(x; A, K) >= 0` for A at least every a and K at most every k, where y is cut off at 0. This leaves
-//! `(0, l]` and `[m, r]` when F(·; A, K) is negative between l and m, and beyond r. It is so when F(l) < 0, F(m) < 0, `A l² < 1`, and `A m² <= 1` or
-//! F'(m) > 0: F is convex up to 1/√A; from there to m, F' falls, so it stays positive, and F(m) is the largest value. Beyond r, F falls when
-//! F(r) < 0, `A r² >= 1` and F'(r) < 0. On `(0, l]` every F(·; a, k) is convex and negative at l. So it has just one root there where F(0) > 0, that is k < 1/3,
-//! and none elsewhere. F' < 0 at that root: it is the left one in the sense of the module. With K >= 1/3, l = 0 will do.
+//! **A span.** Where two roots merge inside the box, neither is a form. With `F(x) = 3 - x - k (3 - a x²)²`, and only
+//! for y >= 0, F rises with a and falls with k. So at each root of each datum of the box, `F(x; A, K) >= 0` for A at
+//! least every a and K at most every k, where y is cut off at 0. This leaves `(0, l]` and `[m, r]` when F(·; A, K) is
+//! negative between l and m, and beyond r. It is so when F(l) < 0, F(m) < 0, `A l² < 1`, and `A m² <= 1` or F'(m) >
+//! 0: F is convex up to 1/√A; from there to m, F' falls, so it stays positive, and F(m) is the largest value. Beyond
+//! r, F falls when F(r) < 0, `A r² >= 1` and F'(r) < 0. On `(0, l]` every F(·; a, k) is convex and negative at l. So
+//! it has just one root there where F(0) > 0, that is k < 1/3, and none elsewhere. F' < 0 at that root: it is the
+//! left one in the sense of the module. With K >= 1/3, l = 0 will do.
 
 use super::Four;
 use crate::num::bernstein::Certain;
