@@ -2,7 +2,7 @@
 
 use crate::error::raise;
 use numpy::ndarray::{ArrayView, IxDyn};
-use numpy::{Element, IntoPyArray, PyArray, PyReadonlyArray2};
+use numpy::{AllowTypeChange, Element, IntoPyArray, PyArray, PyArrayLike2};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
@@ -138,13 +138,13 @@ impl Atlas {
     /// The nearest node of each point.
     ///
     /// Args:
-    ///     points: float64 array of shape (n, number of axes), in the order of `axes`.
+    ///     points: numbers of shape (n, number of axes); a float64 array is not copied, in the order of `axes`.
     ///
     /// Returns:
     ///     (nodes, flags, solutions): arrays of shape (n,), of int64, uint8 and uint8. `nodes` has flat indices
     ///     (`numpy.unravel_index` makes indices of each axis of them), and -1 for a point outside the grid by more than
     ///     half a step, whose bytes are 0.
-    fn lookup<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyTuple>> {
+    fn lookup<'py>(&self, py: Python<'py>, points: PyArrayLike2<'py, f64, AllowTypeChange>) -> PyResult<Bound<'py, PyTuple>> {
         let points = points.as_array();
         let axes = self.0.grid().axes().len();
         if points.ncols() != axes {

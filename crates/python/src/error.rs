@@ -33,3 +33,9 @@ pub fn raise(error: Error) -> PyErr {
         _ => PyValueError::new_err(text),
     }
 }
+
+/// [`raise`] for one row of an array.
+pub fn raise_row(py: Python<'_>, row: usize, error: Error) -> PyErr {
+    let raised = raise(error);
+    PyErr::from_type(raised.get_type(py), format!("row {row}: {}", raised.value(py)))
+}

@@ -1,8 +1,8 @@
 //! Families, and the exact answers for one datum or many.
 
-use crate::error::raise;
+use crate::error::{raise, raise_row};
 use numpy::ndarray::ArrayView2;
-use numpy::{IntoPyArray, PyReadonlyArray2};
+use numpy::{AllowTypeChange, IntoPyArray, PyArrayLike2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -160,7 +160,7 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 ///
 /// Args:
 ///     family: its name.
-///     data: float64 array of shape (n, k), a row for each datum, in the order of the chart's axes.
+///     data: numbers of shape (n, k); a float64 array is not copied; a row for each datum, in the order of the chart's axes.
 ///     chart: the name of the chart; by default the first with k axes.
 ///     threads: workers; by default as many as the machine has cores.
 ///
@@ -175,7 +175,7 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 pub fn solve_batch<'py>(
     py: Python<'py>,
     family: &str,
-    data: PyReadonlyArray2<'py, f64>,
+    data: PyArrayLike2<'py, f64, AllowTypeChange>,
     chart: Option<&str>,
     threads: Option<NonZero<usize>>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
@@ -193,10 +193,7 @@ pub fn solve_batch<'py>(
         ))
     })?;
     let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-    let (flags, counts) = py.detach(|| batch(family, chart, data, threads)).map_err(|(row, error)| {
-        let raised = raise(error);
-        PyErr::from_type(raised.get_type(py), format!("row {row}: {}", raised.value(py)))
-    })?;
+    let (flags, counts) = py.detach(|| batch(family, chart, data, threads)).map_err(|(row, error)| raise_row(py, row, error))?;
     Ok((flags.into_pyarray(py).into_any(), counts.into_pyarray(py).into_any()))
 }
 

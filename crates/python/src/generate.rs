@@ -1,16 +1,17 @@
 //! Atlases from recipes.
 
 use crate::atlas::Atlas;
+use crate::cells::Cells;
 use crate::error::raise;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use spiral_atlas::Result;
 use spiral_atlas::atlas::{Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, evaluate};
 use spiral_atlas::recipe::{AtlasPlan, Recipe};
+use spiral_atlas::{Result, cells};
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, PoisonError};
@@ -19,18 +20,27 @@ use std::time::Duration;
 /// How often Ctrl-C is looked for.
 const TICK: Duration = Duration::from_millis(50);
 
+/// What a recipe's plan makes.
+#[derive(IntoPyObject)]
+pub enum Made {
+    Nodes(Atlas),
+    Cells(Cells),
+}
+
 /// Makes the atlases of a recipe.
 ///
 /// Args:
 ///     recipe: a dictionary, or the path of a TOML file.
 ///     folder: where NAME.atlas.safetensors goes for each atlas of the recipe; created when missing. Without it the
-///         atlases are arrays alone: their files are hidden among the system's temporary files, and go with the `Atlas`
+///         atlases are arrays alone: their files are hidden among the system's temporary files, and go with the
 ///         objects.
 ///     threads: workers; by default as many as the machine has cores.
-///     progress: called with (name, nodes done, nodes in all) from time to time.
+///     progress: called with (name, done, in all) from time to time: nodes of an atlas; of cells those divided so far,
+///         with None because their number is not known before.
 ///
 /// Returns:
-///     A list of `Atlas`, in the recipe's order. For a TOML file the bytes are those that the command `generate` writes.
+///     A list of `Atlas` and, for atlases of the kind "cells", `Cells`, in the recipe's order. For a TOML file the bytes
+///     are those that the command `generate` writes.
 ///
 /// Raises:
 ///     ValueError: the recipe is wrong, or a grid leaves its family's domain.
@@ -44,25 +54,69 @@ pub fn generate(
     folder: Option<PathBuf>,
     threads: Option<NonZero<usize>>,
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<Vec<Atlas>> {
+) -> PyResult<Vec<Made>> {
     let recipe = read(recipe)?;
     let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
     if let Some(folder) = &folder {
         std::fs::create_dir_all(folder)?;
     }
-    let mut all = Vec::with_capacity(recipe.atlases.len());
-    for plan in &recipe.atlases {
-        let place = folder.clone().unwrap_or_else(std::env::temp_dir);
-        let path = place.join(format!("{}.atlas.safetensors", plan.name));
-        let writer = watched(py, &recipe, plan, &path, threads, progress.as_ref())?;
-        let kept = folder.is_some();
-        let atlas = py.detach(|| match kept {
-            true => writer.finish().and_then(|_| spiral_atlas::atlas::Atlas::open(&path)),
-            false => writer.open(),
-        });
-        all.push(Atlas(atlas.map_err(raise)?));
+    let make = |plan: &AtlasPlan| {
+        let job = Work { recipe: &recipe, plan, folder: folder.as_ref(), threads };
+        let report = |done: u64| match &progress {
+            Some(progress) => progress.call1((&plan.name, done, plan.cells.is_none().then(|| plan.grid.len()))).map(drop),
+            None => Ok(()),
+        };
+        Ok(match plan.cells {
+            Some(budget) => Made::Cells(Cells(watched(py, report, |stop, done| job.cells(budget, stop, done))?)),
+            None => Made::Nodes(Atlas(watched(py, report, |stop, done| job.nodes(stop, done))?)),
+        })
+    };
+    recipe.atlases.iter().map(make).collect()
+}
+
+/// One atlas that is to be made.
+struct Work<'a> {
+    recipe: &'a Recipe,
+    plan: &'a AtlasPlan,
+    folder: Option<&'a PathBuf>,
+    threads: usize,
+}
+
+impl Work<'_> {
+    fn path(&self) -> PathBuf {
+        let name = format!("{}.atlas.safetensors", self.plan.name);
+        self.folder.map_or_else(std::env::temp_dir, PathBuf::clone).join(name)
     }
-    Ok(all)
+
+    fn nodes(&self, stop: &AtomicBool, done: &Sender<u64>) -> Result<spiral_atlas::atlas::Atlas> {
+        let AtlasPlan { name, family, grid, scalars, .. } = self.plan;
+        let (family, path) = (*family, self.path());
+        let spec = Spec { name, family, grid, scalars, recipe: &self.recipe.text };
+        let mut writer = Writer::create(&path, &spec)?;
+        evaluate(&Job { family, grid, scalars }, &Backend::Cpu, self.threads, stop, |chunk| {
+            writer.put(&chunk)?;
+            // Who does not listen any more has set `stop`.
+            let _ = done.send(chunk.start + chunk.len() as u64);
+            Ok(())
+        })?;
+        match self.folder {
+            Some(_) => writer.finish().and_then(|_| spiral_atlas::atlas::Atlas::open(&path)),
+            None => writer.open(),
+        }
+    }
+
+    fn cells(&self, budget: u64, stop: &AtomicBool, done: &Sender<u64>) -> Result<cells::Cells> {
+        let AtlasPlan { name, family, grid, .. } = self.plan;
+        let spec = cells::Spec { name, family: *family, grid, budget, recipe: &self.recipe.text };
+        let built = cells::build(&spec, self.threads, stop, &|divided| {
+            let _ = done.send(divided);
+        })?;
+        if self.folder.is_none() {
+            return cells::Cells::from_bytes(&cells::bytes(&spec, &built)?);
+        }
+        cells::write(&self.path(), &spec, &built)?;
+        cells::Cells::open(self.path())
+    }
 }
 
 fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
@@ -76,15 +130,12 @@ fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
     Recipe::read(path).map_err(raise)
 }
 
-/// Evaluates in another thread, so that this one hears Ctrl-C and reports the progress.
-fn watched(
+/// Works in another thread, so that this one hears Ctrl-C and reports the progress.
+fn watched<T: Send>(
     py: Python<'_>,
-    recipe: &Recipe,
-    plan: &AtlasPlan,
-    path: &Path,
-    threads: usize,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Writer> {
+    report: impl Fn(u64) -> PyResult<()>,
+    work: impl FnOnce(&AtomicBool, &Sender<u64>) -> Result<T> + Send,
+) -> PyResult<T> {
     let stop = AtomicBool::new(false);
     let (sender, receiver) = channel();
     // Only this thread receives; the lock tells the compiler so.
@@ -93,11 +144,7 @@ fn watched(
     let watch = || -> PyResult<()> {
         loop {
             match py.detach(receive) {
-                Ok(done) => {
-                    if let Some(progress) = progress {
-                        progress.call1((&plan.name, done, plan.grid.len()))?;
-                    }
-                }
+                Ok(done) => report(done)?,
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return Ok(()),
             }
@@ -105,26 +152,14 @@ fn watched(
         }
     };
     std::thread::scope(|scope| {
-        let worker = scope.spawn(|| write(recipe, plan, path, threads, &stop, sender));
+        let stop = &stop;
+        let worker = scope.spawn(move || work(stop, &sender));
         let heard = watch();
         if heard.is_err() {
             stop.store(true, Ordering::Relaxed);
         }
-        let written = py.detach(|| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        let made = py.detach(|| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         heard?;
-        written.map_err(raise)
+        made.map_err(raise)
     })
-}
-
-fn write(recipe: &Recipe, plan: &AtlasPlan, path: &Path, threads: usize, stop: &AtomicBool, done: Sender<u64>) -> Result<Writer> {
-    let job = Job { family: plan.family, grid: &plan.grid, scalars: &plan.scalars };
-    let spec = Spec { name: &plan.name, family: plan.family, grid: &plan.grid, scalars: &plan.scalars, recipe: &recipe.text };
-    let mut writer = Writer::create(path, &spec)?;
-    evaluate(&job, &Backend::Cpu, threads, stop, |chunk| {
-        writer.put(&chunk)?;
-        // Who does not listen any more has set `stop`.
-        let _ = done.send(chunk.start + chunk.len() as u64);
-        Ok(())
-    })?;
-    Ok(writer)
 }

@@ -13,6 +13,7 @@ from ._core import (
     NO_VALUE,
     Atlas,
     AtlasError,
+    Cells,
     Curve,
     Fit,
     NoPathError,
@@ -22,6 +23,7 @@ from ._core import (
     fit,
     generate,
     open,
+    open_cells,
     solve,
     solve_batch,
 )
@@ -30,6 +32,7 @@ __all__ = [
     "NO_VALUE",
     "Atlas",
     "AtlasError",
+    "Cells",
     "Curve",
     "Fit",
     "NoPathError",
@@ -39,6 +42,7 @@ __all__ = [
     "fit",
     "generate",
     "open",
+    "open_cells",
     "solve",
     "solve_batch",
 ]

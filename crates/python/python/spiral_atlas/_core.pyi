@@ -2,11 +2,31 @@
 
 from collections.abc import Callable, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Literal, final
 
 import numpy as np
 import xarray
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "NO_VALUE",
+    "Atlas",
+    "AtlasError",
+    "Cells",
+    "Curve",
+    "Fit",
+    "NoPathError",
+    "UndecidedError",
+    "__version__",
+    "families",
+    "fit",
+    "generate",
+    "open",
+    "open_cells",
+    "solve",
+    "solve_batch",
+]
 
 NO_VALUE: float
 __version__: str
@@ -21,7 +41,7 @@ class NoPathError(Exception): ...
 @final
 class Atlas:
     @property
-    def path(self) -> Any: ...
+    def path(self) -> Path: ...
     @property
     def family(self) -> str: ...
     @property
@@ -48,10 +68,26 @@ class Atlas:
     def solutions(self) -> NDArray[np.uint8]: ...
     def scalar(self, name: str) -> NDArray[np.float32]: ...
     def lookup(
-        self, points: NDArray[np.float64]
+        self, points: ArrayLike
     ) -> tuple[NDArray[np.int64], NDArray[np.uint8], NDArray[np.uint8]]: ...
     def check(self) -> None: ...
     def to_xarray(self) -> xarray.Dataset: ...
+
+@final
+class Cells:
+    @property
+    def path(self) -> Path: ...
+    @property
+    def family(self) -> str: ...
+    @property
+    def bounds(self) -> dict[str, tuple[float, float]]: ...
+    @property
+    def resolution(self) -> int: ...
+    @property
+    def flag_docs(self) -> dict[str, str]: ...
+    def lookup(self, points: ArrayLike) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]: ...
+    def verdict(self, points: ArrayLike, flags: int = 255) -> NDArray[np.uint8]: ...
+    def check(self) -> None: ...
 
 @final
 class Curve:
@@ -91,7 +127,7 @@ class Fit:
 def families() -> list[dict[str, Any]]: ...
 def solve(family: str, **coordinates: float | str) -> dict[str, Any]: ...
 def solve_batch(
-    family: str, data: NDArray[np.float64], *, chart: str | None = None, threads: int | None = None
+    family: str, data: ArrayLike, *, chart: str | None = None, threads: int | None = None
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]: ...
 def fit(
     start: _Point,
@@ -105,10 +141,11 @@ def fit(
     longest: float | None = None,
 ) -> Fit: ...
 def open(path: str | PathLike[str]) -> Atlas: ...
+def open_cells(path: str | PathLike[str]) -> Cells: ...
 def generate(
     recipe: dict[str, Any] | str | PathLike[str],
     folder: str | PathLike[str] | None = None,
     *,
     threads: int | None = None,
-    progress: Callable[[str, int, int], object] | None = None,
-) -> list[Atlas]: ...
+    progress: Callable[[str, int, int | None], object] | None = None,
+) -> list[Atlas | Cells]: ...
