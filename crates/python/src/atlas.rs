@@ -158,9 +158,8 @@ impl Atlas {
         }
         let points = points.as_standard_layout();
         let (nodes, flags, solutions) = py.detach(|| {
-            let rows = points.nrows();
-            let (mut nodes, mut flags, mut solutions) =
-                (Vec::with_capacity(rows), Vec::with_capacity(rows), Vec::with_capacity(rows));
+            let n = points.nrows();
+            let (mut nodes, mut flags, mut solutions) = (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
             for point in rows(&points, axes) {
                 let (node, flag, count) = match self.0.nearest(point) {
                     Some((node, entry)) => (node as i64, entry.flags, entry.solutions),
