@@ -6,7 +6,7 @@ export NODEVICE_SELECT := "1"
 swiftshader := env("XDG_CACHE_HOME", env("HOME", "") / ".cache") / "spiral-atlas/swiftshader/icd.json"
 
 # Every check and test, as continuous integration runs them
-ci: setup lint test examples python capi fuzz swiftshader
+ci: setup lint test examples python capi opendrive fuzz swiftshader
 
 # Installs what the tests need
 setup:
@@ -35,6 +35,10 @@ python:
 # The C library: installed beside itself, tested with two compilers and sanitizers
 capi:
     tests/capi
+
+# Roads, judged by the ASAM quality checker and SUMO
+opendrive:
+    tests/opendrive
 
 # The coverage-guided fuzzers of the readers, for some seconds each
 fuzz seconds="15":
