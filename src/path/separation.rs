@@ -6,15 +6,16 @@
 //! second bound needs far fewer stretches than the first.
 
 use super::queue::Queue;
-use super::{ROUNDINGS, check_joined, complex, distance, finite, mismatch};
-use crate::curve::PhQuintic;
+use super::way::{Reached, Way};
+use super::{Course, ROUNDINGS, distance, finite};
 use crate::error::{Error, Result};
+use crate::transition::Piece;
 
 /// Stretches at most.
 const STRETCHES: usize = 400_000;
 /// Stretches at first.
 const FIRST: usize = 64;
-/// Directions that differ by no more where spans join are a matter of rounding.
+/// Directions that differ by no more where pieces join are a matter of rounding.
 const SMOOTH: f64 = 1e-6;
 /// The least separation is enclosed to this share of the greatest length and coordinate, or as rounding allows.
 const TOLERANCE: f64 = 1e-10;
@@ -22,27 +23,22 @@ const TOLERANCE: f64 = 1e-10;
 /// A vehicle on its way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    spans: Vec<PhQuintic>,
-    /// Lengths up to the start of each span, and of all.
+    course: Course,
+    ways: Vec<Way>,
+    /// Lengths up to the start of each piece, and of all.
     lengths: Vec<f64>,
     speed: f64,
     start_time: f64,
     /// Bound of its acceleration.
     acceleration: f64,
-    /// Bound of what its direction changes by where spans join, all together.
+    /// Bound of what its direction changes by where pieces join, all together, and of the errors of directions.
     kinks: f64,
     /// Its length or its largest coordinate.
     extent: f64,
     /// Bound of its coordinates, lengths and legs.
     size: f64,
-    /// How far the end of a span is from where its pre-image leads.
+    /// Bound of what points, lengths and the gaps between pieces are off by.
     mismatch: f64,
-}
-
-/// The difference of the directions that two values of w give, the squares of their unit vectors.
-fn kink(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (a, b) = (complex(a), complex(b));
-    2.0 * ((a.conj() * b).im / a.norm() / b.norm()).abs() + ROUNDINGS
 }
 
 /// Where a vehicle is: point, velocity, bounds of their errors, and of speed and acceleration from standing or moving as then.
@@ -56,42 +52,49 @@ struct State {
 }
 
 impl Motion {
-    /// Along spans that join exactly, at a constant speed, from a time on.
+    /// Along pieces that join, at a constant speed, from a time on.
     ///
     /// # Errors
-    /// [`Error::Domain`] without a span, for a gap between spans, a path of no length, a speed not above 0, or a number not finite.
-    pub fn new(spans: Vec<PhQuintic>, speed: f64, start_time: f64) -> Result<Motion> {
+    /// [`Error::Domain`] without a piece, for an involute, for pieces that [`Course::new`] refuses, a path of no length, a speed not above 0, or
+    /// a number not finite.
+    pub fn new<P: Into<Piece>>(pieces: impl IntoIterator<Item = P>, speed: f64, start_time: f64) -> Result<Motion> {
         let fail = |what: String| Err(Error::Domain(format!("motion: {what}")));
         finite("motion", "speed", &[speed])?;
         finite("motion", "start_time", &[start_time])?;
         if speed <= 0.0 {
             return fail(format!("`speed` is {speed:?}; it must be above 0"));
         }
-        check_joined("motion", &spans)?;
+        let course = Course::new(pieces.into_iter().map(Into::into).collect())?;
+        let way = |(i, piece)| Way::new(piece).map_err(|e| Error::Domain(format!("pieces[{i}] {e}")));
+        let ways = course.pieces().iter().enumerate().map(way).collect::<Result<Vec<Way>>>()?;
         let mut lengths = vec![0.0];
-        for span in &spans {
-            lengths.push(lengths[lengths.len() - 1] + span.length());
+        for way in &ways {
+            lengths.push(lengths[lengths.len() - 1] + way.length);
         }
         let length = lengths[lengths.len() - 1];
         if !(length > 0.0 && length.is_finite()) {
             return fail(format!("its path is {length:?} long; it must have a length"));
         }
-        let kinks: f64 = spans.windows(2).map(|w| kink(w[0].preimage[2], w[1].preimage[0])).sum();
+        let most = |of: fn(&Way) -> f64| ways.iter().map(of).fold(0.0, f64::max);
+        let direction_off = most(|way| way.direction_off);
+        // The difference of unit tangents.
+        let kink = |w: &[Way]| distance(w[0].after(w[0].length).tangent, w[1].after(0.0).tangent) + ROUNDINGS;
+        let kinks = ways.windows(2).map(kink).sum::<f64>();
         // A corner has no curvature; the bound by speeds alone still holds there.
         let smooth = kinks <= SMOOTH;
-        let curvature = spans.iter().map(|s| s.curvature_bound(5)).fold(0.0, f64::max);
-        let acceleration = if smooth { speed * speed * curvature } else { f64::INFINITY };
-        let far = spans.iter().flat_map(|s| s.control_points()).flatten().fold(0.0f64, |far, x| far.max(x.abs()));
-        // Coefficients of lengths are at most the sum of |w|², and so are legs.
-        let sizes = |s: &PhQuintic| s.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
-        let size = far + length + spans.iter().map(sizes).fold(0.0, f64::max);
-        let mismatch = spans.iter().map(mismatch).fold(0.0, f64::max);
-        Ok(Motion { spans, lengths, speed, start_time, acceleration, kinks, extent: far.max(length), size, mismatch })
+        let acceleration = if smooth { speed * speed * most(|way| way.curvature) } else { f64::INFINITY };
+        let far = most(|way| way.sizes[0]);
+        let gaps: f64 = course.pieces().windows(2).map(|w| distance(w[0].end(), w[1].start())).sum();
+        let mismatch = most(|way| way.mismatch) + gaps + ways.iter().map(|way| way.length_off).sum::<f64>();
+        // Each kink lies between two directions.
+        let kinks = kinks + 2.0 * ways.len() as f64 * direction_off;
+        let size = far + length + most(|way| way.sizes[1]);
+        Ok(Motion { course, ways, lengths, speed, start_time, acceleration, kinks, extent: far.max(length), size, mismatch })
     }
 
     /// Length of the path.
     pub fn length(&self) -> f64 {
-        self.lengths[self.spans.len()]
+        self.lengths[self.ways.len()]
     }
 
     /// When it starts and arrives.
@@ -100,8 +103,8 @@ impl Motion {
     }
 
     /// Its path.
-    pub fn spans(&self) -> &[PhQuintic] {
-        &self.spans
+    pub fn course(&self) -> &Course {
+        &self.course
     }
 
     /// Where it is at a time: at the start before it starts, at the end once it has arrived.
@@ -113,23 +116,20 @@ impl Motion {
         let [start, end] = self.times();
         let under_way = time.clamp(start, end);
         let travelled = (self.speed * (time - self.start_time)).clamp(0.0, self.length());
-        let i = self.lengths.partition_point(|s| *s <= travelled).clamp(1, self.spans.len()) - 1;
-        let (span, local) = (&self.spans[i], travelled - self.lengths[i]);
-        let t = span.parameter_at(local);
-        // Along the path by what the parameter misses, and the roundings of lengths, times and points. Spans are summed up one by one.
-        let missed = (span.length_to(t) - local.min(span.length())).abs();
+        let i = self.lengths.partition_point(|s| *s <= travelled).clamp(1, self.ways.len()) - 1;
+        let Reached { point, tangent, missed } = self.ways[i].after(travelled - self.lengths[i]);
+        // Along the path by what the length misses, and the roundings of lengths, times and points. Pieces are summed up one by one.
         let off = missed
             + self.mismatch
             + ROUNDINGS * self.size
             + f64::EPSILON
-                * (self.spans.len() as f64 * self.length() + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
+                * (self.ways.len() as f64 * self.length() + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
         if time <= start || time >= end {
-            return State { point: span.point(t), velocity: [0.0; 2], off, velocity_off: 0.0, speed: 0.0, acceleration: 0.0 };
+            return State { point, velocity: [0.0; 2], off, velocity_off: 0.0, speed: 0.0, acceleration: 0.0 };
         }
-        let tangent = span.tangent(t);
         let tangent = if tangent[0].is_finite() && tangent[1].is_finite() { tangent } else { [1.0, 0.0] };
         State {
-            point: span.point(t),
+            point,
             velocity: tangent.map(|x| x * self.speed),
             off,
             velocity_off: self.acceleration / self.speed * off + (self.kinks + ROUNDINGS) * self.speed,
