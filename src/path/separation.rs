@@ -13,6 +13,8 @@ use crate::transition::Piece;
 
 /// Stretches at most.
 const STRETCHES: usize = 400_000;
+/// Times, and lengths covered in them, are at most this.
+const LARGEST: f64 = 1e140;
 /// Stretches at first.
 const FIRST: usize = 64;
 /// Directions that differ by no more where pieces join are a matter of rounding.
@@ -29,8 +31,8 @@ pub struct Motion {
     lengths: Vec<f64>,
     speed: f64,
     start_time: f64,
-    /// Bound of its acceleration.
-    acceleration: f64,
+    /// Bound of its curvature; infinite for a path with corners.
+    curvature: f64,
     /// Bound of what its direction changes by where pieces join, all together, and of the errors of directions.
     kinks: f64,
     /// Its length or its largest coordinate.
@@ -41,14 +43,14 @@ pub struct Motion {
     mismatch: f64,
 }
 
-/// Where a vehicle is: point, velocity, bounds of their errors, and of speed and acceleration from standing or moving as then.
+/// Where a vehicle is: point, direction, bounds of their errors, and speed and curvature from standing or moving as then.
 struct State {
     point: [f64; 2],
-    velocity: [f64; 2],
+    tangent: [f64; 2],
     off: f64,
-    velocity_off: f64,
+    tangent_off: f64,
     speed: f64,
-    acceleration: f64,
+    curvature: f64,
 }
 
 impl Motion {
@@ -82,14 +84,27 @@ impl Motion {
         let kinks = ways.windows(2).map(kink).sum::<f64>();
         // A corner has no curvature; the bound by speeds alone still holds there.
         let smooth = kinks <= SMOOTH;
-        let acceleration = if smooth { speed * speed * most(|way| way.curvature) } else { f64::INFINITY };
+        let curvature = if smooth { most(|way| way.curvature) } else { f64::INFINITY };
         let far = most(|way| way.sizes[0]);
         let gaps: f64 = course.pieces().windows(2).map(|w| distance(w[0].end(), w[1].start())).sum();
-        let mismatch = most(|way| way.mismatch) + gaps + ways.iter().map(|way| way.length_off).sum::<f64>();
+        // Points may jump where pieces join, and once more within a piece.
+        let mismatch = gaps + ways.iter().map(|way| 2.0 * way.mismatch + way.length_off).sum::<f64>();
         // Each kink lies between two directions.
         let kinks = kinks + 2.0 * ways.len() as f64 * direction_off;
         let size = far + length + most(|way| way.sizes[1]);
-        Ok(Motion { course, ways, lengths, speed, start_time, acceleration, kinks, extent: far.max(length), size, mismatch })
+        let extent = far.max(length);
+        let motion = Motion { course, ways, lengths, speed, start_time, curvature, kinks, extent, size, mismatch };
+        let [start, end] = motion.times();
+        let told = speed * (start.abs() + end.abs());
+        // Written so that NaN is refused.
+        let fits = start < end && start.abs().max(end.abs()).max(told) <= LARGEST;
+        if !fits {
+            return fail(format!(
+                "its path of length {length:?} takes from time {start:?} to {end:?} at the `speed` {speed:?}; these must differ, and be at most \
+                 {LARGEST:e}, as must be what it would cover in them: change the unit of time"
+            ));
+        }
+        Ok(motion)
     }
 
     /// Length of the path.
@@ -125,16 +140,16 @@ impl Motion {
             + f64::EPSILON
                 * (self.ways.len() as f64 * self.length() + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
         if time <= start || time >= end {
-            return State { point, velocity: [0.0; 2], off, velocity_off: 0.0, speed: 0.0, acceleration: 0.0 };
+            return State { point, tangent: [0.0; 2], off, tangent_off: 0.0, speed: 0.0, curvature: 0.0 };
         }
         let tangent = if tangent[0].is_finite() && tangent[1].is_finite() { tangent } else { [1.0, 0.0] };
         State {
             point,
-            velocity: tangent.map(|x| x * self.speed),
+            tangent,
             off,
-            velocity_off: self.acceleration / self.speed * off + (self.kinks + ROUNDINGS) * self.speed,
+            tangent_off: self.curvature * off + self.kinks + ROUNDINGS,
             speed: self.speed,
-            acceleration: self.acceleration,
+            curvature: self.curvature,
         }
     }
 }
@@ -258,19 +273,26 @@ impl Search<'_> {
         let [a, b] = self.look(middle);
         let off = a.off + b.off;
         let r = [a.point[0] - b.point[0], a.point[1] - b.point[1]];
-        let v = [a.velocity[0] - b.velocity[0], a.velocity[1] - b.velocity[1]];
-        let by_speed = distance(a.point, b.point) - (a.speed + b.speed) * half;
-        let bend = 0.5 * (a.acceleration + b.acceleration) * half * half;
-        let by_curvature = nearest(r, v, half) - bend - (a.velocity_off + b.velocity_off) * half;
+        // What they cover until the end of the stretch.
+        let (along_a, along_b) = (a.speed * half, b.speed * half);
+        let v = [0, 1].map(|i| a.tangent[i] * along_a - b.tangent[i] * along_b);
+        let by_speed = r[0].hypot(r[1]) - (along_a + along_b);
+        // No squares of a speed or a time: they may leave the range of doubles.
+        let bend = |s: &State, along: f64| (0.5 * (s.curvature * along) + s.tangent_off) * along;
+        let by_curvature = nearest(r, v) - bend(&a, along_a) - bend(&b, along_b);
         let bound = if by_curvature > by_speed { by_curvature } else { by_speed };
         // Distances and bounds themselves round, by less than the roundings in `off`.
         self.waiting.push((bound - 2.0 * off).max(0.0), [from, to]);
     }
 }
 
-/// The least `|r + vτ|` for `|τ| <= half`.
-fn nearest(r: [f64; 2], v: [f64; 2], half: f64) -> f64 {
-    let square = v[0] * v[0] + v[1] * v[1];
-    let tau = if square > 0.0 { (-(r[0] * v[0] + r[1] * v[1]) / square).clamp(-half, half) } else { 0.0 };
-    (r[0] + v[0] * tau).hypot(r[1] + v[1] * tau)
+/// The least `|r + vτ|` for `|τ| <= 1`.
+fn nearest(r: [f64; 2], v: [f64; 2]) -> f64 {
+    let far = v[0].hypot(v[1]);
+    if far == 0.0 {
+        return r[0].hypot(r[1]);
+    }
+    let unit = v.map(|x| x / far);
+    let along = (-(r[0] * unit[0] + r[1] * unit[1])).clamp(-far, far);
+    (r[0] + unit[0] * along).hypot(r[1] + unit[1] * along)
 }

@@ -1,11 +1,18 @@
 //! Where a vehicle is on a piece of its path once it has covered a length, with bounds of the errors.
 //!
 //! Quintics with a Pythagorean hodograph, lines and arcs have formulas. The length of a cubic or a trigonometric quintic is integrated by the
-//! 16-point Gauss-Legendre rule on cells where its error is proved. Let `r'` differ by a quarter at most from its value at the middle of a
-//! cell of half-width h, in the complex disc of radius `17/8 h`. Then neither of the factors `x' ± iy'` of `|r'|²` has a root there, so the
-//! speed is analytic in the ellipse of the foci -h, h and the sum 4h of its half-axes, and at most 5/4 of that in the middle. The rule then
-//! errs by less than `h 64/15 5/4 |r'| 4^-32 / (1 - 1/16)`, 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3.
-//! A point is off by no more than its length is.
+//! 16-point Gauss-Legendre rule on cells where its error is proved. Let `x' ± iy'` differ by at most a quarter of `|r'|` from their values at
+//! the middle of a cell of half-width h, in the complex disc of radius `17/8 h`. They are the factors of `|r'|²` and have no root there. So the
+//! speed is analytic in the ellipse of the foci -h, h and the sum 4h of its half-axes, which lies in the disc, and at most 5/4 of that in the
+//! middle. The rule then errs by less than `h 64/15 5/4 |r'| 4^-32 / (1 - 1/16)`, and the cell is at least `2h 3/4 |r'|` long. So the error is
+//! below 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3. The same holds for a part of a cell, whose disc lies in
+//! that of the cell.
+//!
+//! Roundings: r' has at most 30 of them (of 2^-53, in units of the bound [`Bezier::size`]) for a cubic and 60 for a trigonometric quintic, whose
+//! basis is a product of up to six factors. A parameter is rounded twice, and r'' is below 8 of those units. The weighted sum of 16 values has
+//! 20. These are 96 at most, less than the 128 of [`ROUNDINGS`].
+//!
+//! A point is off by no more than its length is, since a chord is no longer than its arc.
 
 use super::{ROUNDINGS, distance, mismatch};
 use crate::curve::vector::{cross, length, sub};
@@ -23,6 +30,8 @@ const SMALLEST: f64 = 1e-18;
 const BLUR: f64 = 1e-10;
 /// Steps of Newton's method; what they miss is told.
 const NEWTON: usize = 3;
+/// Lengths and coordinates in which neither squares nor the tiny shares above leave the range of doubles.
+const RANGE: [f64; 2] = [1e-140, 1e140];
 
 /// A piece, and what is proved of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +41,7 @@ pub(super) struct Way {
     pub length: f64,
     /// By how much that, and any length along it, may be wrong.
     pub length_off: f64,
-    /// By how much its points may be wrong where lengths are right.
+    /// By how much its points may be wrong where lengths are right, and jump.
     pub mismatch: f64,
     /// By how much unit tangents may be wrong.
     pub direction_off: f64,
@@ -78,32 +87,49 @@ pub(super) struct Reached {
 
 impl Way {
     /// # Errors
-    /// [`Error::Domain`] for an involute, whose points have no proved error.
+    /// [`Error::Domain`] for an involute, whose points have no proved error, and for lengths and coordinates beyond [`RANGE`], or not finite.
     pub fn new(piece: &Piece) -> Result<Way> {
-        match piece {
-            Piece::PhQuintic(curve) => Ok(Way::quintic(*curve)),
-            Piece::Line(line) => Ok(Way::quintic(PhQuintic::straight(line.start, line.end))),
-            Piece::Arc(arc) => Ok(Way::arc(arc)),
-            Piece::Cubic(cubic) => Ok(Way::integrated(Bezier::Cubic(*cubic))),
-            Piece::TrigQuintic(part) => Ok(Way::integrated(Bezier::Trig(*part))),
-            Piece::Involute(_) => Err(Error::Domain(format!(
-                "is of the kind `{}`, whose points have no proved error; separation takes all other kinds. Take points of the path with \
-                 `path measure --samples`, and lay a path through them with `path spline`",
-                piece.kind().name()
-            ))),
+        let way = match piece {
+            Piece::PhQuintic(curve) => Way::quintic(*curve),
+            Piece::Line(line) => Way::quintic(PhQuintic::straight(line.start, line.end)),
+            Piece::Arc(arc) => Way::arc(arc),
+            Piece::Cubic(cubic) => Way::integrated(Bezier::Cubic(*cubic)),
+            Piece::TrigQuintic(part) => Way::integrated(Bezier::Trig(*part)),
+            Piece::Involute(_) => {
+                return Err(Error::Domain(format!(
+                    "is of the kind `{}`, whose points have no proved error; separation takes all other kinds. Take points of the path \
+                     with `path measure --samples`, and lay a path through them with `path spline`",
+                    piece.kind().name()
+                )));
+            }
+        };
+        let [shortest, most] = RANGE;
+        let size = way.sizes[0].max(way.sizes[1]);
+        if way.length >= shortest && size <= most && way.mismatch.is_finite() {
+            return Ok(way);
         }
+        Err(Error::Domain(format!(
+            "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers up to {most:e}: leave \
+             out a piece of no length, or change the unit of length",
+            piece.length()
+        )))
     }
 
     fn quintic(curve: PhQuintic) -> Way {
         let far = largest(&curve.control_points());
         // Coefficients of lengths are at most the sum of |w|², and so are legs.
         let legs = curve.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
+        // The direction is that of w², and w is off by a few roundings of its largest coefficient. Its least square is no less than the least
+        // coefficient of the speed. Where that says nothing, the curvature is infinite or the speed 1e-6 of its largest coefficient, which is
+        // above 1/27 of the legs: coefficients of a quadratic are at most three times its greatest value.
+        let least = curve.speed_coefficients().iter().fold(f64::INFINITY, |least, s| s.min(least));
+        let steep = if least > 0.0 { (legs / least).sqrt().min(6e3) } else { 6e3 };
         Way {
             curve: Curve::Quintic(curve),
             length: curve.length(),
             length_off: 0.0,
             mismatch: mismatch(&curve),
-            direction_off: 0.0,
+            direction_off: ROUNDINGS * steep,
             curvature: curve.curvature_bound(5),
             sizes: [far, legs],
         }
@@ -126,13 +152,15 @@ impl Way {
     fn integrated(curve: Bezier) -> Way {
         let (size, mismatch) = (curve.size(), curve.mismatch());
         let [start, end] = curve.range();
-        let (mut cells, mut waiting) = (vec![], vec![[start, end]]);
+        // What is too large to be cut is as long as nothing, and refused.
+        let (mut cells, mut waiting) = (vec![], if size <= RANGE[1] { vec![[start, end]] } else { vec![] });
         let (mut before, mut blind_length) = (0.0, 0.0);
         let (mut direction_off, mut curvature): (f64, f64) = (0.0, 0.0);
         while let Some([from, to]) = waiting.pop() {
             step();
             let middle = 0.5 * (from + to);
-            let known = curve.around(middle, 0.5 * (to - from) * (1.0 + 1e-9));
+            // The middle is rounded.
+            let known = curve.around(middle, 0.5 * (to - from) + f64::EPSILON * to);
             let longest = (to - from) * known.fastest;
             let small = to - from <= SMALLEST * (end - start) || middle <= from || middle >= to;
             let blind = small || longest <= 0.01 * f64::EPSILON * size;
@@ -242,13 +270,13 @@ impl Bezier {
         }
     }
 
-    /// How far the curve of the legs is from that of the control points.
+    /// How far the curve of the legs is from points that are computed: those of the control points, or roundings of a sum of sides.
     fn mismatch(&self) -> f64 {
         match self {
             Bezier::Cubic(Cubic { points, legs }) => {
                 legs.iter().zip(points.p.windows(2)).map(|(leg, w)| distance(*leg, sub(w[1], w[0]))).sum()
             }
-            Bezier::Trig(_) => 0.0,
+            Bezier::Trig(_) => ROUNDINGS * self.size(),
         }
     }
 
@@ -291,6 +319,7 @@ impl Bezier {
     }
 }
 
+/// Infinite where a number is not finite.
 fn largest(points: &[[f64; 2]]) -> f64 {
-    points.iter().flatten().fold(0.0f64, |far, x| far.max(x.abs()))
+    points.iter().flatten().fold(0.0, |far, x| if x.is_finite() { x.abs().max(far) } else { f64::INFINITY })
 }

@@ -6,6 +6,7 @@ mod course;
 mod curve;
 mod equal;
 mod hermite;
+mod kinds;
 mod least_curvature;
 mod piece;
 mod plan;
