@@ -170,6 +170,12 @@ impl From<PhQuintic> for Piece {
     }
 }
 
+impl From<Line> for Piece {
+    fn from(line: Line) -> Piece {
+        Piece::Line(line)
+    }
+}
+
 impl Arc {
     /// The vector from the start after a length, and the direction there: by the chord, which needs no centre.
     fn after(&self, s: f64) -> (Vector, f64) {

@@ -16,6 +16,24 @@ fn trig(points: [[f64; 2]; 6], [p, q]: [f64; 2], [from, to]: [f64; 2]) -> Piece 
     Piece::TrigQuintic(TrigPart { curve: TrigBezier::new(points, p, q).unwrap(), from, to })
 }
 
+/// One of each kind of which separation is proved, in a unit.
+pub fn each(unit: f64) -> Vec<Piece> {
+    let all = |points: [[f64; 2]; 6]| points.map(|p| p.map(|x| unit * x));
+    let [a, b, c, d, ..] = all([[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [3.0, 1.0], [0.0; 2], [0.0; 2]]);
+    let six = all([[0.0, 0.0], [0.2, 0.0], [0.5, 0.1], [0.9, 0.2], [1.3, 0.6], [1.4, 1.1]]);
+    // Past the checks of its making, which refuse numbers that are none.
+    let curve =
+        TrigBezier { start: six[0], sides: std::array::from_fn(|i| [0, 1].map(|k| six[i + 1][k] - six[i][k])), p: 0.5, q: -0.5 };
+    let root = unit.sqrt();
+    vec![
+        cubic([a, b, c, d]),
+        Piece::TrigQuintic(TrigPart { curve, from: 0.0, to: 1.0 }),
+        Piece::Arc(Arc { start: a, start_direction: 0.2, curvature: 1.0 / unit, length: 2.0 * unit }),
+        Piece::Line(Line { start: a, end: d }),
+        PhQuintic::new(a, [[1.0, 0.0], [1.0, 0.5], [0.5, 1.0]].map(|w| w.map(|x| root * x))).into(),
+    ]
+}
+
 /// Points by other formulas than those of the library: Bernstein polynomials, basis functions and the centre of the circle.
 fn points(piece: &Piece) -> Vec<[f64; 2]> {
     let sum = |points: &[[f64; 2]], weights: &[f64]| {
@@ -108,7 +126,7 @@ fn in_step_with_a_line_or_a_circle() {
     for (one, v1, two, v2) in pairs {
         let (a, b) = (Motion::new([one.clone()], v1, 0.0).unwrap(), Motion::new([two], v2, 0.0).unwrap());
         let verdict = |minimum: f64| separation(&a, &b, minimum).unwrap().verdict;
-        let near = [verdict(1.0 - 1e-9), verdict(1.0), verdict(1.0 + 1e-9)];
+        let near = [verdict(1.0 - 1e-8), verdict(1.0), verdict(1.0 + 1e-8)];
         assert_eq!(near, [Verdict::Kept, Verdict::Undecided, Verdict::Violated], "{one:?}");
     }
 }

@@ -5,6 +5,7 @@ mod corner;
 mod course;
 mod curve;
 mod equal;
+mod extremes;
 mod hermite;
 mod kinds;
 mod least_curvature;
