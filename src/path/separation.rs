@@ -79,8 +79,12 @@ impl Motion {
         }
         let most = |of: fn(&Way) -> f64| ways.iter().map(of).fold(0.0, f64::max);
         let direction_off = most(|way| way.direction_off);
-        // The difference of unit tangents.
-        let kink = |w: &[Way]| distance(w[0].after(w[0].length).tangent, w[1].after(0.0).tangent) + ROUNDINGS;
+        // The difference of unit tangents, each of which may be off by what the place is.
+        let kink = |w: &[Way]| {
+            let [end, start] = [w[0].after(w[0].length), w[1].after(0.0)];
+            let off = |way: &Way, at: &Reached| way.curvature * (at.missed + ROUNDINGS * way.sizes[1]);
+            distance(end.tangent, start.tangent) + ROUNDINGS + off(&w[0], &end) + off(&w[1], &start)
+        };
         let kinks = ways.windows(2).map(kink).sum::<f64>();
         // A corner has no curvature; the bound by speeds alone still holds there.
         let smooth = kinks <= SMOOTH;

@@ -10,8 +10,8 @@ use spiral_atlas::{Error, Result};
 /// Prove whether vehicles keep a minimum distance at all times, and tell how near they come.
 ///
 /// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools and `curve --json` print it;
-/// pieces are of all kinds but `involute`, and other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of
-/// the minimum.
+/// pieces are of all kinds but `involute`, and other fields are left out of account. `verdict` is `kept`, `violated` or
+/// `undecided`: within rounding of the minimum.
 ///
 /// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit
 /// status is 0 for `kept`, 1 for `violated` and `undecided`.
