@@ -152,8 +152,9 @@ impl Way {
     fn integrated(curve: Bezier) -> Way {
         let (size, mismatch) = (curve.size(), curve.mismatch());
         let [start, end] = curve.range();
-        // What is too large to be cut is as long as nothing, and refused.
-        let (mut cells, mut waiting) = (vec![], if size <= RANGE[1] { vec![[start, end]] } else { vec![] });
+        // What is so large or small that its bounds leave the range of doubles is not cut: it is as long as nothing, and refused.
+        let fits = RANGE[0] <= size && size <= RANGE[1];
+        let (mut cells, mut waiting) = (vec![], if fits { vec![[start, end]] } else { vec![] });
         let (mut before, mut blind_length) = (0.0, 0.0);
         let (mut direction_off, mut curvature): (f64, f64) = (0.0, 0.0);
         while let Some([from, to]) = waiting.pop() {
