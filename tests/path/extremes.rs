@@ -9,12 +9,15 @@ use spiral_atlas::transition::Line;
 
 const UNITS: [f64; 12] = [5e-324, 1e-310, 1e-300, 1e-200, 1e-145, 1e-100, 1e-12, 1e12, 1e100, 1e145, 1e200, 1e300];
 
-/// Those of the units that give an answer; each near the first one in its own unit. Errors have to tell something useful.
+/// Those of the units that give an answer; each near that for the unit 1. Errors have to tell something useful.
 fn answered(what: &str, answer: impl Fn(f64) -> Result<Vec<f64>, Error>) -> Vec<f64> {
     let want = answer(1.0).unwrap();
     let told = |unit: &f64| match answer(*unit) {
         Ok(got) => {
-            assert_near(&format!("{what}, unit {unit:e}"), &got, &want, 1e-9);
+            // Multiples of the smallest double are whole: those data are other data.
+            if *unit > 5e-324 {
+                assert_near(&format!("{what}, unit {unit:e}"), &got, &want, 1e-9);
+            }
             true
         }
         Err(e) => {
