@@ -8,9 +8,9 @@
 //! below 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3. The same holds for a part of a cell, whose disc lies in
 //! that of the cell.
 //!
-//! Roundings: r' has at most 30 of them (of 2^-53, in units of the bound [`Bezier::size`]) for a cubic and 60 for a trigonometric quintic, whose
-//! basis is a product of up to six factors. A parameter is rounded twice, and r'' is below 8 of those units. The weighted sum of 16 values has
-//! 20. These are 96 at most, less than the 128 of [`ROUNDINGS`].
+//! Roundings: r' has at most 30 of them (of 2^-53, in units of the bound [`Bezier::size`]) for a cubic and 70 for a trigonometric quintic, whose
+//! basis is a product of up to six factors, sines and cosines among them. A parameter is rounded twice, and r'' is below 8 of those units. The weighted sum of 16 values has
+//! 20. These are 106 at most, less than the 128 of [`ROUNDINGS`].
 //!
 //! A point is off by no more than its length is, since a chord is no longer than its arc.
 
@@ -218,7 +218,7 @@ fn integrated_to(curve: &Bezier, cells: &[Cell], whole: f64, local: f64) -> Reac
                 break;
             }
             step();
-            t = (t - missed / curve.jet(t).speed()).clamp(from, to);
+            t = (t - missed / curve.speed(t)).clamp(from, to);
             missed = over(t);
         }
     }
@@ -259,6 +259,13 @@ impl Bezier {
         match self {
             Bezier::Cubic(cubic) => cubic.jet(t),
             Bezier::Trig(part) => part.curve.jet(t),
+        }
+    }
+
+    fn speed(&self, t: f64) -> f64 {
+        match self {
+            Bezier::Cubic(cubic) => cubic.jet(t).speed(),
+            Bezier::Trig(part) => part.curve.speed(t),
         }
     }
 
@@ -316,7 +323,7 @@ impl Bezier {
 
     /// Length between parameters within one cell. A part of a cell lies in its disc, with its own.
     fn between(&self, from: f64, to: f64) -> f64 {
-        gauss(|t| [self.jet(t).speed()], from, to)[0]
+        gauss(|t| [self.speed(t)], from, to)[0]
     }
 }
 
