@@ -206,3 +206,19 @@ fn rates(p: f64, q: f64, angle: &Angle) -> [Rates; 5] {
         s.times(less_c.power(3)).times(c.linear(-5.0 * q, 4.0 + q)),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_speed_is_that_of_the_jet() {
+        let sides = [[0.2, 0.1], [-0.3, 0.4], [0.5, -0.7], [0.3, 0.3], [-0.6, 0.2]];
+        let curve = TrigBezier { start: [1.0, 2.0], sides, p: 0.7, q: -3.2 };
+        for i in 0..=100 {
+            let t = f64::from(i) / 100.0;
+            let (got, want) = (curve.speed(t), curve.jet(t).speed());
+            assert!((got - want).abs() < 1e-13, "{t} {got} {want}");
+        }
+    }
+}

@@ -1,9 +1,9 @@
 //! How near two vehicles come that travel along their paths at constant speeds: proved, not sampled.
 //!
-//! On a stretch of time with half-width h around a moment with the separation `r` and the relative velocity `v`, the separation stays above
-//! both `|r| - L h`, `L = V1 + V2`, and `min |r + vτ| - K h²/2`, `K = V1² κ1 + V2² κ2` with bounds of the curvatures. Stretches are halved,
-//! the one with the least bound first, until the least separation is enclosed and the verdict certain. Where both move in step the
-//! second bound needs far fewer stretches than the first.
+//! On a stretch of time with half-width h around a moment with the separation `r` and the relative velocity `v`, the
+//! separation stays above both `|r| - L h`, `L = V1 + V2`, and `min |r + vτ| - K h²/2`, `K = V1² κ1 + V2² κ2` with
+//! bounds of the curvatures. Stretches are halved, the one with the least bound first, until the least separation is
+//! enclosed and the verdict certain. Where both move in step the second bound needs far fewer stretches than the first.
 
 use super::queue::Queue;
 use super::way::{Reached, Way};
@@ -44,7 +44,8 @@ pub struct Motion {
     mismatch: f64,
 }
 
-/// Where a vehicle is: point, direction, bounds of their errors, and speed and curvature from standing or moving as then.
+/// Where a vehicle is: point, direction, bounds of their errors, and speed and curvature from standing or moving as
+/// then.
 struct State {
     point: [f64; 2],
     tangent: [f64; 2],
@@ -58,8 +59,8 @@ impl Motion {
     /// Along pieces that join, at a constant speed, from a time on.
     ///
     /// # Errors
-    /// [`Error::Domain`] without a piece, for an involute, for pieces that [`Course::new`] refuses, a path of no length, a speed not above 0, or
-    /// a number not finite.
+    /// [`Error::Domain`] without a piece, for an involute, for pieces that [`Course::new`] refuses, a path of no
+    /// length, a speed not above 0, or a number not finite.
     pub fn new<P: Into<Piece>>(pieces: impl IntoIterator<Item = P>, speed: f64, start_time: f64) -> Result<Motion> {
         let fail = |what: String| Err(Error::Domain(format!("motion: {what}")));
         finite("motion", "speed", &[speed])?;
@@ -138,7 +139,8 @@ impl Motion {
         let travelled = (self.speed * (time - self.start_time)).clamp(0.0, self.length());
         let i = self.lengths.partition_point(|s| *s <= travelled).clamp(1, self.ways.len()) - 1;
         let Reached { point, tangent, missed } = self.ways[i].after(travelled - self.lengths[i]);
-        // Along the path by what the length misses, and the roundings of lengths, times and points. Pieces are summed up one by one.
+        // Along the path by what the length misses, and the roundings of lengths, times and points. Pieces are summed
+        // up one by one.
         let off = missed
             + self.mismatch
             + ROUNDINGS * self.size
@@ -198,8 +200,9 @@ pub struct Separation {
 /// At all times: before its start time a vehicle stands at its start, and once it has arrived at its end.
 ///
 /// # Accuracy
-/// [`Verdict::Kept`] and [`Verdict::Violated`] are proved for the curves given, roundings included. The least separation is enclosed to 1e-10 of the
-/// size of the scene (lengths and coordinates) where 100,000 stretches suffice; the enclosure holds in any case.
+/// [`Verdict::Kept`] and [`Verdict::Violated`] are proved for the curves given, roundings included. The least
+/// separation is enclosed to 1e-10 of the size of the scene (lengths and coordinates) where 100,000 stretches suffice;
+/// the enclosure holds in any case.
 ///
 /// # Errors
 /// [`Error::Domain`] for a minimum distance that is negative or not finite.
@@ -305,4 +308,52 @@ fn nearest(r: [f64; 2], v: [f64; 2]) -> f64 {
     let unit = v.map(|x| x / far);
     let along = (-(r[0] * unit[0] + r[1] * unit[1])).clamp(-far, far);
     (r[0] + unit[0] * along).hypot(r[1] + unit[1] * along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::{CubicBezier, PhQuintic};
+    use crate::steps::counted;
+    use crate::transition::{Arc, Cubic, Line};
+
+    fn cubic(p: [[f64; 2]; 4]) -> Piece {
+        let legs = std::array::from_fn(|i| [0, 1].map(|k| p[i + 1][k] - p[i][k]));
+        Piece::Cubic(Cubic { points: CubicBezier { p }, legs })
+    }
+
+    /// Curves that coincide, touch, move in step or stand still, and a path of 20,000 pieces: a bounded number of stretches, and of steps of
+    /// Newton's method in each of its two moments.
+    #[test]
+    fn every_question_ends() {
+        let shape = |up: f64| cubic([[0.0, up], [1.0, up], [2.0, 1.0 + up], [3.0, 1.0 + up]]);
+        let arc = |length: f64| Piece::Arc(Arc { start: [0.0; 2], start_direction: 0.0, curvature: 1.0, length });
+        let line = |from: f64, to: f64| Piece::Line(Line { start: [from, 0.0], end: [to, 0.0] });
+        let still = cubic([[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [1.0, 0.0]]);
+        let many: Vec<Piece> = (0..20_000).map(|i| line(f64::from(i), f64::from(i + 1))).collect();
+        let quintic: Piece = PhQuintic::new([0.0; 2], [[1.0, 0.0], [0.0, 0.0], [0.0, 1.0]]).into();
+        let pairs = [
+            (vec![shape(0.0)], vec![shape(0.0)]),
+            (vec![shape(0.0)], vec![shape(1e-9)]),
+            (vec![shape(0.0)], vec![shape(0.1)]),
+            (vec![arc(1e6)], vec![arc(1e9)]),
+            (vec![arc(3.0)], vec![line(-1.0, 1.0)]),
+            (vec![still], vec![line(0.5, 2.0)]),
+            (vec![quintic], vec![shape(0.0)]),
+            (many.clone(), vec![line(2e4, 0.0)]),
+            (many.clone(), many),
+        ];
+        for (one, two) in pairs {
+            let [a, b] = [&one, &two].map(|pieces| Motion::new(pieces.iter().cloned(), 1.0, 0.0).unwrap());
+            for minimum in [0.0, 1e-300, 1e-9, 0.1, 1e300] {
+                let (steps, found) = counted(|| separation(&a, &b, minimum).unwrap());
+                assert!(steps <= 13 * STRETCHES + 10_000, "{steps} {minimum:e} {found:?}");
+                assert!(found.closest.at_least <= found.closest.at_most, "{found:?}");
+            }
+        }
+        // Nothing decides whether a distance is kept to the last digit, so the search stops at the tolerance.
+        let lines = |up: f64| Motion::new([Line { start: [0.0, up], end: [9.0, up] }], 1.0, 0.0).unwrap();
+        let (steps, found) = counted(|| separation(&lines(0.0), &lines(1.0), 1.0).unwrap());
+        assert!(steps < 1000 && found.verdict == Verdict::Undecided, "{steps} {found:?}");
+    }
 }

@@ -1,16 +1,18 @@
 //! Where a vehicle is on a piece of its path once it has covered a length, with bounds of the errors.
 //!
-//! Quintics with a Pythagorean hodograph, lines and arcs have formulas. The length of a cubic or a trigonometric quintic is integrated by the
-//! 16-point Gauss-Legendre rule on cells where its error is proved. Let `x' ± iy'` differ by at most a quarter of `|r'|` from their values at
-//! the middle of a cell of half-width h, in the complex disc of radius `17/8 h`. They are the factors of `|r'|²` and have no root there. So the
-//! speed is analytic in the ellipse of the foci -h, h and the sum 4h of its half-axes, which lies in the disc, and at most 5/4 of that in the
-//! middle. The rule then errs by less than `h 64/15 5/4 |r'| 4^-32 / (1 - 1/16)`, and the cell is at least `2h 3/4 |r'|` long. So the error is
-//! below 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3. The same holds for a part of a cell, whose disc lies in
-//! that of the cell.
+//! Quintics with a Pythagorean hodograph, lines and arcs have formulas. The length of a cubic or a trigonometric
+//! quintic is integrated by the 16-point Gauss-Legendre rule on cells where its error is proved. Let `x' ± iy'` differ
+//! by at most a quarter of `|r'|` from their values at the middle of a cell of half-width h, in the complex disc of
+//! radius `17/8 h`. They are the factors of `|r'|²` and have no root there. So the speed is analytic in the ellipse of
+//! the foci -h, h and the sum 4h of its half-axes, which lies in the disc, and at most 5/4 of that in the middle. The
+//! rule then errs by less than `h 64/15 5/4 |r'| 4^-32 / (1 - 1/16)`, and the cell is at least `2h 3/4 |r'|` long. So
+//! the error is below 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3. The same holds for a
+//! part of a cell, whose disc lies in that of the cell.
 //!
-//! Roundings: r' has at most 30 of them (of 2^-53, in units of the bound [`Bezier::size`]) for a cubic and 70 for a trigonometric quintic, whose
-//! basis is a product of up to six factors, sines and cosines among them. A parameter is rounded twice, and r'' is below 8 of those units. The weighted sum of 16 values has
-//! 20. These are 106 at most, less than the 128 of [`ROUNDINGS`].
+//! Roundings: r' has at most 30 of them (of 2^-53, in units of the bound [`Bezier::size`]) for a cubic and 70 for a
+//! trigonometric quintic, whose basis is a product of up to six factors, sines and cosines among them. A parameter is
+//! rounded twice, and r'' is below 8 of those units. The weighted sum of 16 values has 20. These are 106 at most, less
+//! than the 128 of [`ROUNDINGS`].
 //!
 //! A point is off by no more than its length is, since a chord is no longer than its arc.
 
@@ -26,7 +28,8 @@ use std::f64::consts::FRAC_PI_2;
 const REACH: f64 = 17.0 / 8.0;
 /// Cells are no smaller than this share of the parameters; beside a standstill they halve up to there.
 const SMALLEST: f64 = 1e-18;
-/// Derivatives above the first are known to this share of the largest first one that the polygon allows, far above their roundings.
+/// Derivatives above the first are known to this share of the largest first one that the polygon allows, far above
+/// their roundings.
 const BLUR: f64 = 1e-10;
 /// Steps of Newton's method; what they miss is told.
 const NEWTON: usize = 3;
@@ -87,7 +90,8 @@ pub(super) struct Reached {
 
 impl Way {
     /// # Errors
-    /// [`Error::Domain`] for an involute, whose points have no proved error, and for lengths and coordinates beyond [`RANGE`], or not finite.
+    /// [`Error::Domain`] for an involute, whose points have no proved error, and for lengths and coordinates beyond
+    /// [`RANGE`], or not finite.
     pub fn new(piece: &Piece) -> Result<Way> {
         let way = match piece {
             Piece::PhQuintic(curve) => Way::quintic(*curve),
@@ -119,9 +123,10 @@ impl Way {
         let far = largest(&curve.control_points());
         // Coefficients of lengths are at most the sum of |w|², and so are legs.
         let legs = curve.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
-        // The direction is that of w², and w is off by a few roundings of its largest coefficient. Its least square is no less than the least
-        // coefficient of the speed. Where that says nothing, the curvature is infinite or the speed 1e-6 of its largest coefficient, which is
-        // above 1/27 of the legs: coefficients of a quadratic are at most three times its greatest value.
+        // The direction is that of w², and w is off by a few roundings of its largest coefficient. Its least square is
+        // no less than the least coefficient of the speed. Where that says nothing, the curvature is infinite or the
+        // speed 1e-6 of its largest coefficient, which is above 1/27 of the legs: coefficients of a quadratic are at
+        // most three times its greatest value.
         let least = curve.speed_coefficients().iter().fold(f64::INFINITY, |least, s| s.min(least));
         let steep = if least > 0.0 { (legs / least).sqrt().min(6e3) } else { 6e3 };
         Way {
@@ -152,7 +157,8 @@ impl Way {
     fn integrated(curve: Bezier) -> Way {
         let (size, mismatch) = (curve.size(), curve.mismatch());
         let [start, end] = curve.range();
-        // What is so large or small that its bounds leave the range of doubles is not cut: it is as long as nothing, and refused.
+        // What is so large or small that its bounds leave the range of doubles is not cut: it is as long as nothing,
+        // and refused.
         let fits = RANGE[0] <= size && size <= RANGE[1];
         let (mut cells, mut waiting) = (vec![], if fits { vec![[start, end]] } else { vec![] });
         let (mut before, mut blind_length) = (0.0, 0.0);
@@ -180,7 +186,8 @@ impl Way {
                 curvature = f64::INFINITY;
             }
         }
-        // A curve of other legs is longer or shorter by no more than these differ. Lengths of cells are added one by one.
+        // A curve of other legs is longer or shorter by no more than these differ. Lengths of cells are added one by
+        // one.
         let length_off = blind_length + mismatch + ROUNDINGS * size + f64::EPSILON * cells.len() as f64 * before;
         let sizes = [largest(&curve.points()), size];
         Way { curve: Curve::Integrated(curve, cells), length: before, length_off, mismatch, direction_off, curvature, sizes }
@@ -269,8 +276,8 @@ impl Bezier {
         }
     }
 
-    /// A bound of |r'|: three times the legs of a cubic. The derivatives by the angle of what a trigonometric quintic multiplies its sides
-    /// with are at most `4 + 6 |p|`, so 28.
+    /// A bound of |r'|: three times the legs of a cubic. The derivatives by the angle of what a trigonometric quintic
+    /// multiplies its sides with are at most `4 + 6 |p|`, so 28.
     fn size(&self) -> f64 {
         match self {
             Bezier::Cubic(cubic) => 3.0 * cubic.legs.iter().map(|leg| length(*leg)).sum::<f64>(),
@@ -278,7 +285,8 @@ impl Bezier {
         }
     }
 
-    /// How far the curve of the legs is from points that are computed: those of the control points, or roundings of a sum of sides.
+    /// How far the curve of the legs is from points that are computed: those of the control points, or roundings of a
+    /// sum of sides.
     fn mismatch(&self) -> f64 {
         match self {
             Bezier::Cubic(Cubic { points, legs }) => {
@@ -290,8 +298,9 @@ impl Bezier {
 
     /// A bound of the fourth derivative for complex parameters this far from real ones.
     ///
-    /// Sides are multiplied with trigonometric polynomials of degree 5 and, but for constants, of sizes up to 16 (1 + |p|), 32, 192, 32 and
-    /// 16 (1 + |q|). Bernstein's inequality: the fourth derivative of one of size M is at most `5⁴ M exp(5 |Im φ|)`, with φ = πt/2.
+    /// Sides are multiplied with trigonometric polynomials of degree 5 and, but for constants, of sizes up to 16 (1 +
+    /// |p|), 32, 192, 32 and 16 (1 + |q|). Bernstein's inequality: the fourth derivative of one of size M is at most
+    /// `5⁴ M exp(5 |Im φ|)`, with φ = πt/2.
     fn fourth(&self, far: f64) -> f64 {
         let Bezier::Trig(TrigPart { curve, .. }) = self else { return 0.0 };
         let sizes = [16.0 * (1.0 + curve.p.abs()), 32.0, 192.0, 32.0, 16.0 * (1.0 + curve.q.abs())];
@@ -309,8 +318,8 @@ impl Bezier {
         let sure = first - ROUNDINGS * size;
         let slowest = sure - change(half);
         let fastest = first + ROUNDINGS * size + change(half);
-        // The slope of the product r' × r'' is that of r' and the third derivative. Divided by the least speed first, nothing leaves the
-        // range of doubles.
+        // The slope of the product r' × r'' is that of r' and the third derivative. Divided by the least speed first,
+        // nothing leaves the range of doubles.
         let over = |v: [f64; 2]| v.map(|x| x / slowest);
         let turn = cross(over(jet.first), over(jet.second)).abs()
             + (fastest / slowest) * (BLUR * size / slowest)
@@ -333,67 +342,4 @@ fn largest(points: &[[f64; 2]]) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::curve::{CubicBezier, TrigBezier};
-    use crate::steps::counted;
-
-    fn cubic(p: [[f64; 2]; 4]) -> Piece {
-        let legs = std::array::from_fn(|i| sub(p[i + 1], p[i]));
-        Piece::Cubic(Cubic { points: CubicBezier { p }, legs })
-    }
-
-    fn trig(sides: [[f64; 2]; 5], from: f64, to: f64) -> Piece {
-        Piece::TrigQuintic(TrigPart { curve: TrigBezier { start: [0.0; 2], sides, p: 1.0, q: -4.0 }, from, to })
-    }
-
-    /// Within what is told, and few cells even where the curve stands still for long.
-    #[test]
-    fn lengths_are_off_by_no_more_than_told() {
-        let third = 1.0 / 3.0;
-        let none = [0.0; 2];
-        let x = [1.0, 0.0];
-        let cases = [
-            // (t², t³): 13√13/27 - 8/27. The same twice, back and forth: (4t² - 4t, 0).
-            (cubic([none, none, [third, 0.0], [1.0, 1.0]]), (13.0 * 13f64.sqrt() - 8.0) / 27.0),
-            (cubic([none, [-4.0 * third, 0.0], [-4.0 * third, 0.0], none]), 2.0),
-            (cubic([none, none, none, x]), 1.0),
-            (cubic([none, [third, 0.0], [2.0 * third, 0.0], x]), 1.0),
-            // Straight, standing still to the seventh order at either end, or at both; and a part of no speed to speak of.
-            (trig([none, none, none, none, x], 0.0, 1.0), 1.0),
-            (trig([x, none, none, none, none], 0.0, 1.0), 1.0),
-            (trig([none, none, x, none, none], 0.0, 1.0), 1.0),
-            (trig([none, none, none, none, x], 0.0, 1e-30), 0.0),
-            (trig([x, x, x, x, x], 0.25, 0.25 + f64::EPSILON), 5.0 * 1e-15),
-        ];
-        for (piece, length) in cases {
-            let (steps, way) = match &piece {
-                Piece::Cubic(c) => counted(|| Way::integrated(Bezier::Cubic(*c))),
-                Piece::TrigQuintic(part) => counted(|| Way::integrated(Bezier::Trig(*part))),
-                _ => continue,
-            };
-            assert!(steps < 20_000 && way.length_off < 1e-11, "{steps} {} {piece:?}", way.length_off);
-            assert!((way.length - length).abs() <= way.length_off, "{} {length} {} {piece:?}", way.length, way.length_off);
-        }
-    }
-
-    /// The bound of the curvature holds, and is no more than some times the truth where the curve is regular.
-    #[test]
-    fn curvatures_are_bounded() {
-        let bent = cubic([[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [2.0, 2.5]]);
-        let waving = trig([[0.5, 0.2], [0.4, 0.5], [0.6, -0.3], [0.5, -0.6], [0.6, 0.3]], 0.1, 0.8);
-        for piece in [bent, waving] {
-            let way = Way::new(&piece).unwrap();
-            let [from, to] = piece.range();
-            let at = |i: i32| piece.at(from + (to - from) * f64::from(i) / 1000.0).curvature.abs();
-            let most = (0..=1000).map(at).fold(0.0, f64::max);
-            assert!(most > 0.3 && way.curvature >= most && way.curvature < 8.0 * most, "{most} {}", way.curvature);
-            // Where one is after a length is where the length up to there says.
-            for i in 0..=100 {
-                let local = way.length * f64::from(i) / 100.0;
-                let reached = way.after(local);
-                assert!(reached.missed <= 1e-14 * way.length, "{local} {}", reached.missed);
-            }
-        }
-    }
-}
+mod tests;

@@ -34,7 +34,8 @@ pub fn each(unit: f64) -> Vec<Piece> {
     ]
 }
 
-/// Points by other formulas than those of the library: Bernstein polynomials, basis functions and the centre of the circle.
+/// Points by other formulas than those of the library: Bernstein polynomials, basis functions and the centre of the
+/// circle.
 fn points(piece: &Piece) -> Vec<[f64; 2]> {
     let sum = |points: &[[f64; 2]], weights: &[f64]| {
         points.iter().zip(weights).fold([0.0, 0.0], |sum, (p, w)| [sum[0] + w * p[0], sum[1] + w * p[1]])
@@ -106,7 +107,8 @@ fn pieces_of_different_kinds_make_one_path() {
     sampled([&a, &b], [&polygon, &Polygon::through(points(&line))], [1.0, 1.3, 0.05]);
 }
 
-/// A straight curve is a line, however unevenly its parameter runs along; a circle is one with another of the same centre.
+/// A straight curve is a line, however unevenly its parameter runs along; a circle is one with another of the same
+/// centre.
 #[test]
 fn in_step_with_a_line_or_a_circle() {
     let uneven = [0.0, 0.1, 6.0, 10.0].map(|x| [x, 0.0]);
