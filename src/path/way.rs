@@ -159,7 +159,7 @@ impl Way {
         let [start, end] = curve.range();
         // What is so large or small that its bounds leave the range of doubles is not cut: it is as long as nothing,
         // and refused.
-        let fits = RANGE[0] <= size && size <= RANGE[1];
+        let fits = (RANGE[0]..=RANGE[1]).contains(&size);
         let (mut cells, mut waiting) = (vec![], if fits { vec![[start, end]] } else { vec![] });
         let (mut before, mut blind_length) = (0.0, 0.0);
         let (mut direction_off, mut curvature): (f64, f64) = (0.0, 0.0);
