@@ -24,6 +24,7 @@
 mod cubic;
 mod figure;
 mod involute;
+pub mod join;
 mod none;
 mod ph_quintic;
 mod piece;
