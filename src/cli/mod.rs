@@ -10,6 +10,7 @@ mod datum;
 mod draw;
 mod generate;
 mod info;
+mod join;
 mod output;
 mod path;
 mod points;
@@ -51,6 +52,7 @@ enum Command {
     Adapters(adapters::Args),
     Query(query::Args),
     Curve(Box<curve::Args>),
+    Join(join::Args),
     Path(path::Args),
     /// Print shell completions.
     #[command(after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]
@@ -83,6 +85,7 @@ pub fn main() -> ExitCode {
         Command::Adapters(args) => adapters::run(&args),
         Command::Query(args) => query::run(&args),
         Command::Curve(args) => curve::run(&args),
+        Command::Join(args) => join::run(&args),
         Command::Path(args) => path::run(&args),
         Command::Completions { shell } => completions(shell),
     };

@@ -3,23 +3,21 @@
 use super::super::piece::Piece;
 use super::measure::Measures;
 use crate::error::{Error, Result};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// A place on a path: point, direction of travel and signed curvature, in the user's units and axes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct State {
     /// The point.
     pub point: [f64; 2],
     /// Direction of travel: counter-clockwise angle from the x axis, radians.
     pub direction: f64,
     /// Curvature, 1 / length, positive where the path turns left.
-    #[serde(default)]
     pub curvature: f64,
 }
 
 /// The curves that the spirals of a join are made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
     /// Cubic Bézier curves.
@@ -32,7 +30,7 @@ pub enum Family {
 }
 
 /// Of several joins that keep the limits, the one that has least of this.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Objective {
     /// Arc length.
