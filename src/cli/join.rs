@@ -4,7 +4,7 @@ use super::{Outcome, output, points};
 use spiral_atlas::plot::{self, Lines, PathsFigure};
 use spiral_atlas::recipe::parse_angle;
 use spiral_atlas::transition::join::{self, Family, Join, Objective, Request, State};
-use spiral_atlas::transition::{Piece, stations};
+use spiral_atlas::transition::{Piece, Station, stations};
 use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
 
@@ -20,14 +20,17 @@ const SAMPLES: usize = 2000;
 /// join is the best of those tried: turns (spiral, arc, spiral) with a line or a third turn between.
 ///
 /// Prints {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,"bending_energy":..,"pieces":[..]}, where a rate is
-/// dκ/ds, or {"pieces":null,"reason":".."}. `path measure` reads pieces, too. With --points, one such line for each row, in order; a bad row gives {"line":..,"error":".."}.
+/// dκ/ds, or {"pieces":null,"reason":".."}.
+/// With --points, one such line for each row, in order; a bad row gives {"line":..,"error":".."}.
 ///
 /// Exit status: 0 when there is a join, 1 when none was found, 2 for an error. With --points it is 0 when every row was answered, whatever the
 /// answers, and 2 when one was bad.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  spiral-atlas join --from 0,0,0deg --to 8,6,90deg --greatest-curvature 0.5 --figure join.png\n  \
+#[command(
+    after_help = "Examples:\n  spiral-atlas join --from 0,0,0deg --to 8,6,90deg --greatest-curvature 0.5 --figure join.png\n  \
                         spiral-atlas join --from 0,0,0,0.2 --to 3,1,180deg,-0.1 --greatest-curvature 1 --family ph-quintic\n  \
-                        spiral-atlas join --points states.csv --greatest-curvature 1 > joins.jsonl")]
+                        spiral-atlas join --points states.csv --greatest-curvature 1 > joins.jsonl"
+)]
 pub struct Args {
     /// Where it starts; the direction is an angle from the x axis, the curvature 0 unless given.
     #[arg(long, value_name = "X,Y,ANGLE[,CURVATURE]", value_parser = parse_state, allow_hyphen_values = true, required_unless_present = "points")]
@@ -53,6 +56,10 @@ pub struct Args {
     /// Most pieces allowed.
     #[arg(long, value_name = "N", default_value_t = Request::MOST_PIECES)]
     most_pieces: usize,
+    /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from the start), x, y,
+    /// heading (radians), curvature.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000), conflicts_with = "points")]
+    samples: Option<u32>,
     /// Draw the path and its curvature.
     #[arg(long, value_name = "FILE.png")]
     figure: Option<PathBuf>,
@@ -73,6 +80,15 @@ enum Least {
     BendingEnergy,
 }
 
+/// What is printed of a single join.
+#[derive(serde::Serialize)]
+struct Told<'a> {
+    #[serde(flatten)]
+    found: &'a join::Outcome,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<Vec<Station>>,
+}
+
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
     if let Some(path) = args.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
@@ -89,7 +105,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
     let (Some(from), Some(to)) = (args.from, args.to) else { super::refuse("`--from` and `--to` are needed, or `--points`") };
     let found = join::join(&args.request(from, to))?;
-    output::print_json(&found)?;
+    let sampled = |(n, join): (u32, &Join)| stations(&join.pieces, n as usize);
+    let samples = args.samples.zip(found.join()).map(sampled).transpose()?;
+    output::print_json(&Told { found: &found, samples })?;
     let Some(join) = found.join() else { return Ok(Outcome::Bad) };
     if let Some(path) = &args.figure {
         spiral_atlas::files::write_file(path, &figure(join)?)?;

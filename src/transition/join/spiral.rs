@@ -76,7 +76,7 @@ impl Spiral {
     pub fn piece(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
         let direction = at.direction + self.angle();
         if family != Family::Involute && (self.from == 0.0 || self.to == 0.0) {
-            let Some(piece) = self.to_line(family, at, scale_by)? else { return Ok(None) };
+            let Some(piece) = self.straight_ended(family, at, scale_by)? else { return Ok(None) };
             let end = piece.end();
             return Ok(Some((piece, Pose { at: end, direction })));
         }
@@ -94,7 +94,7 @@ impl Spiral {
     }
 
     /// One end is straight.
-    fn to_line(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
+    fn straight_ended(self, family: Family, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
         let round = self.from + self.to;
         let request = Request {
             base: if self.from == 0.0 { Base::Line } else { Base::Circle },

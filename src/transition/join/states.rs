@@ -180,8 +180,7 @@ fn by_line(a: &Turn, b: &Turn, objective: Objective) -> Option<Way> {
     let (across, reach) = (sub(b.centre, a.centre), add(a.reach, b.reach));
     let along = (dot(across, across) - reach[1] * reach[1]).max(-1.0).sqrt();
     let line = along - reach[0];
-    // Not so where it is no number.
-    if !(line >= LEAST_LINE) {
+    if line.is_nan() || line < LEAST_LINE {
         return None;
     }
     let direction = across[1].atan2(across[0]) - reach[1].atan2(along);
