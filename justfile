@@ -6,7 +6,7 @@ export NODEVICE_SELECT := "1"
 swiftshader := env("XDG_CACHE_HOME", env("HOME", "") / ".cache") / "spiral-atlas/swiftshader/icd.json"
 
 # Every check and test, as continuous integration runs them
-ci: setup lint test fuzz swiftshader
+ci: setup lint test examples python fuzz swiftshader
 
 # Installs what the tests need
 setup:
@@ -14,14 +14,23 @@ setup:
 
 # Formatting, lints and documentation
 lint:
-    cargo fmt --check
+    cargo fmt --all --check
     cargo clippy --locked --release --all-targets -- -D warnings
     cargo clippy --locked --release --no-default-features -- -D warnings
+    cargo clippy --locked --release --package spiral-atlas-python -- -D warnings
     RUSTDOCFLAGS="-D warnings" cargo doc --locked --release --no-deps
 
 # All tests, or those whose name contains a text
 test *filter:
     cargo test --locked --release {{filter}}
+
+# The programs in examples/
+examples:
+    for example in examples/*.rs; do cargo run --quiet --locked --release --example "$(basename "$example" .rs)"; done
+
+# The Python package: built, installed into a fresh environment, tested
+python:
+    tests/python
 
 # The coverage-guided fuzzers of the readers, for some seconds each
 fuzz seconds="15":

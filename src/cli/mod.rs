@@ -5,6 +5,7 @@
 
 mod adapters;
 mod backend;
+mod cells;
 mod curve;
 mod datum;
 mod draw;
@@ -119,7 +120,11 @@ fn tell_errors_without_panics() {
 
 /// Ends the program as for arguments that clap itself refuses, with the usage of the command that was given.
 fn refuse(what: &str) -> ! {
-    let mut command = given();
+    refuse_by(given(), what)
+}
+
+/// The same with the usage of this command.
+fn refuse_by(mut command: clap::Command, what: &str) -> ! {
     let error = command.error(ErrorKind::ArgumentConflict, what);
     end(&error, &command)
 }

@@ -37,6 +37,21 @@ pub struct Spot {
     pub parameter: f64,
 }
 
+/// A path in a few numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Summary {
+    /// [`Course::length`].
+    pub length: f64,
+    /// [`Course::bending_energy`], where it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bending_energy: Option<f64>,
+    /// [`Course::absolute_rotation`], where it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub absolute_rotation: Option<f64>,
+    /// [`Course::greatest_curvature`].
+    pub greatest_curvature: f64,
+}
+
 /// The curve at a distance from a piece.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
@@ -90,6 +105,16 @@ impl Course {
     /// Its arc length.
     pub fn length(&self) -> f64 {
         self.length
+    }
+
+    /// Its length, energy, rotation and greatest curvature.
+    pub fn summary(&self) -> Summary {
+        Summary {
+            length: self.length,
+            bending_energy: self.bending_energy(),
+            absolute_rotation: self.absolute_rotation(),
+            greatest_curvature: self.greatest_curvature(),
+        }
     }
 
     /// `count` points at equal arc lengths, both ends included: [`stations`].

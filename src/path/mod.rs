@@ -37,7 +37,7 @@ mod spline;
 mod tridiagonal;
 
 pub use corner::Turn;
-pub use course::{Course, OffsetCurve, Spot};
+pub use course::{Course, OffsetCurve, Spot, Summary};
 pub use least_curvature::{Directions, Free, LeastCurvature, least_curvature};
 pub use plan::{Clearance, Corner, Plan, Proof, Scene, plan, prove};
 pub use separation::{Closest, Motion, Separation, Verdict, separation, separations};

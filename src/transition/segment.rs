@@ -2,10 +2,13 @@
 
 use super::Turn;
 use super::piece::{Cubic, Piece};
+use super::placement::{Ends, Placement};
+use super::words::degrees;
 use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::{Error, Result};
 use crate::family::reach::{Datum, Kind, Level, level_of_shape, solve};
+use crate::num::told;
 use serde::Serialize;
 
 /// What the segment is added to.
@@ -50,6 +53,31 @@ pub struct Request {
     pub theta: f64,
     /// Its shape or its end point.
     pub target: Target,
+}
+
+impl Request {
+    /// The segment between two ends one of which is straight. There is none where neither is or both are, and where no C-shaped curve that
+    /// turns to the side of the round end joins them.
+    ///
+    /// # Accuracy
+    /// [`Request::theta`] and [`Request::radius`] to 4e-15.
+    ///
+    /// # Errors
+    /// Those of [`Placement::normalise`].
+    pub fn between(ends: &Ends) -> Result<Option<Request>> {
+        // There the straight end comes first.
+        let (datum, placement) = Placement::normalise(ends)?;
+        let fits = datum.kappa0 == 0.0 && datum.kappa1 > 0.0 && datum.phi0 > 0.0 && datum.phi1 > 0.0;
+        Ok(fits.then(|| Request {
+            base: if placement.reversed { Base::Circle } else { Base::Line },
+            start: ends.start,
+            direction: ends.start_direction,
+            turn: placement.turn(),
+            radius: 1.0 / ends.start_curvature.abs().max(ends.end_curvature.abs()),
+            theta: datum.phi0 + datum.phi1,
+            target: Target::Point(ends.end),
+        }))
+    }
 }
 
 /// A segment with everything asked for.
@@ -135,7 +163,7 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
             let [xi, eta] = frame.to_local(point)?;
             let reached = solve(kind, &Datum { theta, xi, eta })?;
             let segment = if case == 1 { reached.case1 } else { reached.case2 };
-            let Some(s) = segment else { return Ok(Outcome::None { why: why(case, theta, xi, eta) }) };
+            let Some(s) = segment else { return Ok(Outcome::None { why: why(case, theta, point, [xi, eta]) }) };
             (xi, eta, s.m, s.q, s.level)
         }
     };
@@ -186,15 +214,16 @@ fn positive(name: &str, value: f64) -> Result<()> {
 }
 
 /// Why there is no segment: one of the two legs would have to run backwards.
-fn why(case: u8, theta: f64, xi: f64, eta: f64) -> String {
+fn why(case: u8, theta: f64, point: Vector, [xi, eta]: Vector) -> String {
     let (s, c) = theta.sin_cos();
     let (round, name) = if case == 1 { (eta, "eta") } else { (xi * s - eta * c, "xi sin(theta) - eta cos(theta)") };
-    let place = format!("the end point (xi, eta) = ({xi:?}, {eta:?}) at theta = {theta:?}");
-    if round <= 0.0 {
-        format!("{place} has {name} = {round:?}, which must be above 0: it lies behind the tangent of the flat end")
+    let what = if round <= 0.0 {
+        format!("has {name} = {}, which must be above 0: it lies behind the tangent of the flat end", told(round))
     } else {
-        format!("{place} needs m <= 0: it lies too near, so that the flat end's tangent would run backwards")
-    }
+        "needs m <= 0: it lies too near, so that the flat end's tangent would run backwards".into()
+    };
+    let ([x, y], [xi, eta], theta) = (point.map(told), [xi, eta].map(told), degrees(theta));
+    format!("the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, {what}")
 }
 
 /// The start's frame: radius 1, turning left from (0, 0) along (1, 0).

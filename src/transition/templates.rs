@@ -1,5 +1,6 @@
 //! The five templates of transition curves, placed in the plane.
 
+use super::words::degrees;
 use super::{EndCircle, Sample, Turn};
 use crate::curve::Jet;
 use crate::curve::TrigBezier;
@@ -8,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::family::trig_quintic::Scaling;
 use crate::family::trig_quintic::{SPIRAL, Shape, flags, least_ratio};
 use crate::num::roots::find;
+use crate::num::told;
 use serde::Serialize;
 
 /// One spiral of a template: its shape and the radius of its circle.
@@ -253,12 +255,17 @@ fn why_not(template: &Template, scaling: Scaling) -> Result<Option<String>> {
                 None => "and neither does 64".into(),
             };
             return Ok(Some(format!(
-                "{printed}not a spiral: the ratio {ratio} gives none at theta = {theta} rad, m = {m}, p = {p}, q = {q}; {hint}"
+                "{printed}not a spiral: the ratio {} gives none for the angle {}, m = {}, p = {}, q = {}; {hint}",
+                told(ratio),
+                degrees(theta),
+                told(m),
+                told(p),
+                told(q)
             )));
         }
         if scaling == Scaling::AsPrinted {
             let end = 15.0 / (4.0 + q).powi(2);
-            return Ok(Some(format!("as printed: the end curvature is {end} / r, r = {radius}, and not 1 / r")));
+            return Ok(Some(format!("as printed: the end curvature is {end} / r, r = {}, and not 1 / r", told(*radius))));
         }
     }
     Ok(None)

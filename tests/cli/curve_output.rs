@@ -168,6 +168,43 @@ fn a_no_names_the_families_that_would_do() {
     assert!(json["reason"].as_str().unwrap().starts_with("no cubic spiral: the start curvature is 0"), "{json}");
 }
 
+/// Ends that a segment of `reach-cubic` and one of `reach-ph` join, and one that neither does: from a line to a circle, and back.
+#[test]
+fn a_straight_end_is_advised_the_segments_that_join_it() {
+    let ask = |ends: [&str; 6], more: &[&str]| {
+        let names = ["--from", "--to", "--start-direction", "--end-direction", "--start-curvature", "--end-curvature"];
+        run(["curve"].into_iter().chain(names.into_iter().zip(ends).flat_map(|(a, b)| [a, b])).chain(more.iter().copied()))
+    };
+    let cases = [
+        (["10,5", "35.4,28.9", "30°", "75°", "0", "0.05"], &["reach-cubic", "reach-ph"][..]),
+        (["35.4,28.9", "10,5", "255°", "210°", "-0.05", "0"], &["reach-cubic", "reach-ph"]),
+        (["0,0", "200,0", "-25°", "50°", "0", "0.012"], &["reach-ph"]),
+        (["0,0", "200,0", "-40°", "80°", "0", "0.04"], &[]),
+    ];
+    for (ends, families) in cases {
+        let said = ask(ends, &[]);
+        let json: Value = serde_json::from_str(&ask(ends, &["--json"]).out).unwrap();
+        let commands: Vec<&str> = json["segments"].as_array().into_iter().flatten().map(|c| c.as_str().unwrap()).collect();
+        assert!(said.code == Some(1) && commands.len() == families.len(), "{}", said.out);
+        for (command, family) in commands.iter().zip(families) {
+            assert!(said.out.contains(&format!("`{command}`")), "{}", said.out);
+            let words: Vec<&str> = command.split(' ').collect();
+            assert_eq!(words[..4], ["spiral-atlas", "curve", "--family", family]);
+            let found = run(words[1..].iter().chain(&["--json", "--samples", "2"])).json();
+            // It has the ends that were asked for: points exactly, the rest within the roundings of a chord's direction.
+            let [first, last] = [0, 1].map(|i| row(&found["samples"][i]));
+            let degrees = |text: &str| text.trim_end_matches('°').parse::<f64>().unwrap().to_radians();
+            for (at, point, heading, curvature) in [(first, ends[0], ends[2], ends[4]), (last, ends[1], ends[3], ends[5])] {
+                assert_eq!(format!("{},{}", at[1], at[2]), point);
+                assert!((at[3] - degrees(heading)).sin().abs() < 1e-13, "{at:?} {heading}");
+                assert!((at[4] - curvature.parse::<f64>().unwrap()).abs() < 1e-13, "{at:?} {curvature}");
+            }
+        }
+    }
+    let short = ask(cases[0].0, &["--longest", "30"]);
+    assert!(short.code == Some(1) && !short.out.contains("reach-"), "{}", short.out);
+}
+
 #[test]
 fn batches_have_a_line_for_each_row() {
     let rows = "curvature1,direction0,x0,y0,x1,y1,curvature0,direction1\n\

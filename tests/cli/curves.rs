@@ -47,6 +47,28 @@ fn no_curve_is_an_answer_with_numbers() {
     assert!(!folder.at("none.png").exists());
 }
 
+#[test]
+fn angles_may_be_written_in_many_ways() {
+    let ask = |start: &str, end: &str| {
+        let json = curve("0,0", "200,0", [start, end], ["0.004", "0.04"], &["--json"]).json();
+        let points = json["paths"][0]["pieces"][0]["control_points"].clone();
+        points.as_array().unwrap().iter().flat_map(|p| [number(&p[0]), number(&p[1])]).collect::<Vec<f64>>()
+    };
+    let (plain, mut others) = (ask("-40deg", "80deg"), 0);
+    let radians = [format!("{:?}", -40f64.to_radians()), format!("{:?}rad", 80f64.to_radians())];
+    let starts =
+        ["-40°", "-40 deg", " -40.0° ", "-4e1deg", "320deg", "-400°", "0.766044443118978,-0.642787609686539", &radians[0]];
+    let ends = ["80°", "80 deg", "+80°", "80 °", "440deg", "-280deg", "1.736481776669303,9.84807753012208", &radians[1]];
+    for (start, end) in starts.into_iter().zip(ends) {
+        // A turn more loses an ulp of itself, and vectors are given to 15 digits; 200 long.
+        let off = ask(start, end).iter().zip(&plain).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 200.0 * 1e-13, "{start} {end}: {off}");
+        others += usize::from(off > 0.0);
+    }
+    assert!(others > 0);
+    assert_ne!(ask("-41deg", "80deg"), plain);
+}
+
 fn point(sample: &serde_json::Value) -> [f64; 2] {
     [number(&sample["x"]), number(&sample["y"])]
 }
@@ -136,6 +158,16 @@ fn options_of_other_families_are_refused() {
     refused(&["curve", "--from", "0,0"], &["`--family cubic` needs", "`--to`", "`--end-curvature`"]);
     refused(&["curve", "--family", "reach-ph", "--to", "1,1"], &["needs", "`--radius`"]);
     refused(&["curve", "--family", "reach-ph", "--m", "1"], &["`--to` or its shape `--m` and `--q`"]);
+    let usage = "Usage: spiral-atlas curve --family reach-ph --from <X,Y> --start-direction <ANGLE|DX,DY> --base <BASE> --turn <TURN> \
+                 --radius <NUMBER> --angle <ANGLE> [--to <X,Y>] [--m <NUMBER>] [--q <NUMBER>] [OPTIONS]";
+    refused(&["curve", "--family", "reach-ph", "--m", "1"], &[usage, "'spiral-atlas curve --help'"]);
+    let template =
+        ["curve", "--family", "trig-quintic", "--template", "circle-in-circle", "--from", "0,0", "--second", "1,1,1,1,1,1"];
+    refused(
+        &template,
+        &["`--template circle-in-circle` needs", "`--outer`", "--family trig-quintic --template circle-in-circle --from"],
+    );
+    refused(&["curve", "--points", "-", "--from", "0,0"], &["`--from` means nothing to `--points`", "--points <FILE>"]);
     refused(&["curve", "--family", "clothoid"], &["clothoid", "involute"]);
     let ends =
         ["curve", "--from", "0,0", "--to", "1,0", "--start-direction", "0", "--end-direction", "1", "--start-curvature", "1"];

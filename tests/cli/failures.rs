@@ -45,6 +45,22 @@ fn bad_input_is_named() {
         (&["render", &junk], 2, &["junk.safetensors"]),
         (&["curve", "--from", "0"], 2, &["\"0\" is not two finite numbers", "Usage: spiral-atlas curve"]),
         (&["path", "hermite"], 2, &["Usage: spiral-atlas path hermite"]),
+        (
+            &["curve", "--familly", "involute"],
+            2,
+            &["a similar argument exists: '--family'", "Usage: spiral-atlas curve", "try 'spiral-atlas curve --help'"],
+        ),
+        (
+            &["path", "hermite", "--figur", "a.png"],
+            2,
+            &["'--figur'", "'--figure'", "Usage: spiral-atlas path hermite", "try 'spiral-atlas path hermite --help'"],
+        ),
+        (
+            &["curve", "--start-direction", "40%"],
+            2,
+            &["--start-direction", "`40deg` or `40°`", "try 'spiral-atlas curve --help'"],
+        ),
+        (&["--famly"], 2, &["'--famly'", "Usage: spiral-atlas <COMMAND>", "try 'spiral-atlas --help'"]),
         (&["info", &folder.text("")], 2, &["not an ordinary file"]),
         (&["generate", &folder.text("")], 2, &["it is a folder"]),
         (

@@ -5,6 +5,7 @@
 #[path = "../adapters/mod.rs"]
 mod adapters;
 mod answers;
+mod cells;
 mod curve_output;
 mod curves;
 mod failures;
@@ -12,6 +13,7 @@ mod files;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod path;
+mod snapshots;
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};

@@ -12,9 +12,9 @@ fn pages() -> Vec<PathBuf> {
     [Path::new(ROOT).join("README.md")].into_iter().chain(pages).collect()
 }
 
-/// A line of shell: the arguments of each command, whose output the next one reads, and the exit status of the last: 0, or 1 where the
-/// page says so in a comment that begins with `exit 1`.
-type Line = (Vec<Vec<String>>, i32);
+/// A line of shell: what `printf` writes in front, the arguments of each command, whose output the next one reads, and the exit status of
+/// the last: 0, or 1 where the page says so in a comment that begins with `exit 1`.
+type Line = (String, Vec<Vec<String>>, i32);
 
 /// Every line of `query`, `curve`, `join` and `path` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
 fn commands(text: &str) -> Vec<Line> {
@@ -26,15 +26,19 @@ fn commands(text: &str) -> Vec<Line> {
             Some(rest.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
         };
         let (command, comment) = line.split_once(" #").unwrap_or((&line, ""));
+        let (written, command) = match command.strip_prefix("printf '").and_then(|rest| rest.split_once("' | ")) {
+            Some((text, rest)) => (text.replace("\\n", "\n"), rest),
+            None => (String::new(), command),
+        };
         let commands = command.split(" | ").map(|command| one(command.trim())).collect::<Option<Vec<_>>>()?;
-        Some((commands, i32::from(comment.trim_start().starts_with("exit 1"))))
+        Some((written, commands, i32::from(comment.trim_start().starts_with("exit 1"))))
     });
-    arguments.filter(|(line, _)| ["query", "curve", "path", "join"].contains(&line[0][0].as_str())).collect()
+    arguments.filter(|(_, line, _)| ["query", "curve", "join", "path"].contains(&line[0][0].as_str())).collect()
 }
 
 /// Runs a line in a folder.
-fn run((line, status): &Line, folder: &Path) {
-    let mut read = Vec::new();
+fn run((written, line, status): &Line, folder: &Path) {
+    let mut read = written.clone().into_bytes();
     for (i, arguments) in line.iter().enumerate() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_spiral-atlas"));
         command.current_dir(folder).args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -66,7 +70,6 @@ fn commands_work_and_draw_the_figures() {
     for example in std::fs::read_dir(Path::new(ROOT).join("examples")).unwrap().map(|entry| entry.unwrap()) {
         std::fs::copy(example.path(), folder.path().join("examples").join(example.file_name())).unwrap();
     }
-    std::fs::write(folder.path().join("data.csv"), "phi0,phi1,kappa0,kappa1\n0.7,1.4,0.4,4\n").unwrap();
     let mut lines = 0;
     for page in pages() {
         for line in commands(&std::fs::read_to_string(&page).unwrap()) {
@@ -112,7 +115,9 @@ fn links_lead_to_files() {
 fn commands_are_found() {
     let text = "```sh\ncargo run --release -- query --a 1 \\\n    --b 2  # exit 1: no\nls\nspiral-atlas generate x\n```\nspiral-atlas query\n";
     let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
-    assert_eq!(commands(text), [(vec![words("query --a 1 --b 2")], 1)]);
+    assert_eq!(commands(text), [(String::new(), vec![words("query --a 1 --b 2")], 1)]);
     let text = "```sh\nspiral-atlas path a | spiral-atlas path b -\nspiral-atlas path a | less\n```\n";
-    assert_eq!(commands(text), [(vec![words("path a"), words("path b -")], 0)]);
+    assert_eq!(commands(text), [(String::new(), vec![words("path a"), words("path b -")], 0)]);
+    let text = "```sh\nprintf 'a,b\\n1,2\\n' | \\\n    spiral-atlas query --points -\n```\n";
+    assert_eq!(commands(text), [("a,b\n1,2\n".into(), vec![words("query --points -")], 0)]);
 }

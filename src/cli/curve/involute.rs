@@ -9,7 +9,7 @@ use spiral_atlas::{Error, Result};
 
 /// What is known of two ends, and the curve in the user's units.
 #[derive(Debug, Serialize)]
-pub struct Told {
+pub struct Answer {
     ends: Ends,
     #[serde(flatten)]
     spiral: Spiral,
@@ -27,14 +27,14 @@ struct Drawn {
     curvature: f64,
 }
 
-pub fn find(ends: &Ends, turns: [u32; 2]) -> Result<Told> {
+pub fn find(ends: &Ends, turns: [u32; 2]) -> Result<Answer> {
     let (spiral, frame) = involute_between(ends, turns)?;
-    let mut told = Told { ends: *ends, spiral, length: None, frame };
-    told.length = told.spiral.curve().map(|curve| curve.length() * told.unit());
-    Ok(told)
+    let mut answer = Answer { ends: *ends, spiral, length: None, frame };
+    answer.length = answer.spiral.curve().map(|curve| curve.length() * answer.unit());
+    Ok(answer)
 }
 
-impl Told {
+impl Answer {
     /// Half the chord in the user's unit.
     fn unit(&self) -> f64 {
         let [x, y] = self.frame.half_chord;
@@ -52,7 +52,7 @@ impl Told {
     }
 }
 
-impl Found for Told {
+impl Found for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         if let Some(between) = InvoluteBetween::of(&self.ends, &self.spiral, &self.frame) {
             return Ok(vec![Piece::Involute(between)]);

@@ -2,23 +2,23 @@
 
 mod cubic;
 mod involute;
+mod options;
 mod ph;
 mod reach;
+mod report;
 mod table;
-mod tell;
 mod trig;
 
 use super::{Outcome, output};
+use report::{Report, Wish};
 use serde::Serialize;
 use spiral_atlas::curve::Jet;
 use spiral_atlas::family::reach::Kind;
 use spiral_atlas::plot::{self, CurveFigure, EndCircle, Graph};
 use spiral_atlas::recipe::parse_angle;
-use spiral_atlas::transition::segment::Base;
-use spiral_atlas::transition::{Ends, Piece, Turn, direction_of, ph_spiral, spiral};
+use spiral_atlas::transition::{Ends, Piece, direction_of, ph_spiral, spiral};
 use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
-use tell::{Told, Wish};
 
 const SIZE: (u32, u32) = (1500, 900);
 const SAMPLES: usize = 801;
@@ -36,7 +36,7 @@ const SAMPLES: usize = 801;
 /// the angle that it turns, its radius and its shape numbers.
 ///
 /// Exit status: 0 when there is such a spiral, 1 when there is none, 2 for an error. A no comes with the condition that fails, in your
-/// units, and with the other families that have a spiral there.
+/// units, and with what to type for the other families that have a spiral there.
 ///
 /// With --points, one line of JSON for each row, in order, as of --json but without advice (no other families or curvatures are tried); a
 /// bad row gives {"line":..,"error":".."}. The exit status is 0 when every row was answered, whatever the answers, and 2 when one was bad.
@@ -52,6 +52,9 @@ const SAMPLES: usize = 801;
                         --turn left --radius 20 --angle 42deg --m 1"
 )]
 pub struct Args {
+    // First, since each field takes its own from what was given.
+    #[command(flatten)]
+    given: options::Given,
     /// What kind of curve.
     #[arg(long, value_enum, value_name = "NAME", default_value = "cubic")]
     family: Family,
@@ -148,6 +151,13 @@ enum Family {
     TrigQuintic,
 }
 
+impl Family {
+    /// Its name, as it is typed.
+    fn name(self) -> String {
+        clap::ValueEnum::to_possible_value(&self).map(|value| value.get_name().to_owned()).unwrap_or_default()
+    }
+}
+
 /// What a family found; told as JSON too.
 trait Found: Serialize {
     /// The spirals that were asked for, in the direction of travel, or why there are none.
@@ -174,30 +184,30 @@ pub fn run(args: &Args) -> Result<Outcome> {
         if !matches!(args.family, Family::Cubic | Family::PhQuintic | Family::Involute) {
             super::refuse("`--points` is for the families `cubic`, `ph-quintic` and `involute`");
         }
-        args.check(&[], if args.family == Family::Involute { &["--turns"] } else { &[] });
+        args.check(&[], if args.family == Family::Involute { &["turns"] } else { &[] });
         return table::run(args, path);
     }
     let longest = args.wish().longest();
     match args.family {
-        Family::Cubic => args.tell(&spiral(&args.ends(&[]))?.no_longer_than(longest).with_remedies()?),
-        Family::PhQuintic => args.tell(&ph_spiral(&args.ends(&[]))?.no_longer_than(longest).with_remedies()?),
-        Family::Involute => args.tell(&involute::find(&args.ends(&["--turns"]), args.turns.unwrap_or_default())?),
-        Family::ReachCubic => args.tell(&reach::find(Kind::Cubic, &args.segment())?),
-        Family::ReachPh => args.tell(&reach::find(Kind::Ph, &args.segment())?),
-        Family::TrigQuintic => args.tell(&trig::find(&args.template())?),
+        Family::Cubic => args.report(&spiral(&args.ends(&[]))?.no_longer_than(longest).with_remedies()?),
+        Family::PhQuintic => args.report(&ph_spiral(&args.ends(&[]))?.no_longer_than(longest).with_remedies()?),
+        Family::Involute => args.report(&involute::find(&args.ends(&["turns"]), args.turns.unwrap_or_default())?),
+        Family::ReachCubic => args.report(&reach::find(Kind::Cubic, &args.segment())?),
+        Family::ReachPh => args.report(&reach::find(Kind::Ph, &args.segment())?),
+        Family::TrigQuintic => args.report(&trig::find(&args.template())?),
     }
 }
 
 impl Args {
     /// Prints what was found, and draws it where that is asked for.
-    fn tell(&self, found: &impl Found) -> Result<Outcome> {
-        let told = Told::new(found, self.wish())?;
+    fn report(&self, found: &impl Found) -> Result<Outcome> {
+        let report = Report::new(found, self.wish())?;
         match (self.json, self.csv) {
-            (true, _) => output::print_json(&told)?,
-            (_, true) => told.csv()?,
-            _ => output::print(&told.text())?,
+            (true, _) => output::print_json(&report)?,
+            (_, true) => report.csv()?,
+            _ => output::print(&report.text())?,
         }
-        let Some(path) = &self.figure else { return Ok(told.outcome()) };
+        let Some(path) = &self.figure else { return Ok(report.outcome()) };
         match found.figure() {
             Ok(figure) => {
                 spiral_atlas::files::write_file(path, &plot::curve_png(&figure, SIZE)?)?;
@@ -207,133 +217,11 @@ impl Args {
             }
             Err(e) => output::note(&format!("{} was not drawn: {e}", path.display())),
         }
-        Ok(told.outcome())
+        Ok(report.outcome())
     }
 
     fn wish(&self) -> Wish {
         Wish { family: self.family, longest: self.longest, samples: self.samples, advice: self.points.is_none() }
-    }
-
-    /// Every option with a value of its own that not all families know, and whether it is given.
-    fn given(&self) -> [(&'static str, bool); 19] {
-        [
-            ("--from", self.from.is_some()),
-            ("--to", self.to.is_some()),
-            ("--start-direction", self.start_direction.is_some()),
-            ("--end-direction", self.end_direction.is_some()),
-            ("--start-curvature", self.start_curvature.is_some()),
-            ("--end-curvature", self.end_curvature.is_some()),
-            ("--turns", self.turns.is_some()),
-            ("--base", self.base.is_some()),
-            ("--turn", self.turn.is_some()),
-            ("--radius", self.radius.is_some()),
-            ("--angle", self.angle.is_some()),
-            ("--m", self.m.is_some()),
-            ("--q", self.q.is_some()),
-            ("--template", self.template.is_some()),
-            ("--ratio", self.ratio.is_some()),
-            ("--p", self.p.is_some()),
-            ("--second", self.second.is_some()),
-            ("--outer", self.outer.is_some()),
-            ("--as-printed", self.as_printed),
-        ]
-    }
-
-    /// Ends the program unless all of `needed` are given and nothing but them and `allowed`.
-    fn check(&self, needed: &[&str], allowed: &[&str]) {
-        let family = || clap::ValueEnum::to_possible_value(&self.family).map(|v| v.get_name().to_owned()).unwrap_or_default();
-        let who = match &self.template {
-            _ if self.points.is_some() => "--points".into(),
-            Some(name) if needed.contains(&"--template") => format!("--template {name}"),
-            _ => format!("--family {}", family()),
-        };
-        let list = |names: Vec<&str>| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
-        let missing: Vec<&str> =
-            self.given().into_iter().filter(|(n, given)| !given && needed.contains(n)).map(|(n, _)| n).collect();
-        if !missing.is_empty() {
-            super::refuse(&format!("`{who}` needs {} too", list(missing)));
-        }
-        let known = |n: &str| needed.contains(&n) || allowed.contains(&n);
-        let surplus: Vec<&str> = self.given().into_iter().filter(|(n, given)| *given && !known(n)).map(|(n, _)| n).collect();
-        if !surplus.is_empty() {
-            super::refuse(&format!("{} means nothing to `{who}`", list(surplus)));
-        }
-    }
-
-    /// The two ends, of a family that knows also the options `more`.
-    fn ends(&self, more: &[&str]) -> Ends {
-        self.check(&["--from", "--to", "--start-direction", "--end-direction", "--start-curvature", "--end-curvature"], more);
-        Ends {
-            start: self.from.unwrap_or_default(),
-            end: self.to.unwrap_or_default(),
-            start_direction: self.start_direction.unwrap_or_default(),
-            end_direction: self.end_direction.unwrap_or_default(),
-            start_curvature: self.start_curvature.unwrap_or_default(),
-            end_curvature: self.end_curvature.unwrap_or_default(),
-        }
-    }
-
-    /// The segment to add.
-    fn segment(&self) -> reach::Request {
-        use spiral_atlas::transition::segment::Target;
-        let needed = ["--from", "--start-direction", "--base", "--turn", "--radius", "--angle"];
-        let target = match (self.to, self.m, self.q) {
-            (Some(point), None, None) => Target::Point(point),
-            (None, Some(m), Some(q)) => Target::Shape { m, q },
-            _ => super::refuse("a segment needs its end point `--to` or its shape `--m` and `--q`"),
-        };
-        self.check(&needed, &["--to", "--m", "--q"]);
-        reach::Request {
-            base: if self.base.as_deref() == Some("circle") { Base::Circle } else { Base::Line },
-            start: self.from.unwrap_or_default(),
-            direction: self.start_direction.unwrap_or_default(),
-            turn: if self.turn.as_deref() == Some("right") { Turn::Right } else { Turn::Left },
-            radius: self.radius.unwrap_or_default(),
-            theta: self.angle.unwrap_or_default(),
-            target,
-        }
-    }
-
-    /// The template and where it lies.
-    fn template(&self) -> trig::Request {
-        use spiral_atlas::family::trig_quintic::Scaling;
-        use spiral_atlas::family::trig_quintic::Shape;
-        use spiral_atlas::transition::templates::{Segment, Template};
-        let name = self.template.as_deref().unwrap_or_default();
-        let mut needed = vec!["--template", "--from", "--start-direction", "--turn", "--radius", "--angle", "--m"];
-        let mut allowed = vec!["--ratio", "--p", "--q", "--as-printed"];
-        match name {
-            "circle-in-circle" => needed.push("--outer"),
-            "line-circle" => {}
-            _ => allowed.push("--second"),
-        }
-        self.check(&needed, &allowed);
-        let (m, radius) = (self.m.unwrap_or_default(), self.radius.unwrap_or_default());
-        let ratio = self.ratio.unwrap_or(if self.as_printed { 0.5 * (6.0 + m) } else { 6.0 });
-        let shape = Shape {
-            ratio,
-            theta: self.angle.unwrap_or_default(),
-            m,
-            p: self.p.unwrap_or_default(),
-            q: self.q.unwrap_or_default(),
-        };
-        let first = Segment { shape, radius };
-        let second = self
-            .second
-            .map_or(first, |[theta, radius, ratio, m, p, q]| Segment { shape: Shape { ratio, theta, m, p, q }, radius });
-        trig::Request {
-            template: match name {
-                "line-circle" => Template::LineCircle(first),
-                "line-line" => Template::LineLine { first, second },
-                "s" => Template::S { first, second },
-                "c" => Template::C { first, second },
-                _ => Template::CircleInCircle { inner: first, outer: self.outer.unwrap_or_default() },
-            },
-            at: self.from.unwrap_or_default(),
-            direction: self.start_direction.unwrap_or_default(),
-            turn: if self.turn.as_deref() == Some("right") { Turn::Right } else { Turn::Left },
-            scaling: if self.as_printed { Scaling::AsPrinted } else { Scaling::Corrected },
-        }
     }
 }
 

@@ -12,7 +12,7 @@ use spiral_atlas::{Error, Result};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub struct Told {
+pub struct Answer {
     #[serde(skip)]
     kind: Kind,
     request: Request,
@@ -20,11 +20,26 @@ pub struct Told {
     outcome: Outcome,
 }
 
-pub fn find(kind: Kind, request: &Request) -> Result<Told> {
-    Ok(Told { kind, request: *request, outcome: add_segment(kind, request)? })
+pub fn find(kind: Kind, request: &Request) -> Result<Answer> {
+    Ok(Answer { kind, request: *request, outcome: add_segment(kind, request)? })
 }
 
-impl Found for Told {
+/// What to type for a segment that ends at a point.
+pub fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
+    let Request { base, start, direction, turn, radius, theta, .. } = request;
+    let base = if *base == Base::Line { "line" } else { "circle" };
+    format!(
+        "spiral-atlas curve --family {} --base {base} --from={:?},{:?} --start-direction={direction:?} --turn {turn} --radius {radius:?} \
+         --angle {theta:?} --to={:?},{:?}",
+        kind.name(),
+        start[0],
+        start[1],
+        to[0],
+        to[1]
+    )
+}
+
+impl Found for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
             Outcome::None { why } => Err(format!("no segment of `{}`: {why}", self.kind.name())),

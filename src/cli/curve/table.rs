@@ -1,7 +1,7 @@
 //! `curve --points`: ends from a CSV file, one answer a line.
 
 use super::super::{Outcome, output, points};
-use super::tell::{Told, Wish};
+use super::report::{Report, Wish};
 use super::{Args, Family, Found, involute};
 use spiral_atlas::recipe::parse_angle;
 use spiral_atlas::transition::{Ends, ph_spiral, spiral};
@@ -17,16 +17,16 @@ pub fn run(args: &Args, path: &Path) -> Result<Outcome> {
     let line = |cells: &[&str]| {
         let ends = ends(cells)?;
         match args.family {
-            Family::PhQuintic => told(&ph_spiral(&ends)?.no_longer_than(wish.longest()), wish),
-            Family::Involute => told(&involute::find(&ends, args.turns.unwrap_or_default())?, wish),
-            _ => told(&spiral(&ends)?.no_longer_than(wish.longest()), wish),
+            Family::PhQuintic => report(&ph_spiral(&ends)?.no_longer_than(wish.longest()), wish),
+            Family::Involute => report(&involute::find(&ends, args.turns.unwrap_or_default())?, wish),
+            _ => report(&spiral(&ends)?.no_longer_than(wish.longest()), wish),
         }
     };
     points::run(path, &[&COLUMNS], |_, cells| line(cells))
 }
 
-fn told(found: &impl Found, wish: Wish) -> Result<Vec<u8>> {
-    serde_json::to_vec(&Told::new(found, wish)?).map_err(output::json_error)
+fn report(found: &impl Found, wish: Wish) -> Result<Vec<u8>> {
+    serde_json::to_vec(&Report::new(found, wish)?).map_err(output::json_error)
 }
 
 /// The ends of a row.

@@ -11,16 +11,16 @@ use spiral_atlas::transition::{EndCircle, Piece, Sample, TrigPart};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub struct Told {
+pub struct Answer {
     request: Request,
     outcome: Outcome,
 }
 
-pub fn find(request: &Request) -> Result<Told> {
-    Ok(Told { request: *request, outcome: path(request)? })
+pub fn find(request: &Request) -> Result<Answer> {
+    Ok(Answer { request: *request, outcome: path(request)? })
 }
 
-impl Told {
+impl Answer {
     fn title(&self) -> String {
         let name = match self.request.template {
             Template::LineCircle(_) => "line to circle",
@@ -39,7 +39,7 @@ impl Told {
     }
 }
 
-impl Found for Told {
+impl Found for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
             Outcome::Spirals(path) => Ok(pieces(path)),

@@ -4,7 +4,7 @@ use super::input::objects;
 use super::{Files, Outcome, figure};
 use crate::cli::output;
 use serde::{Deserialize, Serialize};
-use spiral_atlas::path::{Course, OffsetCurve, Spot};
+use spiral_atlas::path::{Course, OffsetCurve, Spot, Summary};
 use spiral_atlas::transition::{Piece, Station};
 use spiral_atlas::{Error, Result};
 
@@ -54,12 +54,8 @@ struct Output {
 
 #[derive(Serialize)]
 struct Measured {
-    length: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    bending_energy: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    absolute_rotation: Option<f64>,
-    greatest_curvature: f64,
+    #[serde(flatten)]
+    summary: Summary,
     curvature_extrema: Vec<Spot>,
     inflections: Vec<Spot>,
     samples: Vec<Station>,
@@ -69,10 +65,7 @@ struct Measured {
 
 fn measured(course: &Course, args: &Args) -> Result<Measured> {
     Ok(Measured {
-        length: course.length(),
-        bending_energy: course.bending_energy(),
-        absolute_rotation: course.absolute_rotation(),
-        greatest_curvature: course.greatest_curvature(),
+        summary: course.summary(),
         curvature_extrema: course.curvature_extrema(),
         inflections: course.inflections(),
         samples: args.samples.map_or(Ok(vec![]), |count| course.stations(count as usize))?,

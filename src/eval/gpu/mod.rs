@@ -14,6 +14,7 @@ mod slot;
 mod tests;
 
 pub use adapter::{AdapterFacts, adapters, select};
+#[doc(hidden)]
 pub use assemble::{Assembled, SourceMap, assemble, validate};
 
 use crate::error::{Error, Result};

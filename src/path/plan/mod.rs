@@ -9,6 +9,8 @@ mod places;
 mod proof;
 mod round;
 mod search;
+#[cfg(test)]
+mod work;
 
 use super::{ROUNDINGS, Turn, check_joined, distance, finite};
 use crate::curve::PhQuintic;
@@ -36,6 +38,9 @@ const SEVERAL: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 /// Work for all searches but the first, some seconds, and for those after there is a path.
 const WORK: usize = 8_000_000;
 const MORE: usize = 1_000_000;
+/// Sides that the first search looks at: so many, and so many for each vertex. Scattered obstacles take 800 a vertex where they have 1,000
+/// vertices, and 3,500 where they have 10,000; only sides that crowd along many lines take more than twice that.
+const SIDES_LOOKED_AT: [usize; 2] = [2_000_000, 6_000];
 /// Paths this much longer than without a limit of curvature are detours: then there may be shorter ones further off.
 const DETOUR: f64 = 2.0;
 
@@ -270,7 +275,8 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
     let sharp = || search(limits.sharp(), beside(limits.sharp(), 0.0)).within(f64::INFINITY, WORK).run().0;
     let (mut best, mut gave_up, mut shortest) = (None, false, None);
     let mut longest = f64::INFINITY;
-    match search(limits, near.clone()).run().0 {
+    let sides = SIDES_LOOKED_AT[0] + SIDES_LOOKED_AT[1] * obstacles.sides().count();
+    match search(limits, near.clone()).looking_at(sides).run().0 {
         Found::Path(path, length) if length <= DETOUR * distance(ends[0], ends[1]) => return Ok(path),
         Found::Path(path, length) => {
             shortest = Some(sharp());
@@ -284,17 +290,22 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
         Found::None => {}
         Found::GaveUp => gave_up = true,
     }
-    let open = || open(obstacles, ends, &near, &limits);
-    let wide = |all: &[f64]| all.iter().flat_map(|wide| beside(limits, *wide)).collect();
+    let open = open(obstacles, ends, &near, &limits);
+    let wide = |all: &[f64]| [near.clone(), all.iter().flat_map(|wide| beside(limits, *wide)).collect()].concat();
     let wider = WIDE.chunks(1).chain([&SEVERAL[..]]).map(wide);
+    // Those in the open are few, and alone they give a path where it need not come close to anything.
+    let alone = std::iter::once(open.clone());
     let mut left = WORK;
-    for more in std::iter::once_with(open).chain(wider) {
-        let (found, rest) = search(limits, [&near[..], &more].concat()).within(longest, left).run();
+    for (i, places) in alone.chain([[&near[..], &open].concat()]).chain(wider).enumerate() {
+        let (found, rest) = search(limits, places).within(longest, left).run();
         left = rest;
         match found {
             Found::Path(path, length) => {
                 (best, longest) = (Some(path), length);
-                left = left.min(MORE);
+                // A path in the open alone may be long; but where places are too many for the first search, more work is in vain.
+                if i > 0 || gave_up {
+                    left = left.min(MORE);
+                }
             }
             Found::None => {}
             Found::GaveUp => gave_up = true,

@@ -6,6 +6,7 @@ use super::places::Place;
 use super::proof::{Clearance, clearance};
 use crate::path::queue::Queue;
 use crate::path::{Turn, distance};
+use std::collections::HashSet;
 use std::rc::Rc;
 
 /// Legs found in one search, at most.
@@ -13,7 +14,7 @@ const LEGS: usize = 1_000_000;
 /// A leg found takes as long as so many looks from one place to another.
 const LEG: usize = 4;
 /// So many sides looked at take as long as one look from one place to another.
-const SIDES: usize = 8;
+pub const SIDES: usize = 8;
 /// And a corner curve that is looked at.
 const CURVE: usize = 20;
 /// Places this nearly on a line are passed without turning there: sine of the angle.
@@ -123,13 +124,17 @@ pub struct Search<'o> {
     work: usize,
     /// Sides looked at until work was last taken off.
     looks: usize,
+    /// Sides looked at when the search gives up.
+    most_looks: usize,
 }
 
 impl<'o> Search<'o> {
     pub fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
         let free = |place: &Place| place.at.iter().all(|x| x.is_finite()) && is_clear(obstacles, [place.at; 2], limits.keep);
         let ends = ends.map(|at| Place { at, vertex: None, wide: false }).into_iter();
-        let places: Vec<Place> = ends.chain(beside.into_iter().filter(free)).collect();
+        let mut known = HashSet::new();
+        let new = |place: &Place| place.cell().is_none_or(|cell| known.insert(cell));
+        let places: Vec<Place> = ends.chain(beside.into_iter().filter(free).filter(new)).collect();
         let seen = vec![None; places.len()];
         let taken = vec![vec![]; places.len()];
         let (legs, waiting) = (vec![], Queue::new());
@@ -144,12 +149,18 @@ impl<'o> Search<'o> {
             longest: f64::INFINITY,
             work: usize::MAX,
             looks: obstacles.looks(),
+            most_looks: usize::MAX,
         }
     }
 
     /// Only paths shorter than this, and not for ever.
     pub fn within(self, longest: f64, work: usize) -> Search<'o> {
         Search { longest, work, ..self }
+    }
+
+    /// And not past so many sides looked at.
+    pub fn looking_at(self, sides: usize) -> Search<'o> {
+        Search { most_looks: self.looks + sides, ..self }
     }
 
     /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than before.
@@ -163,7 +174,7 @@ impl<'o> Search<'o> {
     fn find(&mut self) -> Found {
         self.extend(None);
         while let Some((_, leg)) = self.waiting.pop() {
-            if self.legs.len() > LEGS || self.work == 0 {
+            if self.spent() {
                 return Found::GaveUp;
             }
             let Leg { places, index, turn, path, .. } = self.legs[leg];
@@ -177,7 +188,12 @@ impl<'o> Search<'o> {
             }
             self.extend(Some(leg));
         }
-        Found::None
+        // What was seen last may not be all.
+        if self.spent() { Found::GaveUp } else { Found::None }
+    }
+
+    fn spent(&self) -> bool {
+        self.legs.len() > LEGS || self.work == 0 || self.obstacles.looks() > self.most_looks
     }
 
     /// Whether the curve at the start of a leg comes too near to something.
@@ -252,7 +268,8 @@ impl<'o> Search<'o> {
             let clear = seen.length > 0.0 && is_clear(self.obstacles, [here.at, there.at], self.limits.keep);
             clear.then_some(seen)
         };
-        let seen: Rc<[Seen]> = self.places.iter().enumerate().skip(GOAL).filter_map(look).collect();
+        let within = |_: &(usize, &Place)| self.obstacles.looks() <= self.most_looks;
+        let seen: Rc<[Seen]> = self.places.iter().enumerate().skip(GOAL).take_while(within).filter_map(look).collect();
         self.spend(self.places.len());
         self.taken[from] = vec![f64::INFINITY; seen.len()];
         self.seen[from] = Some(seen.clone());
@@ -278,22 +295,43 @@ mod tests {
     use super::*;
     use crate::path::plan::places::places;
 
+    fn squares(step: f64) -> Obstacles {
+        let square =
+            |i: usize| [[3.0, -2.0], [7.0, -2.0], [7.0, 2.0], [3.0, 2.0]].map(|p| p.map(|x| x + step * i as f64)).to_vec();
+        Obstacles::new(&(0..60).map(square).collect::<Vec<_>>()).unwrap()
+    }
+
+    const LIMITS: Limits = Limits { clearance: 0.1, keep: 0.1 + 1e-12, most: 0.3, least_reach: 1e-8 };
+
+    fn among(obstacles: &Obstacles) -> Search<'_> {
+        Search::new(obstacles, LIMITS, [[0.0, 0.0], [10.0, 0.0]], places(obstacles, LIMITS.keep, LIMITS.most, 0.0))
+    }
+
     /// Squares that nearly coincide: each look from place to place meets the sides of all of them, and that is work, too.
     #[test]
     fn sides_that_nearly_coincide_are_work() {
-        let square =
-            |i: usize| [[3.0, -2.0], [7.0, -2.0], [7.0, 2.0], [3.0, 2.0]].map(|p| p.map(|x| x + 1e-9 * i as f64)).to_vec();
-        let obstacles = Obstacles::new(&(0..60).map(square).collect::<Vec<_>>()).unwrap();
-        let limits = Limits { clearance: 0.1, keep: 0.1 + 1e-12, most: 0.3, least_reach: 1e-8 };
+        let obstacles = squares(1e-3);
         let work = 20_000;
-        let before = obstacles.looks();
-        let beside = places(&obstacles, limits.keep, limits.most, 0.0);
-        let count = beside.len();
-        let search = Search::new(&obstacles, limits, [[0.0, 0.0], [10.0, 0.0]], beside).within(f64::INFINITY, work);
+        let search = among(&obstacles).within(f64::INFINITY, work);
+        let (count, before) = (search.places.len(), obstacles.looks());
         let (found, left) = search.run();
         let looks = obstacles.looks() - before;
-        // What was allowed, the places that were looked at first, and all that one place sees beyond it.
-        assert!(looks <= SIDES * work + 2 * count * 240, "{looks} {count}");
+        // What was allowed, and all that one place sees beyond it.
+        assert!(looks <= SIDES * work + count * 240, "{looks} {count}");
         assert!(matches!(found, Found::GaveUp) && left == 0, "{found:?} {left}");
+        // So many sides, those of one more look, and those of one more corner curve.
+        let (before, most) = (obstacles.looks(), 50_000);
+        let (found, _) = among(&obstacles).looking_at(most).run();
+        let looks = obstacles.looks() - before;
+        assert!(matches!(found, Found::GaveUp) && looks <= most + count * 240, "{found:?} {looks}");
+    }
+
+    #[test]
+    fn places_that_nearly_coincide_are_one() {
+        let count = |step: f64| among(&squares(step)).places.len();
+        // A lattice may part them in each of four coordinates.
+        let (one, many) = (count(0.0), count(1e-9));
+        assert!(one >= 6 && many <= 16 * one && many < 100, "{one} {many}");
+        assert!(count(1e-3) > 30 * one, "{}", count(1e-3));
     }
 }

@@ -2,8 +2,8 @@
 
 use super::EPS;
 use spiral_atlas::family::any_spiral::{Chord, involute};
-use spiral_atlas::transition::{Ends, Placement, involute_between};
-use std::f64::consts::{FRAC_PI_2, PI};
+use spiral_atlas::transition::{Ends, Placement, involute_between, ph_spiral};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// Directions of the chord, as vectors, and their angles in degrees: along the axes, along diagonals, and others with their neighbours.
 fn chords() -> Vec<([f64; 2], f64)> {
@@ -69,6 +69,39 @@ fn half_and_quarter_turns_land_in_the_domain_however_they_are_written() {
     }
     println!("{compared} placements, {curves} curves");
     assert!(compared > 30_000 && curves > 5_000);
+}
+
+/// PH quintics, for directions at every eighth of a turn against the chord in every quadrant: the answer is that for ends on the x axis.
+#[test]
+fn ph_quintics_are_placed_alike_in_every_quadrant() {
+    let (mut compared, mut curves) = (0, 0);
+    for (vector, chord) in chords().into_iter().step_by(2) {
+        for (first, last) in (-4i32..=4).flat_map(|first| (-4i32..=4).map(move |last| (first, last))) {
+            let eighths = [first, last].map(|n| f64::from(n) * FRAC_PI_4);
+            for k in [[0.4, 4.0], [-4.0, -0.4], [-0.4, -4.0], [4.0, 0.4], [0.5, 20.0]] {
+                let plain = ph_spiral(&ends([2.0, 0.0], eighths, k)).unwrap();
+                for whole in [0.0, 360.0] {
+                    let [a, b] = [first, last].map(|n| (chord + 45.0 * f64::from(n) + whole).to_radians());
+                    let placed = ends(vector, [a, b], k);
+                    let found = ph_spiral(&placed).unwrap_or_else(|e| panic!("{placed:?}: {e}"));
+                    // On a boundary of the domain rounding decides: along the chord, at opposite angles, and where tangents are parallel.
+                    if first * last * (first + last) == 0 || (last - first).abs() == 4 {
+                        continue;
+                    }
+                    assert_eq!(found.chosen().is_some(), plain.chosen().is_some(), "{placed:?}: {found}");
+                    if let (Some(one), Some(other)) = (found.chosen(), plain.chosen()) {
+                        let (size, half) = (0.5 * vector[0].hypot(vector[1]), 1.0);
+                        assert!((one.length / size / (other.length / half) - 1.0).abs() < 1e-10, "{placed:?}");
+                        assert_eq!((one.control_points[0], one.control_points[5]), (placed.start, placed.end));
+                        curves += 1;
+                    }
+                    compared += 1;
+                }
+            }
+        }
+    }
+    println!("{compared} placements, {curves} curves");
+    assert!(compared > 4_000 && curves >= 12 * 2 * 5);
 }
 
 /// Both signs of a half turn, the mirror image and the way back give one datum of a C-shaped curve.

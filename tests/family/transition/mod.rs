@@ -1,6 +1,7 @@
 //! Curves, their placement in the user's plane, and the reasons why there is none.
 
 mod answers;
+mod by_hand;
 mod half_turns;
 mod ph;
 mod pieces;

@@ -140,3 +140,24 @@ fn steps_grow_with_the_turns_alone() {
         assert!(most.curves > 30 && most.bits <= 512 && most.evaluations <= 16 && most.pieces <= bound, "{most:?}");
     }
 }
+
+/// Both directions along the chord up to rounding, the most ordinary road there is, in 60 places of the plane.
+#[test]
+fn few_steps_where_both_directions_lie_along_the_chord() {
+    let mut most = Most::default();
+    for i in 0..60 {
+        // Directions of the chord, all over the circle; and the same direction as a user may write it.
+        let chord = (2.399963 * f64::from(i)).rem_euclid(2.0 * PI) - PI;
+        let turned = (chord + 2.0 * PI) - 2.0 * PI;
+        let written = [chord, chord.to_degrees().to_radians(), chord.sin().atan2(chord.cos()), turned, chord.next_up()];
+        let before = most.curves;
+        for (alpha, beta) in written.iter().flat_map(|a| written.map(|b| (a - chord, b - chord))) {
+            for (k1, k2) in [(-0.3, 6.0), (6.0, -0.3), (-4e-4, 1e-3)] {
+                most.case(Chord { alpha, beta, k1, k2 }, [0, 0]);
+            }
+        }
+        assert!(most.curves > before, "{chord}");
+    }
+    println!("{most:?}");
+    assert!(most.curves > 1_000 && most.bits <= 512 && most.evaluations <= 16 && most.pieces <= 800, "{most:?}");
+}

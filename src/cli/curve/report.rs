@@ -1,0 +1,181 @@
+//! What every family of `curve` reports alike: paths, reasons, other families, samples.
+
+use super::super::{Outcome, output};
+use super::{Family, Found, involute, reach};
+use serde::{Serialize, Serializer};
+use spiral_atlas::family::reach::Kind;
+use spiral_atlas::path::{Course, Summary};
+use spiral_atlas::transition::segment::Request;
+use spiral_atlas::transition::{Ends, Piece, Station, ph_spiral, spiral};
+use spiral_atlas::{Error, Result};
+
+/// An answer as JSON.
+#[derive(Debug, Serialize)]
+pub struct Report<'f, F: Found> {
+    #[serde(flatten)]
+    pub found: &'f F,
+    /// The path that was asked for; none where there is none.
+    paths: Vec<Path>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    #[serde(flatten)]
+    others: Option<Others>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<Vec<Station>>,
+}
+
+/// A path of spirals.
+#[derive(Debug, Serialize)]
+struct Path {
+    #[serde(flatten)]
+    summary: Summary,
+    #[serde(rename = "pieces", serialize_with = "pieces")]
+    course: Course,
+}
+
+fn pieces<S: Serializer>(course: &Course, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    course.pieces().serialize(serializer)
+}
+
+impl Path {
+    /// # Errors
+    /// Those of [`Course::new`], and [`Error::Domain`] where another number leaves the range of doubles.
+    fn new(pieces: Vec<Piece>) -> Result<Path> {
+        let course = Course::new(pieces)?;
+        let summary = course.summary();
+        let Summary { greatest_curvature, bending_energy, .. } = summary;
+        if greatest_curvature.is_finite() && bending_energy.is_none_or(f64::is_finite) {
+            return Ok(Path { summary, course });
+        }
+        Err(Error::Domain(format!(
+            "the curve leaves the range of doubles: its greatest curvature is {greatest_curvature:?}, its bending energy {} (change the unit \
+             of length)",
+            bending_energy.unwrap_or_default()
+        )))
+    }
+}
+
+/// What is asked of a curve whatever its family.
+#[derive(Debug, Clone, Copy)]
+pub struct Wish {
+    pub family: Family,
+    pub longest: Option<f64>,
+    pub samples: Option<u32>,
+    /// Whether a no comes with advice. In a batch it does not: asking every other family costs far more than the answer.
+    pub advice: bool,
+}
+
+impl Wish {
+    /// The greatest length that counts.
+    pub fn longest(self) -> f64 {
+        self.longest.unwrap_or(f64::INFINITY)
+    }
+}
+
+impl<'f, F: Found> Report<'f, F> {
+    /// # Errors
+    /// [`Error::Domain`] where a number leaves the range of doubles.
+    pub fn new(found: &'f F, wish: Wish) -> Result<Report<'f, F>> {
+        let (paths, reason) = match found.spirals().map(Path::new) {
+            Err(why) => (Vec::new(), Some(why)),
+            Ok(path) => {
+                let path = path?;
+                let length = path.summary.length;
+                match wish.longest.filter(|longest| length > *longest) {
+                    Some(longest) => {
+                        (Vec::new(), Some(format!("the curve is {length:?} long, more than the {longest:?} that are allowed")))
+                    }
+                    None => (vec![path], None),
+                }
+            }
+        };
+        let unsure = found.ends().filter(|_| wish.advice && reason.is_some());
+        let others = unsure.map(|ends| Others::new(ends, wish));
+        let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.course.stations(n as usize)));
+        Ok(Report { found, paths, reason, others, samples: samples.transpose()? })
+    }
+
+    pub fn outcome(&self) -> Outcome {
+        if self.reason.is_some() { Outcome::Bad } else { Outcome::Fine }
+    }
+
+    /// All of it in words.
+    pub fn text(&self) -> String {
+        let mut text = match &self.reason {
+            Some(reason) if self.found.spirals().is_ok() => format!("{reason}\n"),
+            _ => self.found.text(),
+        };
+        text += &self.others.as_ref().map_or(String::new(), Others::advice);
+        if let Some(samples) = self.samples.as_ref().filter(|samples| !samples.is_empty()) {
+            text += "\n";
+            text += table(samples, ", ").trim_end();
+        }
+        text + "\n"
+    }
+
+    /// The samples alone, as CSV; without any, the reason goes to standard error.
+    pub fn csv(&self) -> Result<()> {
+        match &self.reason {
+            Some(reason) => {
+                output::note(reason);
+                Ok(())
+            }
+            None => output::print(&table(self.samples.as_deref().unwrap_or_default(), ",")),
+        }
+    }
+}
+
+/// Samples with their header.
+fn table(samples: &[Station], comma: &str) -> String {
+    let row = |s: &Station| s.numbers().map(|x| format!("{x:?}")).join(comma);
+    let lines = std::iter::once(Station::COLUMNS.join(comma)).chain(samples.iter().map(row));
+    lines.map(|line| line + "\n").collect()
+}
+
+/// Other families that have a spiral where one has none.
+#[derive(Debug, Default, Serialize)]
+struct Others {
+    /// Those that take the same ends.
+    families: Vec<String>,
+    /// Commands for a segment added to the straight end, where one of the ends is straight.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    segments: Vec<String>,
+}
+
+impl Others {
+    /// All families that join two ends by a spiral no longer than allowed, but for the one that was asked: each is asked too. One that
+    /// fails counts as none.
+    fn new(ends: &Ends, wish: Wish) -> Others {
+        let longest = wish.longest();
+        let short = |pieces: std::result::Result<Vec<Piece>, String>| {
+            pieces.is_ok_and(|pieces| pieces.iter().map(Piece::length).sum::<f64>() <= longest)
+        };
+        let cubic = || spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
+        let ph = || ph_spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
+        // Where no involute exists no spiral does.
+        let involute = || involute::find(ends, [0, 0]).is_ok_and(|found| short(found.spirals()));
+        let all: [(Family, &dyn Fn() -> bool); 3] =
+            [(Family::Cubic, &cubic), (Family::PhQuintic, &ph), (Family::Involute, &involute)];
+        let families = all.into_iter().filter(|(family, has)| *family != wish.family && has()).map(|(family, _)| family.name());
+        let segment = Request::between(ends).ok().flatten();
+        let added = |kind: Kind| {
+            let request = segment.filter(|request| reach::find(kind, request).is_ok_and(|found| short(found.spirals())))?;
+            Some(reach::command(kind, &request, ends.end))
+        };
+        Others { families: families.collect(), segments: [Kind::Cubic, Kind::Ph].into_iter().filter_map(added).collect() }
+    }
+
+    /// What to type for them.
+    fn advice(&self) -> String {
+        let mut text = String::new();
+        if !self.families.is_empty() {
+            let names: Vec<String> = self.families.iter().map(|name| format!("`--family {name}`")).collect();
+            text += &format!("\nanother kind of curve would do: add {}", names.join(" or "));
+        }
+        for command in &self.segments {
+            text += &format!("\na segment that is added to the straight end would do: `{command}`");
+        }
+        text
+    }
+}
