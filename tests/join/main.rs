@@ -2,6 +2,7 @@
 
 mod check;
 mod dubins;
+mod shapes;
 
 use check::{Checked, check};
 use spiral_atlas::transition::join::{Family, Join, Objective, Outcome, Request, State, join};
@@ -163,6 +164,6 @@ fn the_checker_can_fail() {
     let mut gap = good.clone();
     gap.pieces.remove(1);
     assert!(check(&request, &gap).unwrap_err().contains("joint"));
-    let other = Request { from: State { direction: 0.3 + 1e-9, ..from }, ..request };
+    let other = Request { from: State { direction: 0.3 + 1e-9, ..from }.into(), ..request };
     assert!(check(&other, &good).unwrap_err().contains("start"));
 }

@@ -1,9 +1,10 @@
 //! What a join is asked for, and what it is.
 
+use super::super::Turn;
 use super::super::piece::Piece;
 use super::measure::Measures;
 use crate::error::{Error, Result};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A place on a path: point, direction of travel and signed curvature, in the user's units and axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -16,8 +17,50 @@ pub struct State {
     pub curvature: f64,
 }
 
+/// What a join leads from or to.
+///
+/// A join of two states has its ends given. One between lines and circles leaves the first and reaches the second where it has to: the parts of
+/// them before and after are no pieces of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum End {
+    /// A point with its direction and curvature.
+    State(State),
+    /// Anywhere on a straight line, along its direction.
+    Line {
+        /// A point of it.
+        point: [f64; 2],
+        /// Direction of travel, as in [`State`].
+        direction: f64,
+    },
+    /// Anywhere on a circle.
+    Circle {
+        /// Its centre.
+        centre: [f64; 2],
+        /// Its radius, above 0.
+        radius: f64,
+        /// Which way it is travelled.
+        turn: Turn,
+    },
+}
+
+impl End {
+    /// Its point; of a circle its centre.
+    pub fn point(&self) -> [f64; 2] {
+        match *self {
+            End::State(State { point, .. }) | End::Line { point, .. } | End::Circle { centre: point, .. } => point,
+        }
+    }
+}
+
+impl From<State> for End {
+    fn from(state: State) -> End {
+        End::State(state)
+    }
+}
+
 /// The curves that the spirals of a join are made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
     /// Cubic Bézier curves.
@@ -30,7 +73,7 @@ pub enum Family {
 }
 
 /// Of several joins that keep the limits, the one that has least of this.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Objective {
     /// Arc length.
@@ -44,13 +87,13 @@ pub enum Objective {
     BendingEnergy,
 }
 
-/// A join of two states.
+/// A join to be found, of two states or of two lines and circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
     /// Where it starts.
-    pub from: State,
+    pub from: End,
     /// Where it ends.
-    pub to: State,
+    pub to: End,
     /// Greatest |κ| allowed, above 0.
     pub greatest_curvature: f64,
     /// What its spirals are.
@@ -63,15 +106,18 @@ pub struct Request {
     pub most_pieces: usize,
 }
 
+/// Limits of curvature within 1 / this and this have squares in the range of doubles.
+const WIDEST: f64 = 1e150;
+
 impl Request {
     /// As many pieces as a join of states can have: three turns of a spiral, an arc and a spiral, and a spiral more at both ends.
     pub const MOST_PIECES: usize = 11;
 
     /// With a limit of curvature alone: the shortest, of cubics.
-    pub fn new(from: State, to: State, greatest_curvature: f64) -> Request {
+    pub fn new(from: impl Into<End>, to: impl Into<End>, greatest_curvature: f64) -> Request {
         Request {
-            from,
-            to,
+            from: from.into(),
+            to: to.into(),
             greatest_curvature,
             family: Family::default(),
             objective: Objective::default(),
@@ -83,13 +129,34 @@ impl Request {
     /// # Errors
     /// [`Error::Domain`] naming the first number that is not finite or not above 0.
     pub(super) fn check(&self) -> Result<()> {
-        for (name, state) in [("start", &self.from), ("end", &self.to)] {
-            let State { point: [x, y], direction, curvature } = *state;
-            for (what, value) in [("x", x), ("y", y), ("direction", direction), ("curvature", curvature)] {
+        for (name, end) in [("start", &self.from), ("end", &self.to)] {
+            let ([x, y], rest) = match *end {
+                End::State(State { point, direction, curvature }) => {
+                    (point, vec![("direction", direction), ("curvature", curvature)])
+                }
+                End::Line { point, direction } => (point, vec![("direction", direction)]),
+                End::Circle { centre, radius, .. } => {
+                    positive(&format!("the {name} radius"), radius)?;
+                    (centre, Vec::new())
+                }
+            };
+            for (what, value) in [("x", x), ("y", y)].into_iter().chain(rest) {
                 finite(&format!("{name} {what}"), value)?;
             }
         }
+        if matches!(self.from, End::State(_)) != matches!(self.to, End::State(_)) {
+            return Err(Error::Domain("one end is a state and the other is not; joined are two states, or two lines and circles".into()));
+        }
         positive("the greatest curvature", self.greatest_curvature)?;
+        if !(1.0 / WIDEST..=WIDEST).contains(&self.greatest_curvature) {
+            return Err(Error::Domain(format!(
+                "the greatest curvature is {:?}; its square must be in the range of doubles (change the unit of length)",
+                self.greatest_curvature
+            )));
+        }
+        if self.most_pieces == 0 {
+            return Err(Error::Domain("the most pieces are 0; a join has one at least".into()));
+        }
         if self.longest.is_nan() || self.longest <= 0.0 {
             return Err(Error::Domain(format!("the longest length is {:?}; it must be above 0", self.longest)));
         }

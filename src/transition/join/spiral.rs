@@ -4,7 +4,8 @@
 //! end curvatures and the angle between the end directions given, a cubic has two free numbers, the lengths h0, h1 of its outer legs, and
 //! a PH quintic the moduli A, B of its outer pre-images; its inner numbers follow from (3.4) of Habib & Sakai and from
 //! `w1 = (κ0 A³ e^{iθ/2} + κ1 B³) / (4 sin(θ/2))`. Here h0 = h1 = L/3 and A² = B² = L, but at a straight end the outer leg is as long as the
-//! inner one (m = 1 in Habib & Sakai's CGIV paper).
+//! inner one (m = 1 in Habib & Sakai's CGIV paper). Spirals that turn by more than some 0.6 rad need longer legs to have monotone curvature
+//! ([`Spiral::shape`]).
 
 use super::super::cubic::spiral;
 use super::super::involute::involute_between;
@@ -33,7 +34,7 @@ impl Pose {
     }
 }
 
-/// A spiral: curvatures of one sign, or one of them 0, and the length that a clothoid between them would have.
+/// A spiral: curvatures of one sign, or one of them 0, and the length that a clothoid that turns as far would have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Spiral {
     pub from: f64,
@@ -47,22 +48,52 @@ impl Spiral {
         0.5 * (self.from + self.to) * self.length
     }
 
+    /// The most that a spiral of [`Spiral::step`] between two curvatures turns, radians.
+    pub fn most(from: f64, to: f64) -> f64 {
+        if from == 0.0 || to == 0.0 { 1.3 } else { 1.15 }
+    }
+
+    /// By how much both legs are longer than L/3, and the leg at the flatter end beside the other.
+    ///
+    /// Fitted: for angles up to [`Spiral::most`] and ratios of curvature from 0.05 to 0.8 the result has monotone curvature, in the middle of the range of
+    /// those that have. What is used is proved all the same.
+    fn shape(&self, family: Family) -> [f64; 2] {
+        let angle = self.angle().abs();
+        let (flat, round) = (self.from.abs().min(self.to.abs()), self.from.abs().max(self.to.abs()));
+        if flat == 0.0 {
+            return [1.0 + 2.5 * (angle - 0.6).max(0.0), 1.0];
+        }
+        if family == Family::PhQuintic {
+            return [1.0, 1.0];
+        }
+        let (ratio, share) = (flat / round, ((angle - 0.5) / 0.3).clamp(0.0, 1.0));
+        let longer = ratio.powf(-0.22 * (1.0 - ratio).sqrt());
+        let uneven = 0.3 - 2.0 / 3.0 * (ratio - 0.5).max(0.0);
+        [1.0 + share * (longer - 1.0), 1.0 + share * uneven]
+    }
+
+    /// How long it is, nearly.
+    pub fn stretched(&self, family: Family) -> f64 {
+        self.length * self.shape(family)[0]
+    }
+
     /// From its start to its end, for a start along (1, 0).
     pub fn step(&self, family: Family) -> Vector {
         let (angle, side) = (self.angle().abs(), self.angle().signum());
         let (k0, k1) = (self.from.abs(), self.to.abs());
         let [x, y] = match family {
             Family::Cubic | Family::Involute => {
-                let h = self.length / 3.0;
-                let sine = angle.sin();
-                let [x, y] = [k1, k0].map(|k| 1.5 * k * h * h / sine);
-                let h0 = if k0 == 0.0 { x } else { h };
-                let h1 = if k1 == 0.0 { y } else { h };
+                let ([longer, uneven], sine) = (self.shape(family), angle.sin());
+                let h = longer * self.length / 3.0;
+                let [h0, h1] = if k0 < k1 { [h * uneven, h / uneven] } else { [h / uneven, h * uneven] };
+                let (x, y) = (1.5 * k1 * h1 * h1 / sine, 1.5 * k0 * h0 * h0 / sine);
+                let h0 = if k0 == 0.0 { x } else { h0 };
+                let h1 = if k1 == 0.0 { y } else { h1 };
                 [h0 + x + (y + h1) * angle.cos(), (y + h1) * sine]
             }
             Family::PhQuintic => {
-                let (half, root) = (0.5 * angle, self.length.sqrt());
-                let [x, y] = [k1, k0].map(|k| k * self.length * root / (4.0 * half.sin()));
+                let (half, root) = (0.5 * angle, self.stretched(family).sqrt());
+                let [x, y] = [k1, k0].map(|k| k * root * root * root / (4.0 * half.sin()));
                 let a = if k0 == 0.0 { x } else { root };
                 let b = if k1 == 0.0 { y } else { root };
                 let tilted = |f: f64| [f * half.cos(), f * half.sin()];
@@ -103,7 +134,7 @@ impl Spiral {
             turn: if round > 0.0 { Turn::Left } else { Turn::Right },
             radius: 1.0 / (round.abs() * scale_by),
             theta: self.angle().abs(),
-            target: Target::Shape { m: 1.0, q: self.length * round.abs() },
+            target: Target::Shape { m: 1.0, q: self.stretched(family) * round.abs() },
         };
         let kind = if family == Family::PhQuintic { Kind::Ph } else { Kind::Cubic };
         Ok(match add_segment(kind, &request)? {

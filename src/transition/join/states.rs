@@ -2,7 +2,9 @@
 
 use super::super::piece::{Arc, Line, Piece};
 use super::super::placement::Ends;
-use super::request::{Join, Objective, Outcome, Request, State};
+use super::best::Best;
+use super::request::{Family, Objective, Request, State};
+use super::link::add_arc;
 use super::spiral::{Pose, Spiral, between, pinned, reversed};
 use super::turns::{Turn, reach, turns, wrapped};
 use crate::curve::vector::{Vector, add, dot, length, scale, sub, turn};
@@ -18,6 +20,8 @@ const MIDDLE: Spiral = Spiral { from: 1.0, to: 0.0, length: 0.4 };
 #[derive(Debug, Clone, Copy)]
 struct Way {
     cost: f64,
+    /// Nearly.
+    length: f64,
     first: usize,
     last: usize,
     arcs: [f64; 2],
@@ -25,38 +29,16 @@ struct Way {
     middle: Option<(f64, f64)>,
 }
 
-/// The best join found between two states.
-///
-/// # Accuracy
-/// Each spiral is proved to have monotone curvature, so |κ| stays within the limit. Pieces meet to 1e-12 in position, direction and
-/// curvature, relative to the extent of coordinates in least radii; both ends are met exactly. The join is the best of those tried, not
-/// of all.
+/// Offers joins of two states.
 ///
 /// # Errors
-/// [`crate::Error::Domain`] naming a number that is not finite or not above 0, and where lengths leave the range of doubles. That there is no join is
-/// no error.
-pub fn join(request: &Request) -> Result<Outcome> {
-    request.check()?;
-    let Request { from, to, greatest_curvature: most, family, objective, longest, most_pieces } = *request;
-    for (name, state) in [("start", &from), ("end", &to)] {
-        if state.curvature.abs() > most {
-            let k = state.curvature;
-            return Ok(Outcome::None(format!("the {name} curvature {k:?} is beyond the greatest curvature {most:?}")));
-        }
+/// Those of the spirals, where lengths leave the range of doubles.
+pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best) -> Result<()> {
+    let Request { greatest_curvature: most, family, objective, most_pieces, .. } = *request;
+    for piece in simple(family, [from, to])? {
+        best.offer(vec![piece]);
     }
     let across = scale(sub(to.point, from.point), most);
-    if !length(across).is_finite() || length(across) > 1e12 {
-        let radii = length(across);
-        return Ok(Outcome::None(format!("the ends are {radii:?} least radii apart; joins are sought up to 1e12")));
-    }
-    let mut best: Option<Join> = None;
-    let keep = |join: &Join| join.pieces.len() <= most_pieces && join.measures.length <= longest;
-    for pieces in simple(request)? {
-        let join = Join::new(vec![pieces]);
-        if keep(&join) && best.as_ref().is_none_or(|b| value(&join, objective) < value(b, objective)) {
-            best = Some(join);
-        }
-    }
     let here = Pose { at: [0.0, 0.0], direction: from.direction };
     let there = Pose { at: across, direction: to.direction + PI };
     let starts = turns(family, here, from.curvature / most, objective);
@@ -70,66 +52,32 @@ pub fn join(request: &Request) -> Result<Outcome> {
             }
         }
     }
-    // A model of the cost orders them; those a little dearer than a join at hand are not built.
-    ways.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let (mut shut, mut found) = ([vec![false; starts.len()], vec![false; ends.len()]], 0);
+    // A model of the cost orders them, and the shortest of equals come first.
+    ways.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.length.total_cmp(&b.length)));
+    // Length is told by the model to a thousandth, the others to a fifth.
+    let enough = best.kept + if objective == Objective::Length { 1 } else { 6 };
+    let mut shut = [vec![false; starts.len()], vec![false; ends.len()]];
     for way in ways {
         let (a, b) = (&starts[way.first], &ends[way.last]);
         let between = if way.middle.is_some_and(|(_, arc)| arc > 0.0) { 3 } else { 1 + usize::from(way.middle.is_some()) };
         if shut[0][way.first] || shut[1][way.last] || a.pieces(way.arcs[0]) + b.pieces(way.arcs[1]) + between > most_pieces {
             continue;
         }
-        match build(request, a, b, &way)? {
+        match build(request, [from, to], [a, b], &way)? {
             Built::Join(pieces) => {
-                let join = Join::new(pieces);
-                if keep(&join) {
-                    found += 1;
-                    if best.as_ref().is_none_or(|b| value(&join, objective) < value(b, objective)) {
-                        best = Some(join);
-                    }
-                    // Length is told by the model to a thousandth; the other objectives see the first of equals.
-                    if found == 1 || objective == Objective::Length {
-                        break;
-                    }
+                best.offer(pieces);
+                if best.kept >= enough {
+                    break;
                 }
             }
             Built::Shut(end) => shut[end][if end == 0 { way.first } else { way.last }] = true,
         }
     }
-    Ok(match best {
-        Some(join) => Outcome::Join(join),
-        None => Outcome::None(excluded(request)),
-    })
-}
-
-fn value(join: &Join, objective: Objective) -> f64 {
-    match objective {
-        Objective::Length => join.measures.length,
-        Objective::GreatestCurvature => join.measures.greatest_curvature,
-        Objective::GreatestRate => join.measures.greatest_rate(),
-        Objective::BendingEnergy => join.measures.bending_energy,
-    }
-}
-
-/// Why nothing is left.
-fn excluded(request: &Request) -> String {
-    let free = Request { longest: f64::INFINITY, most_pieces: Request::MOST_PIECES, ..*request };
-    let limited = request.longest.is_finite() || request.most_pieces < Request::MOST_PIECES;
-    match if limited { join(&free) } else { Ok(Outcome::None(String::new())) } {
-        Ok(Outcome::Join(join)) => format!(
-            "no join found keeps to {} pieces and a length of {:?}; without these bounds one has {} pieces and is {:?} long",
-            request.most_pieces,
-            request.longest,
-            join.pieces.len(),
-            join.measures.length
-        ),
-        _ => "no turns and lines of those tried fit between these states; a greater limit of curvature gives them room".into(),
-    }
+    Ok(())
 }
 
 /// Joins of one piece.
-fn simple(request: &Request) -> Result<Vec<Piece>> {
-    let Request { from, to, family, .. } = *request;
+fn simple(family: Family, [from, to]: [&State; 2]) -> Result<Vec<Piece>> {
     let across = sub(to.point, from.point);
     let apart = length(across);
     let mut all = Vec::new();
@@ -156,7 +104,7 @@ fn simple(request: &Request) -> Result<Vec<Piece>> {
         }
         return Ok(all);
     }
-    let State { point, direction, curvature } = to;
+    let State { point, direction, curvature } = *to;
     let ends = Ends {
         start: from.point,
         end: point,
@@ -185,9 +133,10 @@ fn by_line(a: &Turn, b: &Turn, objective: Objective) -> Option<Way> {
     }
     let direction = across[1].atan2(across[0]) - reach[1].atan2(along);
     let arcs = [a.arc(direction), b.arc(direction + PI)];
+    let length = a.length(arcs[0]) + line + b.length(arcs[1]);
     let cost = together(objective, [a.cost(arcs[0], objective), b.cost(arcs[1], objective)]);
-    let cost = if objective == Objective::Length { cost + line } else { cost };
-    Some(Way { cost, first: 0, last: 0, arcs, middle: None })
+    let cost = if objective == Objective::Length { length } else { cost };
+    Some(Way { cost, length, first: 0, last: 0, arcs, middle: None })
 }
 
 /// Costs of parts in one.
@@ -225,7 +174,8 @@ fn by_turn(request: &Request, a: &Turn, b: &Turn) -> [Option<Way>; 4] {
         let model = Turn { before: [Some(exit), None], curvature: side, ..*a };
         let model = Turn { exit, ..model };
         let costs = [a.cost(arcs[0], objective), model.cost(arc, objective), b.cost(arcs[1], objective)];
-        *way = Some(Way { cost: together(objective, costs), first: 0, last: 0, arcs, middle: Some((side, arc)) });
+        let length = a.length(arcs[0]) + model.length(arc) + b.length(arcs[1]);
+        *way = Some(Way { cost: together(objective, costs), length, first: 0, last: 0, arcs, middle: Some((side, arc)) });
     }
     ways
 }
@@ -236,8 +186,8 @@ enum Built {
     Shut(usize),
 }
 
-fn build(request: &Request, a: &Turn, b: &Turn, way: &Way) -> Result<Built> {
-    let Request { from, to, greatest_curvature: most, family, .. } = *request;
+fn build(request: &Request, [from, to]: [&State; 2], [a, b]: [&Turn; 2], way: &Way) -> Result<Built> {
+    let Request { greatest_curvature: most, family, .. } = *request;
     let start = Pose { at: from.point, direction: from.direction };
     let Some((mut pieces, here)) = built(request, a, start, way.arcs[0])? else { return Ok(Built::Shut(0)) };
     let end = Pose { at: to.point, direction: to.direction + PI };
@@ -273,15 +223,4 @@ fn built(request: &Request, turn: &Turn, start: Pose, arc: f64) -> Result<Option
     let Some((piece, end)) = turn.exit.piece(family, at, most)? else { return Ok(None) };
     pieces.push(piece);
     Ok(Some((pieces, end)))
-}
-
-/// Adds an arc that goes round by an angle, if it does.
-fn add_arc(pieces: &mut Vec<Piece>, at: Pose, curvature: f64, angle: f64) -> Pose {
-    if angle == 0.0 {
-        return at;
-    }
-    let arc = Piece::Arc(Arc { start: at.at, start_direction: at.direction, curvature, length: angle / curvature.abs() });
-    let end = Pose { at: arc.end(), direction: at.direction + angle.copysign(curvature) };
-    pieces.push(arc);
-    end
 }
