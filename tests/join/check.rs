@@ -87,6 +87,9 @@ pub fn check(request: &Request, join: &Join) -> Result<Checked, String> {
     if (most - told["greatest_curvature"].as_f64().unwrap()).abs() > TOLERANCE * size * limit {
         return Err(format!("the greatest curvature is {most}"));
     }
+    if told["greatest_curvature"].as_f64().unwrap() > limit {
+        return Err("the limit is not kept".into());
+    }
     Ok(Checked { length })
 }
 

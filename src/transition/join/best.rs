@@ -19,8 +19,8 @@ impl<'r> Best<'r> {
 
     /// Of equal ones the first is kept.
     pub fn offer(&mut self, pieces: Vec<Piece>) {
-        let Request { objective, longest, most_pieces, .. } = *self.request;
-        let join = Join::new(pieces);
+        let Request { objective, longest, most_pieces, greatest_curvature, .. } = *self.request;
+        let join = Join::new(pieces, greatest_curvature);
         if join.pieces.len() > most_pieces || join.measures.length.is_nan() || join.measures.length > longest {
             return;
         }

@@ -9,12 +9,18 @@ const STEPS: usize = 32;
 /// Thirds of a bracket; each leaves 2/3 of it.
 const THIRDS: usize = 40;
 
+/// Curvatures of control points, relative to the limit.
+const ROUNDING: f64 = 1e-12;
+/// The curvature of a straight end, relative to the limit: a few roundings of control points at the origin.
+const NOISE: f64 = 4.0 * f64::EPSILON;
+
 /// What there is to know of a path, in the user's units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Measures {
     /// Arc length.
     pub length: f64,
-    /// Greatest |κ|; as the curvature of each piece is monotone, it is at an end of one.
+    /// Greatest |κ|; as the curvature of each piece is monotone, it is at an end of one. A rounding beyond the limit counts as the limit, for
+    /// which the piece was made.
     pub greatest_curvature: f64,
     /// Least and greatest signed curvature.
     pub curvature_range: [f64; 2],
@@ -27,8 +33,13 @@ pub struct Measures {
 }
 
 impl Measures {
-    pub(super) fn of(pieces: &[Piece]) -> Measures {
-        let curvatures = pieces.iter().flat_map(|p| p.range().map(|t| p.at(t).curvature));
+    pub(super) fn of(pieces: &[Piece], limit: f64) -> Measures {
+        let within = |k: f64| match k.abs() {
+            size if size <= limit * NOISE => 0.0,
+            size if size <= limit * (1.0 + ROUNDING) => k.clamp(-limit, limit),
+            _ => k,
+        };
+        let curvatures = pieces.iter().flat_map(|p| p.range().map(|t| within(p.at(t).curvature)));
         let range = curvatures.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], k| [low.min(k), high.max(k)]);
         let mut rates = [0.0f64, 0.0];
         for piece in pieces {

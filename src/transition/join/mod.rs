@@ -80,7 +80,9 @@ pub fn join(request: &Request) -> Result<Outcome> {
 fn tried(request: &Request, best: &mut Best) -> Result<String> {
     if let (End::State(from), End::State(to)) = (&request.from, &request.to) {
         states::states(request, [from, to], best)?;
-        return Ok("no turns and lines of those tried fit between these states; a greater limit of curvature gives them room".into());
+        return Ok(
+            "no turns and lines of those tried fit between these states; a greater limit of curvature gives them room".into()
+        );
     }
     shapes::shapes(request, best)
 }

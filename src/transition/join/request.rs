@@ -145,7 +145,9 @@ impl Request {
             }
         }
         if matches!(self.from, End::State(_)) != matches!(self.to, End::State(_)) {
-            return Err(Error::Domain("one end is a state and the other is not; joined are two states, or two lines and circles".into()));
+            return Err(Error::Domain(
+                "one end is a state and the other is not; joined are two states, or two lines and circles".into(),
+            ));
         }
         positive("the greatest curvature", self.greatest_curvature)?;
         if !(1.0 / WIDEST..=WIDEST).contains(&self.greatest_curvature) {
@@ -187,8 +189,8 @@ pub struct Join {
 }
 
 impl Join {
-    pub(super) fn new(pieces: Vec<Piece>) -> Join {
-        Join { measures: Measures::of(&pieces), pieces }
+    pub(super) fn new(pieces: Vec<Piece>, limit: f64) -> Join {
+        Join { measures: Measures::of(&pieces, limit), pieces }
     }
 }
 

@@ -8,7 +8,6 @@ use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
 use crate::error::Result;
 use crate::num::roots::find;
 
-
 /// Curvatures of arcs between, in units of the limit.
 const PEAKS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// How far spirals turn that may be long, radians.

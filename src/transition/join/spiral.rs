@@ -3,9 +3,9 @@
 //! Their shape is that of nearly constant parametric speed, so that the curvature is nearly linear in the length, as a clothoid's is. With
 //! end curvatures and the angle between the end directions given, a cubic has two free numbers, the lengths h0, h1 of its outer legs, and
 //! a PH quintic the moduli A, B of its outer pre-images; its inner numbers follow from (3.4) of Habib & Sakai and from
-//! `w1 = (κ0 A³ e^{iθ/2} + κ1 B³) / (4 sin(θ/2))`. Here h0 = h1 = L/3 and A² = B² = L, but at a straight end the outer leg is as long as the
-//! inner one (m = 1 in Habib & Sakai's CGIV paper). Spirals that turn by more than some 0.6 rad need longer legs to have monotone curvature
-//! ([`Spiral::shape`]).
+//! `w1 = (κ0 A³ e^{iθ/2} + κ1 B³) / (4 sin(θ/2))`. Here h0 = h1 = L/3 and A² = B² = L, but at a straight end the outer leg is m times the
+//! inner one, as in Habib & Sakai's CGIV paper, with m = 1. Spirals that turn by more than some 0.6 rad need other legs to have monotone
+//! curvature ([`Spiral::shape`]).
 
 use super::super::cubic::spiral;
 use super::super::involute::involute_between;
@@ -53,15 +53,21 @@ impl Spiral {
         if from == 0.0 || to == 0.0 { 1.3 } else { 1.15 }
     }
 
-    /// By how much both legs are longer than L/3, and the leg at the flatter end beside the other.
+    /// By how much the legs are longer than L/3, and by how much the one at the flatter end is longer than the other is shorter; at a straight
+    /// end m instead.
     ///
     /// Fitted: for angles up to [`Spiral::most`] and ratios of curvature from 0.05 to 0.8 the result has monotone curvature, in the middle of the range of
-    /// those that have. What is used is proved all the same.
+    /// those that have. Close to the greatest angle it grows long, so that circles far from a line are reached. What is used is proved all the same.
     fn shape(&self, family: Family) -> [f64; 2] {
         let angle = self.angle().abs();
         let (flat, round) = (self.from.abs().min(self.to.abs()), self.from.abs().max(self.to.abs()));
         if flat == 0.0 {
-            return [1.0 + 2.5 * (angle - 0.6).max(0.0), 1.0];
+            return if family == Family::PhQuintic {
+                [1.0 + 12.0 * (angle - 0.95).max(0.0).powi(2), (1.6 - angle).clamp(0.6, 1.0)]
+            } else {
+                let more = (angle - 0.7).max(0.0);
+                [1.0 + 2.5 * more * more * (1.0 + more), (1.75 - 1.5 * angle).clamp(0.4, 1.0)]
+            };
         }
         if family == Family::PhQuintic {
             return [1.0, 1.0];
@@ -85,17 +91,19 @@ impl Spiral {
             Family::Cubic | Family::Involute => {
                 let ([longer, uneven], sine) = (self.shape(family), angle.sin());
                 let h = longer * self.length / 3.0;
-                let [h0, h1] = if k0 < k1 { [h * uneven, h / uneven] } else { [h / uneven, h * uneven] };
+                let [flat, round] = if k0.min(k1) == 0.0 { [h, h] } else { [h * uneven, h / uneven] };
+                let [h0, h1] = if k0 < k1 { [flat, round] } else { [round, flat] };
                 let (x, y) = (1.5 * k1 * h1 * h1 / sine, 1.5 * k0 * h0 * h0 / sine);
-                let h0 = if k0 == 0.0 { x } else { h0 };
-                let h1 = if k1 == 0.0 { y } else { h1 };
+                let h0 = if k0 == 0.0 { uneven * x } else { h0 };
+                let h1 = if k1 == 0.0 { uneven * y } else { h1 };
                 [h0 + x + (y + h1) * angle.cos(), (y + h1) * sine]
             }
             Family::PhQuintic => {
-                let (half, root) = (0.5 * angle, self.stretched(family).sqrt());
+                let [longer, m] = self.shape(family);
+                let (half, root) = (0.5 * angle, (longer * self.length).sqrt());
                 let [x, y] = [k1, k0].map(|k| k * root * root * root / (4.0 * half.sin()));
-                let a = if k0 == 0.0 { x } else { root };
-                let b = if k1 == 0.0 { y } else { root };
+                let a = if k0 == 0.0 { m * x } else { root };
+                let b = if k1 == 0.0 { m * y } else { root };
                 let tilted = |f: f64| [f * half.cos(), f * half.sin()];
                 PhQuintic::new([0.0, 0.0], [[a, 0.0], add([x, 0.0], tilted(y)), tilted(b)]).end
             }
@@ -126,7 +134,7 @@ impl Spiral {
 
     /// One end is straight.
     fn straight_ended(self, family: Family, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
-        let round = self.from + self.to;
+        let (round, [longer, m]) = (self.from + self.to, self.shape(family));
         let request = Request {
             base: if self.from == 0.0 { Base::Line } else { Base::Circle },
             start: at.at,
@@ -134,7 +142,7 @@ impl Spiral {
             turn: if round > 0.0 { Turn::Left } else { Turn::Right },
             radius: 1.0 / (round.abs() * scale_by),
             theta: self.angle().abs(),
-            target: Target::Shape { m: 1.0, q: self.stretched(family) * round.abs() },
+            target: Target::Shape { m, q: longer * self.length * round.abs() },
         };
         let kind = if family == Family::PhQuintic { Kind::Ph } else { Kind::Cubic };
         Ok(match add_segment(kind, &request)? {

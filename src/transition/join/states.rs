@@ -3,8 +3,8 @@
 use super::super::piece::{Arc, Line, Piece};
 use super::super::placement::Ends;
 use super::best::Best;
-use super::request::{Family, Objective, Request, State};
 use super::link::add_arc;
+use super::request::{Family, Objective, Request, State};
 use super::spiral::{Pose, Spiral, between, pinned, reversed};
 use super::turns::{Turn, reach, turns, wrapped};
 use crate::curve::vector::{Vector, add, dot, length, scale, sub, turn};
@@ -43,12 +43,13 @@ pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best
     let there = Pose { at: across, direction: to.direction + PI };
     let starts = turns(family, here, from.curvature / most, objective);
     let ends = turns(family, there, -to.curvature / most, objective);
+    let middles = [1.0, -1.0].map(|side| Middle::new(family, side));
     let mut ways = Vec::new();
     for (i, a) in starts.iter().enumerate() {
         for (j, b) in ends.iter().enumerate() {
             ways.extend(by_line(a, b, objective).map(|way| Way { first: i, last: j, ..way }));
             if a.exit == b.exit || (a.curvature.abs() == 1.0 && b.curvature.abs() == 1.0) {
-                ways.extend(by_turn(request, a, b).into_iter().flatten().map(|way| Way { first: i, last: j, ..way }));
+                ways.extend(by_turn(objective, &middles, a, b).into_iter().flatten().map(|way| Way { first: i, last: j, ..way }));
             }
         }
     }
@@ -147,17 +148,30 @@ fn together<const N: usize>(objective: Objective, costs: [f64; N]) -> f64 {
     }
 }
 
-/// Two turns with a third between, of the limit of curvature, to either side.
-fn by_turn(request: &Request, a: &Turn, b: &Turn) -> [Option<Way>; 4] {
+/// A third turn between two, of the limit of curvature, to the left or to the right.
+struct Middle {
+    side: f64,
+    exit: Spiral,
+    /// As of a [`Turn`]: ahead, and seen backwards, where it turns the other way.
+    ahead: Vector,
+    behind: Vector,
+}
+
+impl Middle {
+    fn new(family: Family, side: f64) -> Middle {
+        let exit = Spiral { from: side, ..MIDDLE };
+        Middle { side, exit, ahead: reach(family, &exit), behind: reach(family, &Spiral { from: -side, ..exit }) }
+    }
+}
+
+/// Two turns with a third between.
+fn by_turn(objective: Objective, middles: &[Middle; 2], a: &Turn, b: &Turn) -> [Option<Way>; 4] {
     let mut ways = [None; 4];
-    let objective = request.objective;
     let across = sub(b.centre, a.centre);
     let apart = length(across);
     for (n, way) in ways.iter_mut().enumerate() {
-        let (side, flank) = (if n < 2 { 1.0 } else { -1.0 }, if n % 2 == 0 { 1.0 } else { -1.0 });
-        let exit = Spiral { from: side, ..MIDDLE };
-        // Seen backwards it turns the other way.
-        let (ahead, behind) = (reach(request.family, &exit), reach(request.family, &Spiral { from: -side, ..exit }));
+        let flank = if n % 2 == 0 { 1.0 } else { -1.0 };
+        let Middle { side, exit, ahead, behind } = middles[n / 2];
         let (into, out) = (add(a.reach, behind), add(ahead, b.reach));
         let (r, s) = (length(into), length(out));
         if apart == 0.0 || apart >= r + s || apart <= (r - s).abs() {
