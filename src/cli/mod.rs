@@ -53,7 +53,7 @@ enum Command {
     Adapters(adapters::Args),
     Query(query::Args),
     Curve(Box<curve::Args>),
-    Join(join::Args),
+    Join(Box<join::Args>),
     Path(path::Args),
     /// Print shell completions.
     #[command(after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]

@@ -1,4 +1,5 @@
-//! The shortest path of bounded curvature between two poses, without regard to curvature at its ends (Dubins 1957): a lower bound.
+//! The shortest path of bounded curvature between two poses, without regard to curvature at its ends (Dubins 1957): a
+//! lower bound.
 
 use spiral_atlas::transition::join::State;
 use std::f64::consts::TAU;

@@ -44,7 +44,8 @@ fn found(request: &Request) -> Join {
     }
 }
 
-/// Every pair within 10 least radii is joined; a join is hardly longer than the shortest path without spirals, and never shorter.
+/// Every pair within 10 least radii is joined; a join is hardly longer than the shortest path without spirals, and
+/// never shorter.
 #[test]
 fn random_states_are_joined() {
     let mut random = Random(1);

@@ -16,17 +16,19 @@ const SAMPLES: usize = 2000;
 
 /// Join two states, or two lines and circles, by few spirals, arcs and lines, within a limit of curvature.
 ///
-/// A state is a point, a direction of travel and a signed curvature, positive to the left, in any unit of length. Lines have no ends and
-/// a direction, and circles are travelled to the left or to the right; the join leaves the first and reaches the second where it has to.
+/// A state is a point, a direction of travel and a signed curvature, positive to the left, in any unit of length. Lines
+/// have no ends and a direction, and circles are travelled to the left or to the right; the join leaves the first and
+/// reaches the second where it has to.
 ///
-/// Position, direction and curvature of the path are continuous. The curvature of each piece is monotone, proved, so the limit that the
-/// pieces' ends keep holds everywhere. The join is the best of those tried, not of all.
+/// Position, direction and curvature of the path are continuous. The curvature of each piece is monotone, proved, so
+/// the limit that the pieces' ends keep holds everywhere. The join is the best of those tried, not of all.
 ///
-/// Prints {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,"bending_energy":..,"pieces":[..]}, where a rate is
-/// dκ/ds, or {"pieces":null,"reason":".."}. With --points, one such line for each row, in order; a bad row gives {"line":..,"error":".."}.
+/// Prints {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,"bending_energy":..,"pieces":[..]},
+/// where a rate is dκ/ds, or {"pieces":null,"reason":".."}. With --points, one such line for each row, in order; a bad
+/// row gives {"line":..,"error":".."}.
 ///
-/// Exit status: 0 when there is a join, 1 when none was found, 2 for an error. With --points it is 0 when every row was answered, whatever the
-/// answers, and 2 when one was bad.
+/// Exit status: 0 when there is a join, 1 when none was found, 2 for an error. With --points it is 0 when every row was
+/// answered, whatever the answers, and 2 when one was bad.
 #[derive(clap::Args)]
 #[command(
     group(clap::ArgGroup::new("start").args(["from", "from_line", "from_circle"])),
@@ -37,7 +39,8 @@ const SAMPLES: usize = 2000;
                         spiral-atlas join request.toml"
 )]
 pub struct Args {
-    /// All of the options below but those of output in one file: JSON, TOML if named .toml, `-` for JSON from standard input.
+    /// All of the options below but those of output in one file: JSON, TOML if named .toml, `-` for JSON from standard
+    /// input.
     #[arg(value_name = "FILE", conflicts_with_all = ["start", "goal", "points", "greatest_curvature", "family", "objective", "longest", "most_pieces"])]
     request: Option<PathBuf>,
     /// Start in a state; the direction is an angle from the x axis, the curvature 0 unless given.
@@ -58,7 +61,8 @@ pub struct Args {
     /// End anywhere on a circle.
     #[arg(long, value_name = "X,Y,RADIUS,SIDE", value_parser = parse::circle, allow_hyphen_values = true, help_heading = ENDS)]
     to_circle: Option<End>,
-    /// A CSV file of states, - for standard input. Columns, in any order: x0, y0, direction0, curvature0, x1, y1, direction1, curvature1.
+    /// A CSV file of states, - for standard input. Columns, in any order: x0, y0, direction0, curvature0, x1, y1,
+    /// direction1, curvature1.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "goal", "figure"], help_heading = ENDS)]
     points: Option<PathBuf>,
     /// Greatest curvature allowed, 1 / length: one over the least radius.
@@ -76,8 +80,8 @@ pub struct Args {
     /// Most pieces allowed.
     #[arg(long, value_name = "N", default_value_t = Request::MOST_PIECES)]
     most_pieces: usize,
-    /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from the start), x, y,
-    /// heading (radians), curvature.
+    /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from
+    /// the start), x, y, heading (radians), curvature.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000), conflicts_with = "points")]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else.

@@ -1,7 +1,8 @@
 //! Chains: lines and circles with spirals between them, in units of the least radius.
 //!
-//! A spiral between two circles fixes how far their centres are from each other, and a spiral from a line to a circle how far the centre is
-//! from the line, wherever it starts. So a chain is laid out by its centres, and the directions follow.
+//! A spiral between two circles fixes how far their centres are from each other, and a spiral from a line to a circle
+//! how far the centre is from the line, wherever it starts. So a chain is laid out by its centres, and the directions
+//! follow.
 
 use super::super::piece::{Arc, Line, Piece};
 use super::request::{Family, Objective, Request};
@@ -53,8 +54,8 @@ impl Link {
         self.spirals().map(|s| s.angle()).sum()
     }
 
-    /// From the centre that it leaves to the centre that it reaches, for a start along (1, 0); where there is no centre, from or to the end of
-    /// the line.
+    /// From the centre that it leaves to the centre that it reaches, for a start along (1, 0); where there is no
+    /// centre, from or to the end of the line.
     pub fn hop(&self, family: Family) -> Vector {
         let mut end = self.first.step(family);
         if let Some(second) = self.second {

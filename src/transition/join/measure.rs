@@ -19,14 +19,15 @@ const NOISE: f64 = 4.0 * f64::EPSILON;
 pub struct Measures {
     /// Arc length.
     pub length: f64,
-    /// Greatest |κ|; as the curvature of each piece is monotone, it is at an end of one. A rounding beyond the limit counts as the limit, for
-    /// which the piece was made.
+    /// Greatest |κ|; as the curvature of each piece is monotone, it is at an end of one. A rounding beyond the limit
+    /// counts as the limit, for which the piece was made.
     pub greatest_curvature: f64,
     /// Least and greatest signed curvature.
     pub curvature_range: [f64; 2],
     /// Least and greatest dκ/ds inside the pieces, 1 / length².
     ///
-    /// Found from 32 steps of each spiral and by narrowing around the best: to 1e-9 relative where the rate has one extremum in a step.
+    /// Found from 32 steps of each spiral and by narrowing around the best: to 1e-9 relative where the rate has one
+    /// extremum in a step.
     pub rate_range: [f64; 2],
     /// ∫ κ² ds, to 1e-10 relative.
     pub bending_energy: f64,

@@ -1,15 +1,17 @@
-//! Joins: paths of few spirals, arcs and lines between two states, with continuous direction and curvature and a limit of curvature.
+//! Joins: paths of few spirals, arcs and lines between two states, with continuous direction and curvature and a limit
+//! of curvature.
 //!
 //! # How it is done
-//! As Dubins paths are made of arcs and lines, these are made of *turns* and lines. A turn is a spiral from the curvature at hand to that
-//! of an arc, the arc, and a spiral to curvature 0 (Fraichard & Scheuer 2004 have it with clothoids). The centre of the arc does not depend
-//! on how long the arc is. So all places where the turn can end straight lie on a circle about that centre, and are left at a fixed
-//! angle: `X = C + R(ψ) u` for the direction ψ there. Two turns with a line between them have then `C2 - C1 = R(ψ) ((l, 0) + u1 - u2)`,
-//! and three turns have a middle centre at two known distances: all closed forms.
+//! As Dubins paths are made of arcs and lines, these are made of *turns* and lines. A turn is a spiral from the
+//! curvature at hand to that of an arc, the arc, and a spiral to curvature 0 (Fraichard & Scheuer 2004 have it with
+//! clothoids). The centre of the arc does not depend on how long the arc is. So all places where the turn can end
+//! straight lie on a circle about that centre, and are left at a fixed angle: `X = C + R(ψ) u` for the direction ψ
+//! there. Two turns with a line between them have then `C2 - C1 = R(ψ) ((l, 0) + u1 - u2)`, and three turns have a
+//! middle centre at two known distances: all closed forms.
 //!
-//! Turns of several curvatures and of spirals of several lengths are tried in all pairs. The best pair whose spirals are proved is taken.
-//! In units of the least radius the spirals are 0.4 long or longer: from shorter ones, control points in doubles could not show the
-//! curvature to 1e-12.
+//! Turns of several curvatures and of spirals of several lengths are tried in all pairs. The best pair whose spirals
+//! are proved is taken. In units of the least radius the spirals are 0.4 long or longer: from shorter ones, control
+//! points in doubles could not show the curvature to 1e-12.
 
 mod best;
 mod link;
@@ -34,13 +36,13 @@ const FARTHEST: f64 = 1e12;
 /// The best join found.
 ///
 /// # Accuracy
-/// Each spiral is proved to have monotone curvature, so |κ| stays within the limit. Pieces meet to 1e-12 in position, direction and
-/// curvature, relative to the extent of coordinates in least radii; given points are met exactly. The join is the best of those tried,
-/// not of all.
+/// Each spiral is proved to have monotone curvature, so |κ| stays within the limit. Pieces meet to 1e-12 in position,
+/// direction and curvature, relative to the extent of coordinates in least radii; given points are met exactly. The
+/// join is the best of those tried, not of all.
 ///
 /// # Errors
-/// [`crate::Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a line or a circle, and where
-/// lengths leave the range of doubles. That there is no join is no error.
+/// [`crate::Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a
+/// line or a circle, and where lengths leave the range of doubles. That there is no join is no error.
 pub fn join(request: &Request) -> Result<Outcome> {
     request.check()?;
     let limit = request.greatest_curvature;

@@ -19,8 +19,8 @@ pub struct State {
 
 /// What a join leads from or to.
 ///
-/// A join of two states has its ends given. One between lines and circles leaves the first and reaches the second where it has to: the parts of
-/// them before and after are no pieces of it.
+/// A join of two states has its ends given. One between lines and circles leaves the first and reaches the second where
+/// it has to: the parts of them before and after are no pieces of it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum End {
@@ -110,7 +110,8 @@ pub struct Request {
 const WIDEST: f64 = 1e150;
 
 impl Request {
-    /// As many pieces as a join of states can have: three turns of a spiral, an arc and a spiral, and a spiral more at both ends.
+    /// As many pieces as a join of states can have: three turns of a spiral, an arc and a spiral, and a spiral more at
+    /// both ends.
     pub const MOST_PIECES: usize = 11;
 
     /// With a limit of curvature alone: the shortest, of cubics.

@@ -1,4 +1,5 @@
-//! Joins of lines and circles: the J, U, C and S shapes, circles in circles, and what leads around where those do not fit.
+//! Joins of lines and circles: the J, U, C and S shapes, circles in circles, and what leads around where those do not
+//! fit.
 
 use super::best::Best;
 use super::link::{Chain, Link, Node, angle_of, unit};
@@ -267,7 +268,7 @@ impl Sought {
         let beside = |link: &Link| add(a.at, turn(a.along(), link.hop(self.family)));
         for angle in ANGLES.into_iter().filter(|_| opposite) {
             let k = 2.0 * self.after(&Link::direct(0.0, 1.0, 2.0 * angle)) / apart;
-            if !(k.abs() <= 1.0) || k == 0.0 {
+            if k.is_nan() || k.abs() > 1.0 || k == 0.0 {
                 continue;
             }
             let length = 2.0 * angle / k.abs();
@@ -307,7 +308,8 @@ impl Sought {
     }
 }
 
-/// Curvatures of arcs that touch one circle and another about it, in units of the limit; a little sharper ones leave room for spirals.
+/// Curvatures of arcs that touch one circle and another about it, in units of the limit; a little sharper ones leave
+/// room for spirals.
 fn halfway(nodes: &[Node; 2]) -> impl Iterator<Item = f64> + use<> {
     let [a, b] = [0, 1].map(|i| 1.0 / nodes[i].curvature().abs());
     let radii = [a + b, (a - b).abs()].into_iter().flat_map(|twice| [0.5 * twice, 0.45 * twice]);
@@ -340,7 +342,7 @@ fn meet(loci: [Locus; 2]) -> [Option<Vector>; 2] {
             let u = line.along();
             let to = sub(centre, line.at);
             let (along, beside) = (dot(u, to), cross(u, to));
-            if !(beside.abs() <= radius) {
+            if beside.is_nan() || beside.abs() > radius {
                 return [None, None];
             }
             let half = ((radius - beside) * (radius + beside)).sqrt();
@@ -353,7 +355,7 @@ fn meet(loci: [Locus; 2]) -> [Option<Vector>; 2] {
             if apart <= PARALLEL * r && (r - s).abs() <= PARALLEL * r {
                 return [Some(add(a, [r, 0.0])), None];
             }
-            if !(apart > 0.0 && apart <= r + s && apart >= (r - s).abs()) {
+            if apart == 0.0 || apart.is_nan() || apart > r + s || apart < (r - s).abs() {
                 return [None, None];
             }
             let x = 0.5 * (apart + (r - s) * (r + s) / apart);

@@ -1,11 +1,11 @@
 //! The spirals that joins are made of: between two curvatures of one sign, or from or to 0, of a given length.
 //!
-//! Their shape is that of nearly constant parametric speed, so that the curvature is nearly linear in the length, as a clothoid's is. With
-//! end curvatures and the angle between the end directions given, a cubic has two free numbers, the lengths h0, h1 of its outer legs, and
-//! a PH quintic the moduli A, B of its outer pre-images; its inner numbers follow from (3.4) of Habib & Sakai and from
-//! `w1 = (κ0 A³ e^{iθ/2} + κ1 B³) / (4 sin(θ/2))`. Here h0 = h1 = L/3 and A² = B² = L, but at a straight end the outer leg is m times the
-//! inner one, as in Habib & Sakai's CGIV paper, with m = 1. Spirals that turn by more than some 0.6 rad need other legs to have monotone
-//! curvature ([`Spiral::shape`]).
+//! Their shape is that of nearly constant parametric speed, so that the curvature is nearly linear in the length, as a
+//! clothoid's is. With end curvatures and the angle between the end directions given, a cubic has two free numbers, the
+//! lengths h0, h1 of its outer legs, and a PH quintic the moduli A, B of its outer pre-images; its inner numbers follow
+//! from (3.4) of Habib & Sakai and from `w1 = (κ0 A³ e^{iθ/2} + κ1 B³) / (4 sin(θ/2))`. Here h0 = h1 = L/3 and A² = B²
+//! = L, but at a straight end the outer leg is m times the inner one, as in Habib & Sakai's CGIV paper, with m = 1.
+//! Spirals that turn by more than some 0.6 rad need other legs to have monotone curvature ([`Spiral::shape`]).
 
 use super::super::cubic::spiral;
 use super::super::involute::involute_between;
@@ -53,11 +53,12 @@ impl Spiral {
         if from == 0.0 || to == 0.0 { 1.3 } else { 1.15 }
     }
 
-    /// By how much the legs are longer than L/3, and by how much the one at the flatter end is longer than the other is shorter; at a straight
-    /// end m instead.
+    /// By how much the legs are longer than L/3, and by how much the one at the flatter end is longer than the other is
+    /// shorter; at a straight end m instead.
     ///
-    /// Fitted: for angles up to [`Spiral::most`] and ratios of curvature from 0.05 to 0.8 the result has monotone curvature, in the middle of the range of
-    /// those that have. Close to the greatest angle it grows long, so that circles far from a line are reached. What is used is proved all the same.
+    /// Fitted: for angles up to [`Spiral::most`] and ratios of curvature from 0.05 to 0.8 the result has monotone
+    /// curvature, in the middle of the range of those that have. Close to the greatest angle it grows long, so that
+    /// circles far from a line are reached. What is used is proved all the same.
     fn shape(&self, family: Family) -> [f64; 2] {
         let angle = self.angle().abs();
         let (flat, round) = (self.from.abs().min(self.to.abs()), self.from.abs().max(self.to.abs()));
@@ -111,7 +112,8 @@ impl Spiral {
         [x, side * y]
     }
 
-    /// The proved spiral in units of `1 / scale`, from a pose of the user's frame, with the pose where it ends; `None` where the family has none.
+    /// The proved spiral in units of `1 / scale`, from a pose of the user's frame, with the pose where it ends; `None`
+    /// where the family has none.
     pub fn piece(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
         let direction = at.direction + self.angle();
         if family != Family::Involute && (self.from == 0.0 || self.to == 0.0) {

@@ -5,7 +5,8 @@ use super::spiral::{Pose, Spiral};
 use crate::curve::vector::{Vector, add, scale, turn};
 use std::f64::consts::TAU;
 
-/// Curvatures of arcs in units of the limit, and lengths of spirals in units of the least radius, for the shortest join.
+/// Curvatures of arcs in units of the limit, and lengths of spirals in units of the least radius, for the shortest
+/// join.
 const SHORT: &[(f64, f64)] = &[(1.0, 0.4), (1.0, 0.8), (0.5, 0.4), (0.25, 0.8), (0.125, 0.8)];
 /// The same for gentle joins. A spiral turns by at most 0.6 rad, where both families' are proved.
 const GENTLE: &[(f64, f64)] =
