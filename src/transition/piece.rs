@@ -130,6 +130,11 @@ impl InvoluteBetween {
         Some(InvoluteBetween { ends: *ends, turns: found.turns, curve: found.curve()?.clone(), frame: *frame })
     }
 
+    /// What it joins.
+    pub fn ends(&self) -> &Ends {
+        &self.ends
+    }
+
     /// Its parameter where a share, from 0 to 1, of its length is behind.
     pub fn parameter_at(&self, share: f64) -> f64 {
         self.curve.at_length(share).f
