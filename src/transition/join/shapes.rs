@@ -2,21 +2,18 @@
 //! fit.
 
 use super::best::Best;
-use super::link::{Chain, Link, Node, angle_of, unit};
+use super::link::{Chain, Link, Node, SHORTEST, angle_of, root, unit};
 use super::request::{End, Family, Objective, Request};
 use super::spiral::{Pose, Spiral};
 use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
 use crate::error::Result;
-use crate::num::roots::find;
 
 /// Curvatures of arcs between, in units of the limit.
 const PEAKS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// How far spirals turn that may be long, radians.
 const ANGLES: [f64; 3] = [0.3, 0.6, 1.0];
-/// The shortest spiral whose length is sought, in least radii: its control points show its curvature to 1e-12.
-const SHORTEST: f64 = 0.06;
 /// A spiral leads at least this factor from one curvature to the other.
-const APART: f64 = 0.8;
+const APART: f64 = 0.55;
 /// How far a line goes beyond the least distance: nearly square to it, at 45° and at 30°.
 const SLANTS: [f64; 3] = [1.02, 1.4, 2.0];
 /// Directions that differ by less, radians, are parallel: a few roundings of the angles of [-2π, 2π].
@@ -322,12 +319,6 @@ fn beside(locus: &Locus, point: Vector) -> f64 {
         Locus::Line(line) => cross(line.along(), sub(point, line.at)).abs(),
         Locus::Circle { .. } => f64::NAN,
     }
-}
-
-/// A zero between two arguments, if the signs differ there.
-fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
-    let differ = low < high && f(low) * f(high) < 0.0;
-    differ.then(|| find(f, low, high, 1e-17 * high))
 }
 
 /// Where two meet.
