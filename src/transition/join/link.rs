@@ -144,6 +144,11 @@ impl Chain {
         Chain { start: Pose { at: start, direction: from }, end, links: links.to_vec(), arcs }
     }
 
+    /// Two spirals without an arc between, whose centre may be too far away to have digits.
+    pub fn corner(start: Pose, end: Vector, links: [Link; 2]) -> Chain {
+        Chain { start, end, links: links.to_vec(), arcs: vec![(links[0].first.to, 0.0)] }
+    }
+
     /// Its spirals.
     pub fn spirals(&self) -> impl Iterator<Item = Spiral> {
         self.links.iter().flat_map(Link::spirals)

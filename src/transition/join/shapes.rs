@@ -113,7 +113,7 @@ impl Sought {
                 self.between_parallels(a, b, &mut all);
                 return all;
             }
-            self.corners(&nodes, b.direction - a.direction, &mut all);
+            self.corners(a, b, &mut all);
         }
         for k in PEAKS.into_iter().chain(halfway(&nodes)).flat_map(|k| [k, -k]) {
             for first in self.links(nodes[0].curvature(), k) {
@@ -244,8 +244,10 @@ impl Sought {
     }
 
     /// Two spirals round the corner of two lines, without an arc.
-    fn corners(&self, nodes: &[Node; 2], turned: f64, all: &mut Vec<Chain>) {
+    fn corners(&self, a: Pose, b: Pose, all: &mut Vec<Chain>) {
+        let turned = b.direction - a.direction;
         let angle = turned.sin().atan2(turned.cos());
+        let [Some(corner), _] = meet([Locus::Line(a), Locus::Line(b)]) else { return };
         let gentle = angle.abs() / 0.4;
         for peak in PEAKS.into_iter().chain((gentle < PEAKS[3]).then_some(gentle)) {
             let long = angle.abs() / peak;
@@ -253,7 +255,12 @@ impl Sought {
                 continue;
             }
             let k = peak.copysign(angle);
-            self.by_arc(nodes, k, [Link::direct(0.0, k, long), Link::direct(k, 0.0, long)], all);
+            let links = [Link::direct(0.0, k, long), Link::direct(k, 0.0, long)];
+            let [first, second] = links.map(|link| link.first.step(self.family));
+            // The legs from the corner are equal, and together they lead from end to end.
+            let leg = length(add(first, turn(unit(0.5 * angle), second))) / (2.0 * (0.5 * angle).cos());
+            let start = Pose { at: sub(corner, scale(a.along(), leg)), ..a };
+            all.push(Chain::corner(start, add(corner, scale(b.along(), leg)), links));
         }
     }
 
