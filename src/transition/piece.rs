@@ -261,7 +261,8 @@ impl Piece {
     /// As [`Piece::length`].
     pub fn length_to(&self, t: f64) -> f64 {
         match self {
-            Piece::Cubic(_) | Piece::TrigQuintic(_) => arc_length(|t| self.at(t).speed, self.range()[0], t),
+            Piece::Cubic(cubic) => arc_length(|t| of_legs(&cubic.legs, t).speed(), 0.0, t),
+            Piece::TrigQuintic(part) => arc_length(|t| part.curve.jet(t).speed(), part.from, t),
             Piece::PhQuintic(curve) => curve.length_to(t),
             Piece::Involute(between) => between.curve.length_to(t) * between.unit(),
             Piece::Line(_) | Piece::Arc(_) => self.length() * t,

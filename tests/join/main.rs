@@ -112,6 +112,23 @@ fn degenerate_states() {
     assert!(arc.pieces.len() == 1 && (arc.measures.length - PI).abs() < 1e-15);
 }
 
+/// Two straight roads with a given place to leave each: two spirals, though the legs to the corner are unequal.
+#[test]
+fn corners_with_unequal_legs() {
+    for family in FAMILIES {
+        for degrees in [1.0f64, 30.0, 60.0, 100.0, -60.0, -120.0] {
+            for leg in [100.0, 105.0, 120.0] {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let (from, to) = (state(0.0, 0.0, 0.0, 0.0), state(100.0 + leg * cos, leg * sin, degrees.to_radians(), 0.0));
+                let request = Request { family, most_pieces: 2, ..Request::new(from, to, 0.1) };
+                let join = found(&request);
+                check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}"));
+                assert_eq!(join.pieces.len(), 2);
+            }
+        }
+    }
+}
+
 #[test]
 fn objectives_and_bounds() {
     let (from, to) = (state(0.0, 0.0, 0.0, 0.0), state(9.0, 5.0, 1.0, 0.0));
@@ -128,7 +145,7 @@ fn objectives_and_bounds() {
     let bound = Request { longest: shortest.length * 0.9, ..Request::new(from, to, 1.0) };
     let Outcome::None(why) = join(&bound).unwrap() else { panic!("too long") };
     assert!(why.contains("without these bounds"), "{why}");
-    let few = Request { most_pieces: 2, ..Request::new(from, to, 1.0) };
+    let few = Request { most_pieces: 1, ..Request::new(from, to, 1.0) };
     assert!(matches!(join(&few).unwrap(), Outcome::None(_)));
 }
 
@@ -148,6 +165,33 @@ fn hostile_numbers_are_refused_by_name() {
     for (x, limit) in [(1e300, 1e300), (1e300, 1.0), (5e-324, 1e-300), (1e-300, 1e300)] {
         // An answer or an error, and no panic.
         let _ = join(&Request::new(fine, state(x, 0.0, 1.0, 0.0), limit));
+    }
+}
+
+/// Sizes from 1e-6 to 1e9, ends that are degenerate or nearly so: what is found is right.
+#[test]
+fn nearly_degenerate_states_of_all_sizes() {
+    let mut random = Random(5);
+    for (family, count) in FAMILIES.into_iter().zip([1500, 400, 60]) {
+        let mut joined = 0;
+        for _ in 0..count {
+            let limit = 10f64.powf(random.between(-9.0, 6.0));
+            let mut near = |whole: f64| {
+                let off = 10f64.powf(random.between(-17.0, 0.0)) * random.between(-1.0, 1.0);
+                whole * (random.between(-2.0, 3.0).floor()) + if random.next() < 0.5 { off } else { 0.0 }
+            };
+            let mut state = || {
+                let point = [near(2.0), near(2.0)].map(|x| x / limit);
+                State { point, direction: near(FRAC_PI_2), curvature: near(0.5).clamp(-1.0, 1.0) * limit }
+            };
+            let request = Request { family, ..Request::new(state(), state(), limit) };
+            if let Outcome::Join(join) = join(&request).unwrap() {
+                joined += 1;
+                check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
+            }
+        }
+        println!("{family:?}: {joined} of {count}");
+        assert!(joined * 100 >= count * 99, "{family:?}: {joined} of {count}");
     }
 }
 

@@ -161,6 +161,43 @@ fn circles() {
     }
 }
 
+/// Concentric, tangent, nested and coincident circles, parallel and coincident lines, or nearly so.
+#[test]
+fn nearly_degenerate_shapes_of_all_sizes() {
+    let mut random = Random(6);
+    for (family, count) in FAMILIES.into_iter().zip([1500, 400, 60]) {
+        let mut joined = 0;
+        for _ in 0..count {
+            let limit = 10f64.powf(random.between(-9.0, 6.0));
+            let mut near = |whole: f64| {
+                let off = 10f64.powf(random.between(-17.0, 0.0)) * random.between(-1.0, 1.0);
+                whole * (random.between(-2.0, 3.0).floor()) + if random.next() < 0.5 { off } else { 0.0 }
+            };
+            let mut shape = || {
+                let point = [near(1.0), near(1.0)].map(|x| x / limit);
+                match near(1.0) {
+                    side if side > 0.0 => End::Line { point, direction: near(FRAC_PI_2) },
+                    side => {
+                        let turn = if side > -0.5 { Turn::Left } else { Turn::Right };
+                        End::Circle { centre: point, radius: (1.0 + near(1.0).abs()) / limit, turn }
+                    }
+                }
+            };
+            let request = Request { family, ..Request::new(shape(), shape(), limit) };
+            match join(&request).unwrap() {
+                Outcome::Join(join) => {
+                    joined += 1;
+                    check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
+                }
+                Outcome::None(why) if why.contains("nothing to join") || why.contains("beyond") => joined += 1,
+                Outcome::None(why) => println!("{request:?}: {why}"),
+            }
+        }
+        println!("{family:?}: {joined} of {count}");
+        assert!(joined * 100 >= count * 98, "{family:?}: {joined} of {count}");
+    }
+}
+
 #[test]
 fn what_is_no_join() {
     let says = |from: End, to: End, limit: f64, what: &str| match join(&Request::new(from, to, limit)) {

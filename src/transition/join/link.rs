@@ -10,6 +10,10 @@ use super::spiral::{Pose, Spiral, pinned};
 use super::turns::wrapped;
 use crate::curve::vector::{Vector, add, dot, scale, sub, turn};
 use crate::error::Result;
+use crate::num::roots::find;
+
+/// The shortest spiral whose length is sought, in least radii: its control points show its curvature to 1e-12.
+pub(super) const SHORTEST: f64 = 0.06;
 
 /// A line or a circle of a chain.
 #[derive(Debug, Clone, Copy)]
@@ -83,6 +87,12 @@ impl Link {
 /// A line shorter than this would not show its direction to 1e-12 by its ends.
 const LEAST_LINE: f64 = 2e-3;
 
+/// A zero between two arguments, if the signs differ there.
+pub(super) fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
+    let differ = low < high && f(low) * f(high) < 0.0;
+    differ.then(|| find(f, low, high, 1e-17 * high))
+}
+
 pub(super) fn unit(direction: f64) -> Vector {
     [direction.cos(), direction.sin()]
 }
@@ -132,6 +142,11 @@ impl Chain {
             (Node::Line(_), Node::Line(pose)) => pose.at,
         };
         Chain { start: Pose { at: start, direction: from }, end, links: links.to_vec(), arcs }
+    }
+
+    /// Two spirals without an arc between, whose centre may be too far away to have digits.
+    pub fn corner(start: Pose, end: Vector, links: [Link; 2]) -> Chain {
+        Chain { start, end, links: links.to_vec(), arcs: vec![(links[0].first.to, 0.0)] }
     }
 
     /// Its spirals.

@@ -1,13 +1,13 @@
 //! The numbers of a path whose pieces have monotone curvature.
 
-use super::super::piece::{Arc, Piece};
-use crate::curve::gauss;
+use super::super::piece::{Arc, Piece, of_legs};
+use crate::curve::{Jet, gauss};
 use serde::Serialize;
 
 /// Steps of a piece between which the greatest rate is bracketed.
 const STEPS: usize = 32;
 /// Thirds of a bracket; each leaves 2/3 of it.
-const THIRDS: usize = 40;
+const THIRDS: usize = 24;
 
 /// Curvatures of control points, relative to the limit.
 const ROUNDING: f64 = 1e-12;
@@ -40,7 +40,8 @@ impl Measures {
             size if size <= limit * (1.0 + ROUNDING) => k.clamp(-limit, limit),
             _ => k,
         };
-        let curvatures = pieces.iter().flat_map(|p| p.range().map(|t| within(p.at(t).curvature)));
+        let curvature = |piece: &Piece, t: f64| jet(piece, t).map_or_else(|| piece.at(t).curvature, |jet| jet.curvature());
+        let curvatures = pieces.iter().flat_map(|p| p.range().map(|t| within(curvature(p, t))));
         let range = curvatures.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], k| [low.min(k), high.max(k)]);
         let mut rates = [0.0f64, 0.0];
         for piece in pieces {
@@ -71,10 +72,7 @@ fn energy(piece: &Piece) -> f64 {
             piece.length() * integral(|share| piece.at(between.parameter_at(share)).curvature.powi(2), [0.0, 1.0])
         }
         Piece::Cubic(_) | Piece::TrigQuintic(_) => {
-            let square = |t: f64| {
-                let at = piece.at(t);
-                at.curvature * at.curvature * at.speed
-            };
+            let square = |t: f64| jet(piece, t).map_or(0.0, |jet| jet.curvature().powi(2) * jet.speed());
             integral(square, piece.range())
         }
     }
@@ -86,15 +84,23 @@ fn integral(f: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> f64 {
     (0..4).map(|i| gauss(|t| [f(t)], at(i), at(i + 1))[0]).sum()
 }
 
+/// Derivatives of a polynomial or trigonometric piece.
+fn jet(piece: &Piece, t: f64) -> Option<Jet> {
+    match piece {
+        Piece::Cubic(cubic) => Some(of_legs(&cubic.legs, t)),
+        Piece::PhQuintic(curve) => Some(curve.jet(t)),
+        Piece::TrigQuintic(part) => Some(part.curve.jet(t)),
+        Piece::Involute(_) | Piece::Line(_) | Piece::Arc(_) => None,
+    }
+}
+
 /// dκ/ds at a share from 0 to 1 of a piece.
 fn rate(piece: &Piece, share: f64) -> f64 {
     let [from, to] = piece.range();
     let t = from + share * (to - from);
     match piece {
         Piece::Line(_) | Piece::Arc(_) => 0.0,
-        Piece::Cubic(cubic) => super::super::piece::of_legs(&cubic.legs, t).curvature_ds(),
-        Piece::PhQuintic(curve) => curve.jet(t).curvature_ds(),
-        Piece::TrigQuintic(part) => part.curve.jet(t).curvature_ds(),
+        Piece::Cubic(_) | Piece::PhQuintic(_) | Piece::TrigQuintic(_) => jet(piece, t).map_or(0.0, |jet| jet.curvature_ds()),
         Piece::Involute(between) => {
             let step = 1e-5;
             let (low, high) = ((share - step).max(0.0), (share + step).min(1.0));

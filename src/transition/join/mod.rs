@@ -12,6 +12,8 @@
 //! Turns of several curvatures and of spirals of several lengths are tried in all pairs. The best pair whose spirals
 //! are proved is taken. In units of the least radius the spirals are 0.4 long or longer: from shorter ones, control
 //! points in doubles could not show the curvature to 1e-12.
+//!
+//! Lines and circles are joined by the same spirals, laid out by the centres of circles: see `link.rs` and `shapes.rs`.
 
 mod best;
 mod link;

@@ -2,25 +2,26 @@
 //! fit.
 
 use super::best::Best;
-use super::link::{Chain, Link, Node, angle_of, unit};
+use super::link::{Chain, Link, Node, SHORTEST, angle_of, root, unit};
 use super::request::{End, Family, Objective, Request};
 use super::spiral::{Pose, Spiral};
 use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
 use crate::error::Result;
-use crate::num::roots::find;
 
 /// Curvatures of arcs between, in units of the limit.
 const PEAKS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// How far spirals turn that may be long, radians.
 const ANGLES: [f64; 3] = [0.3, 0.6, 1.0];
-/// The shortest spiral whose length is sought, in least radii: its control points show its curvature to 1e-12.
-const SHORTEST: f64 = 0.06;
 /// A spiral leads at least this factor from one curvature to the other.
-const APART: f64 = 0.8;
+const APART: f64 = 0.55;
 /// How far a line goes beyond the least distance: nearly square to it, at 45° and at 30°.
 const SLANTS: [f64; 3] = [1.02, 1.4, 2.0];
-/// Directions that differ by less, radians, are parallel: a few roundings of the angles of [-2π, 2π].
-const PARALLEL: f64 = 16.0 * f64::EPSILON;
+/// Directions that differ by less, radians, are parallel: well below what joins are exact to.
+const PARALLEL: f64 = 1e-13;
+/// Centres and radii that differ by less, relatively, are the same: a few roundings.
+const SAME: f64 = 16.0 * f64::EPSILON;
+/// Lines whose corner is farther away than this, in least radii, are joined nearer, too.
+const FAR: f64 = 100.0;
 /// So many chains of those within the bounds are compared: the model that orders them tells length to some hundredths.
 const COMPARED: usize = 6;
 /// So many are built at most; each takes the proofs of a few spirals.
@@ -82,10 +83,10 @@ fn same(nodes: &[Node; 2]) -> bool {
         [Node::Line(a), Node::Line(b)] => {
             let turned = a.direction - b.direction;
             let apart = sub(b.at, a.at);
-            parallel(turned) && turned.cos() > 0.0 && cross(a.along(), apart).abs() <= PARALLEL * length(apart).max(1.0)
+            parallel(turned) && turned.cos() > 0.0 && cross(a.along(), apart).abs() <= SAME * length(apart).max(1.0)
         }
         [Node::Arc { centre: a, curvature: k }, Node::Arc { centre: b, curvature: l }] => {
-            (k - l).abs() <= PARALLEL * k.abs() && length(sub(*b, *a)) * k.abs() <= PARALLEL
+            (k - l).abs() <= SAME * k.abs() && length(sub(*b, *a)) * k.abs() <= SAME
         }
         _ => false,
     }
@@ -112,11 +113,17 @@ impl Sought {
     fn chains(&self, nodes: [Node; 2]) -> Vec<Chain> {
         let mut all: Vec<Chain> = self.direct(&nodes).iter().map(|link| Chain::new(self.family, &nodes, &[*link])).collect();
         if let [Node::Line(a), Node::Line(b)] = nodes {
-            if parallel(b.direction - a.direction) {
-                self.between_parallels(a, b, &mut all);
-                return all;
+            let turned = b.direction - a.direction;
+            let corner = meet([Locus::Line(a), Locus::Line(b)])[0].filter(|_| !parallel(turned));
+            let far = corner.map_or(f64::INFINITY, |corner| length(sub(corner, a.at)).min(length(sub(corner, b.at))));
+            if parallel(turned) && turned.cos() < 0.0 {
+                self.half_turns(a, b, &mut all);
             }
-            self.corners(&nodes, b.direction - a.direction, &mut all);
+            if far > FAR {
+                self.by_two_arcs(a, b, &mut all);
+            }
+            let Some(corner) = corner.filter(|_| far <= super::FARTHEST) else { return all };
+            self.corners([a, b], corner, &mut all);
         }
         for k in PEAKS.into_iter().chain(halfway(&nodes)).flat_map(|k| [k, -k]) {
             for first in self.links(nodes[0].curvature(), k) {
@@ -247,7 +254,8 @@ impl Sought {
     }
 
     /// Two spirals round the corner of two lines, without an arc.
-    fn corners(&self, nodes: &[Node; 2], turned: f64, all: &mut Vec<Chain>) {
+    fn corners(&self, [a, b]: [Pose; 2], corner: Vector, all: &mut Vec<Chain>) {
+        let turned = b.direction - a.direction;
         let angle = turned.sin().atan2(turned.cos());
         let gentle = angle.abs() / 0.4;
         for peak in PEAKS.into_iter().chain((gentle < PEAKS[3]).then_some(gentle)) {
@@ -256,40 +264,46 @@ impl Sought {
                 continue;
             }
             let k = peak.copysign(angle);
-            self.by_arc(nodes, k, [Link::direct(0.0, k, long), Link::direct(k, 0.0, long)], all);
+            let links = [Link::direct(0.0, k, long), Link::direct(k, 0.0, long)];
+            let [first, second] = links.map(|link| link.first.step(self.family));
+            // The legs from the corner are equal, and together they lead from end to end.
+            let leg = length(add(first, turn(unit(0.5 * angle), second))) / (2.0 * (0.5 * angle).cos());
+            let start = Pose { at: sub(corner, scale(a.along(), leg)), ..a };
+            all.push(Chain::corner(start, add(corner, scale(b.along(), leg)), links));
         }
     }
 
-    /// From a line to a parallel one: an arc of the right radius for a half turn, or two arcs.
-    fn between_parallels(&self, a: Pose, b: Pose, all: &mut Vec<Chain>) {
+    /// From a line to one the other way: an arc of the right radius.
+    fn half_turns(&self, a: Pose, b: Pose, all: &mut Vec<Chain>) {
         let apart = cross(a.along(), sub(b.at, a.at));
-        let opposite = (b.direction - a.direction).cos() < 0.0;
-        let (from, to) = (Node::Line(a), Node::Line(b));
-        let beside = |link: &Link| add(a.at, turn(a.along(), link.hop(self.family)));
-        for angle in ANGLES.into_iter().filter(|_| opposite) {
+        for angle in ANGLES {
             let k = 2.0 * self.after(&Link::direct(0.0, 1.0, 2.0 * angle)) / apart;
             if k.is_nan() || k.abs() > 1.0 || k == 0.0 {
                 continue;
             }
             let length = 2.0 * angle / k.abs();
             let links = [Link::direct(0.0, k, length), Link::direct(k, 0.0, length)];
-            let arc = Node::Arc { centre: beside(&links[0]), curvature: k };
-            all.push(Chain::new(self.family, &[from, arc, to], &links));
+            let centre = add(a.at, turn(a.along(), links[0].hop(self.family)));
+            let arc = Node::Arc { centre, curvature: k };
+            all.push(Chain::new(self.family, &[Node::Line(a), arc, Node::Line(b)], &links));
         }
+    }
+
+    /// From a point of a line over two arcs to another line.
+    fn by_two_arcs(&self, a: Pose, b: Pose, all: &mut Vec<Chain>) {
+        let (from, to) = (Node::Line(a), Node::Line(b));
         for k in PEAKS.into_iter().flat_map(|k| [k, -k]) {
             for ((first, last), (next, other)) in self.pairs(k) {
-                let side = if opposite { -1.0 } else { 1.0 };
-                let across = apart + side * self.before(&last) - self.after(&first);
-                let far = length(next.hop(self.family));
-                let longer = SLANTS.into_iter().filter_map(|slant| next.reaching(self.family, across.abs() * slant));
-                for next in longer.chain((across.abs() <= far).then_some(next)) {
-                    let far = length(next.hop(self.family));
-                    let along = (far * far - across * across).max(0.0).sqrt();
-                    for along in [along, -along] {
-                        let one = beside(&first);
-                        let two = add(one, turn(a.along(), [along, across]));
-                        let arcs = [Node::Arc { centre: one, curvature: k }, Node::Arc { centre: two, curvature: other }];
-                        all.push(Chain::new(self.family, &[from, arcs[0], arcs[1], to], &[first, next, last]));
+                let centre = add(a.at, turn(a.along(), first.hop(self.family)));
+                let arc = Node::Arc { centre, curvature: k };
+                let line = self.locus(&to, &last, false);
+                let far = beside(&line, centre);
+                let longer = SLANTS.into_iter().filter_map(|slant| next.reaching(self.family, far * slant));
+                for next in longer.chain([next]) {
+                    let radius = length(next.hop(self.family));
+                    for centre in meet([line, Locus::Circle { centre, radius }]).into_iter().flatten() {
+                        let nodes = [from, arc, Node::Arc { centre, curvature: other }, to];
+                        all.push(Chain::new(self.family, &nodes, &[first, next, last]));
                     }
                 }
             }
@@ -324,12 +338,6 @@ fn beside(locus: &Locus, point: Vector) -> f64 {
     }
 }
 
-/// A zero between two arguments, if the signs differ there.
-fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
-    let differ = low < high && f(low) * f(high) < 0.0;
-    differ.then(|| find(f, low, high, 1e-17 * high))
-}
-
 /// Where two meet.
 fn meet(loci: [Locus; 2]) -> [Option<Vector>; 2] {
     match loci {
@@ -352,7 +360,7 @@ fn meet(loci: [Locus; 2]) -> [Option<Vector>; 2] {
             let across = sub(b, a);
             let apart = length(across);
             // About one centre: all places are alike.
-            if apart <= PARALLEL * r && (r - s).abs() <= PARALLEL * r {
+            if apart <= SAME * r && (r - s).abs() <= SAME * r {
                 return [Some(add(a, [r, 0.0])), None];
             }
             if apart == 0.0 || apart.is_nan() || apart > r + s || apart < (r - s).abs() {

@@ -76,7 +76,9 @@ impl Spiral {
         let (ratio, share) = (flat / round, ((angle - 0.5) / 0.3).clamp(0.0, 1.0));
         let longer = ratio.powf(-0.22 * (1.0 - ratio).sqrt());
         let uneven = 0.3 - 2.0 / 3.0 * (ratio - 0.5).max(0.0);
-        [1.0 + share * (longer - 1.0), 1.0 + share * uneven]
+        // Where this is 1 and the curvatures are near, two cubics nearly coincide, and doubles cannot tell them apart.
+        let even = 1.0 - 0.02 * ((ratio - 0.2) / 0.2).clamp(0.0, 1.0);
+        [even + share * (longer - even), 1.0 + share * uneven]
     }
 
     /// How long it is, nearly.

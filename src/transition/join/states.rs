@@ -3,11 +3,11 @@
 use super::super::piece::{Arc, Line, Piece};
 use super::super::placement::Ends;
 use super::best::Best;
-use super::link::add_arc;
+use super::link::{SHORTEST, add_arc, root, unit};
 use super::request::{Family, Objective, Request, State};
 use super::spiral::{Pose, Spiral, between, pinned, reversed};
 use super::turns::{Turn, reach, turns, wrapped};
-use crate::curve::vector::{Vector, add, dot, length, scale, sub, turn};
+use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
 use crate::error::Result;
 use std::f64::consts::PI;
 
@@ -37,6 +37,9 @@ pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best
     let Request { greatest_curvature: most, family, objective, most_pieces, .. } = *request;
     for piece in simple(family, [from, to])? {
         best.offer(vec![piece]);
+    }
+    if let Some(pieces) = corner(request, [from, to])? {
+        best.offer(pieces);
     }
     let across = scale(sub(to.point, from.point), most);
     let here = Pose { at: [0.0, 0.0], direction: from.direction };
@@ -117,6 +120,38 @@ fn simple(family: Family, [from, to]: [&State; 2]) -> Result<Vec<Piece>> {
     // One that the family refuses for its size is none.
     all.extend(between(family, &ends).ok().flatten());
     Ok(all)
+}
+
+/// Between straight ends, two spirals without an arc: the legs from the ends to the corner may be unequal. The shares of the angle are found so
+/// that the direction between the ends is right; then the size is.
+fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece>>> {
+    let Request { greatest_curvature: most, family, .. } = *request;
+    let turned = wrapped_even(to.direction - from.direction);
+    let (angle, side) = (turned.abs(), turned.signum());
+    let across = turn(unit(-from.direction), scale(sub(to.point, from.point), most));
+    if from.curvature != 0.0 || to.curvature != 0.0 || angle == 0.0 || length(across) == 0.0 {
+        return Ok(None);
+    }
+    let pair = |share: f64, k: f64| {
+        let first = Spiral { from: 0.0, to: side * k, length: 2.0 * share / k };
+        [first, Spiral { from: side * k, to: 0.0, length: 2.0 * (angle - share) / k }]
+    };
+    let step = |share: f64| {
+        let [first, second] = pair(share, 1.0);
+        add(first.step(family), turn(unit(first.angle()), second.step(family)))
+    };
+    let least = (angle - Spiral::most(0.0, 1.0)).max(0.02 * angle);
+    let Some(share) = root(|share| cross(step(share), across), least, angle - least) else { return Ok(None) };
+    let k = length(step(share)) / length(across);
+    if k > 1.0 || dot(step(share), across) < 0.0 || 2.0 * share.min(angle - share) < SHORTEST * k {
+        return Ok(None);
+    }
+    let [first, second] = pair(share, k);
+    let Some((first, at)) = first.piece(family, Pose { at: from.point, direction: from.direction }, most)? else {
+        return Ok(None);
+    };
+    let Some((second, _)) = second.piece(family, at, most)? else { return Ok(None) };
+    Ok(Some(vec![first, pinned(second, to.point)?]))
 }
 
 /// An angle within a half turn to either side.
