@@ -15,11 +15,17 @@ pub struct SpiralCurve {
     json: CString,
 }
 
+/// Several pieces in JSON.
+#[derive(serde::Serialize)]
+struct Pieces<'a> {
+    pieces: &'a [Piece],
+}
+
 impl SpiralCurve {
     fn new(pieces: Vec<Piece>) -> Result<SpiralCurve> {
         let (kind, json) = match &pieces[..] {
             [piece] => (piece.kind().name(), serde_json::to_string(piece)),
-            all => ("path", serde_json::to_string(&serde_json::json!({ "pieces": all }))),
+            pieces => ("path", serde_json::to_string(&Pieces { pieces })),
         };
         let json = json.map_err(|e| Fault(SpiralStatus::SPIRAL_INTERNAL, e.to_string()))?;
         Ok(SpiralCurve { kind: c_text(kind), json: c_text(&json), pieces })
