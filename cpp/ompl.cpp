@@ -250,6 +250,44 @@ int main(int count, char **arguments) {
         std::printf("%-8s %15.3f %8.2f %15.3f %8.2f %15.3f %8.2f\n", scene.name, rrt.seconds, rrt.length, star.seconds, star.length,
                     curves.seconds, curves.length);
     }
+    // Random pairs within ten least radii: how many are joined, how much longer than Dubins' curves, and the time of each.
+    const std::size_t pairs = 5000;
+    auto dubins_space = std::make_shared<ob::DubinsStateSpace>(1 / limit);
+    ompl::RNG random;
+    std::vector<std::pair<sa::End, sa::End>> ends;
+    const auto end = [&] {
+        return sa::End{random.uniformReal(-5, 5), random.uniformReal(-5, 5), random.uniformReal(-M_PI, M_PI), random.uniformReal(-limit, limit)};
+    };
+    for (std::size_t i = 0; i < pairs; i++) ends.emplace_back(end(), end());
+    std::size_t joined = 0;
+    double length = 0, least = 0;
+    std::vector<double> lengths(pairs, std::nan("")), times(pairs);
+    for (std::size_t i = 0; i < pairs; i++) {
+        const auto began = std::chrono::steady_clock::now();
+        if (const auto curve = sa::join(ends[i].first, ends[i].second, limit)) lengths[i] = curve->length();
+        times[i] = seconds_since(began) * 1e6;
+    }
+    ob::ScopedState<ob::DubinsStateSpace> from(dubins_space), to(dubins_space);
+    const auto began = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < pairs; i++) {
+        const auto &[p, q] = ends[i];
+        from->setXY(p.x, p.y);
+        from->setYaw(p.direction);
+        to->setXY(q.x, q.y);
+        to->setYaw(q.direction);
+        const double shortest = dubins_space->distance(from.get(), to.get());
+        if (std::isnan(lengths[i])) continue;
+        // No curve within the limit is shorter.
+        CHECK(lengths[i] > shortest - 1e-6);
+        joined++;
+        length += lengths[i];
+        least += shortest;
+    }
+    const double each = seconds_since(began) / static_cast<double>(pairs) * 1e6;
+    std::sort(times.begin(), times.end());
+    std::printf("%zu random pairs, %.2f %% joined, %.3f times as long as Dubins' curves; us a join: median %.0f, 99 %% %.0f; a Dubins curve %.2f\n", pairs,
+                100.0 * static_cast<double>(joined) / static_cast<double>(pairs), length / least, times[pairs / 2], times[pairs * 99 / 100], each);
+    CHECK(joined * 100 > pairs * 99);
     // Between a state and itself there is no motion, and none leaves the limit.
     auto space = std::make_shared<sa::JoinStateSpace>(limit);
     space->setBounds(bounds());
