@@ -149,20 +149,31 @@ pub fn least_error(c: &Quintic<f64>, error: f64) -> f64 {
 ///
 /// `guess` is where the least value is thought to be taken; Newton's method sharpens it to `t`. On a piece around `t` where
 /// second differences prove the quintic convex, it stays above its tangent, hence above `c(t) - |c'(t)|`; elsewhere
-/// [`positive`] proves it higher. A guess at an end is proved by [`positive`] alone, up to 2^-(bits/2) of its size.
+/// [`positive`] proves it higher. A guess at an end is proved by [`positive`] alone, up to 2^-(bits/2) of its size; where that fails,
+/// Newton's method starts from the end.
 pub fn least_interval(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
     let bits = c[0].bits();
-    let end = if guess < 0.5 { &c[0] } else { &c[5] };
-    let Some(t) = stationary(c, guess) else {
-        let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.size().upper());
-        let slack = &size * &Interval::power_of_two(-(bits as isize) / 2, bits);
-        let floor = &end.lower() - &slack;
-        return above(c, &floor)?.then(|| floor.union(end));
+    let inside = if guess > 0.0 && guess < 1.0 { stationary(c, guess) } else { None };
+    let t = match inside {
+        Some(t) => t,
+        None => {
+            let (end, at_end) = if guess < 0.5 { (0.0, &c[0]) } else { (1.0, &c[5]) };
+            let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.size().upper());
+            let slack = &size * &Interval::power_of_two(-(bits as isize) / 2, bits);
+            let floor = &at_end.lower() - &slack;
+            if above(c, &floor) == Some(true) {
+                return Some(floor.union(at_end));
+            }
+            // The least value may lie so little inside that doubles take the end for it.
+            stationary(c, end)?
+        }
     };
     let [value, slope, _] = at(c, &t);
     let floor = &value.lower() - &slope.size().upper();
+    // Data at a small angle have a quintic that bends within that angle of an end, so the reach falls with the precision.
+    let least_reach = (-(bits as f64) / 4.0).exp2().max(1e-300);
     let mut reach = 0.0625;
-    while reach > 1e-7 {
+    while reach > least_reach {
         let (from, to) = (t.plus(-reach), t.plus(reach));
         let inner = from.sign() == Some(Ordering::Greater);
         let outer = to.plus(-1.0).sign() == Some(Ordering::Less);
@@ -218,12 +229,9 @@ fn above(c: &Quintic<Interval>, floor: &Interval) -> Option<bool> {
     positive(&c.clone().map(|v| &v - floor), 0.0, 0.0, MOST_HALVINGS)
 }
 
-/// Newton's method for a zero of the derivative, strictly inside; `None` when it leaves [0, 1] or the quintic does not bend upwards.
+/// Newton's method for a zero of the derivative, strictly inside; `None` when it leaves (0, 1) or the quintic does not bend upwards.
 fn stationary(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
     let bits = c[0].bits();
-    if guess <= 0.0 || guess >= 1.0 {
-        return None;
-    }
     let mut t = Interval::new(guess, bits);
     for _ in 0..bits.ilog2() {
         let [_, slope, bend] = at(c, &t);
@@ -310,6 +318,30 @@ mod tests {
                 }
             }
             assert_eq!(positive(&parabola(z, 0.0), 1e-15, 1e-15, 24), None, "a tie at {z}");
+        }
+    }
+
+    /// Its least value is less than that at an end by what no double next to the end's value can tell.
+    #[test]
+    fn a_least_value_just_inside_an_end_is_found() {
+        for offset in [1e-7, 1e-9, 1e-18, 1e-40] {
+            let bits = 512;
+            let number = |x: f64| Interval::new(x, bits);
+            let z = number(offset);
+            // (t - z)², raised to degree 5.
+            let b = [z.square(), &z.square() - &z, z.plus(-1.0).square()];
+            let raise = |i: f64| {
+                let sum = &b[0].scale((5.0 - i) * (4.0 - i)) + &b[1].scale(2.0 * i * (5.0 - i));
+                (&sum + &b[2].scale(i * (i - 1.0))).over(&number(20.0)).expect("20 is not 0")
+            };
+            let c = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(raise);
+            let mut back = c.clone();
+            back.reverse();
+            for c in [c, back] {
+                let (_, guess) = least(&c.clone().map(|c| c.approx()));
+                let least = least_interval(&c, guess).expect("enough bits");
+                assert!(least.sign() != Some(Ordering::Greater) && least.size().upper().approx() < 1e-60, "{offset}: {least:?}");
+            }
         }
     }
 
