@@ -115,6 +115,7 @@
 //! | `recipe` | the reader of recipes alone |
 
 pub mod atlas;
+pub mod cells;
 pub mod curve;
 pub mod error;
 pub mod eval;
@@ -145,6 +146,8 @@ pub use error::{Error, Result};
 mod pages {
     #[doc = include_str!("../README.md")]
     struct Readme;
+    #[doc = include_str!("../docs/cells.md")]
+    struct Cells;
     #[doc = include_str!("../docs/any-spiral.md")]
     struct AnySpiral;
     #[doc = include_str!("../docs/reach.md")]

@@ -11,9 +11,23 @@ use std::collections::{BTreeMap, HashMap};
 pub const FORMAT_VERSION: u32 = 1;
 const FORMAT: &str = "spiral-atlas";
 
+/// What the grid of a file is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Fields at the nodes.
+    Nodes,
+    /// Verdicts about the boxes between the nodes: [`crate::cells`].
+    Cells,
+}
+
+/// The metadata `kind` of a file of cells; one of nodes has none.
+const CELLS: &str = "cells";
+
 /// What an atlas says about itself, apart from its grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct About {
+    /// What the grid is about.
+    pub kind: Kind,
     /// The program that wrote it, with its version.
     pub generator: String,
     /// The atlas's name in its recipe.
@@ -73,12 +87,12 @@ impl Packed {
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct NamedAxis {
     pub name: String,
-    spacing: Kind,
+    spacing: SpacingKind,
 }
 
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum Kind {
+enum SpacingKind {
     Linear,
     Log,
     Values,
@@ -87,9 +101,9 @@ enum Kind {
 impl NamedAxis {
     fn of(axis: &Axis) -> NamedAxis {
         let spacing = match axis.spacing() {
-            Spacing::Linear { .. } => Kind::Linear,
-            Spacing::Log { .. } => Kind::Log,
-            Spacing::Values(_) => Kind::Values,
+            Spacing::Linear { .. } => SpacingKind::Linear,
+            Spacing::Log { .. } => SpacingKind::Log,
+            Spacing::Values(_) => SpacingKind::Values,
         };
         NamedAxis { name: axis.name().to_owned(), spacing }
     }
@@ -100,9 +114,9 @@ impl NamedAxis {
             return Err(format!("the axis `{}` is empty", self.name));
         };
         let spacing = match self.spacing {
-            Kind::Linear => Spacing::Linear { lo, hi, count },
-            Kind::Log => Spacing::Log { lo, hi, count },
-            Kind::Values => Spacing::Values(values.clone()),
+            SpacingKind::Linear => Spacing::Linear { lo, hi, count },
+            SpacingKind::Log => Spacing::Log { lo, hi, count },
+            SpacingKind::Values => Spacing::Values(values.clone()),
         };
         let axis = Axis::new(&self.name, spacing).map_err(|e| e.to_string())?;
         match axis.values().iter().zip(&values).position(|(a, b)| a.to_bits() != b.to_bits()) {
@@ -119,7 +133,7 @@ impl NamedAxis {
 }
 
 impl About {
-    pub(super) fn of(spec: &Spec) -> Result<About, String> {
+    pub(crate) fn of(spec: &Spec) -> Result<About, String> {
         let names: Vec<&str> = spec.grid.axes().iter().map(Axis::name).collect();
         let family = spec.family;
         let chart = family.charts().iter().find(|c| c.axes == names).ok_or_else(|| {
@@ -133,6 +147,7 @@ impl About {
         };
         let count = |c: &crate::family::Count| Packed { name: c.name.into(), doc: c.doc.into(), shift: c.shift, bits: c.bits };
         Ok(About {
+            kind: Kind::Nodes,
             generator: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).into(),
             name: spec.name.into(),
             family: family.name().into(),
@@ -198,7 +213,8 @@ impl About {
             ("no_value", format!("{NO_VALUE:e}")),
             ("recipe", self.recipe.clone()),
         ];
-        Ok(pairs.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+        let kind = (self.kind == Kind::Cells).then(|| ("kind", CELLS.to_owned()));
+        Ok(pairs.into_iter().chain(kind).map(|(key, value)| (key.to_owned(), value)).collect())
     }
 
     /// The inverse of [`About::to_map`]; whoever calls it compares the keys that are not read here.
@@ -214,7 +230,13 @@ impl About {
                 "its format version is {version:?}; this program reads version {FORMAT_VERSION}, so write it anew from its recipe"
             ));
         }
+        let kind = match map.get("kind").map(String::as_str) {
+            None => Kind::Nodes,
+            Some(CELLS) => Kind::Cells,
+            Some(other) => return Err(format!("its kind is {other:?}; this program reads nodes and {CELLS:?}")),
+        };
         let about = About {
+            kind,
             generator: text("generator")?,
             name: text("name")?,
             family: text("family")?,

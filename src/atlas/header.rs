@@ -5,7 +5,7 @@
 //! offsets, padding, order) is what the writer would have written, and a key that the reader overlooks cannot exist.
 //! The header's own hash is among them, so that damage to the legend or the recipe is seen too.
 
-use super::about::{About, check_name};
+use super::about::{About, Kind, check_name};
 use crate::grid::{Grid, MAX_AXES};
 use blake3::Hash;
 use safetensors::tensor::{Dtype, Metadata, TensorInfo};
@@ -18,6 +18,12 @@ pub const MAX_HEADER: usize = crate::files::LONGEST_RECIPE as usize;
 pub(super) const FLAGS: &str = "flags";
 /// The tensor of packed counts.
 pub(super) const SOLUTIONS: &str = "solutions";
+/// The tensors of a file of cells: where the trees of each top cell begin, their nodes, and what is known of each top cell.
+pub(crate) const ROOTS: &str = "roots";
+/// See [`ROOTS`].
+pub(crate) const TREES: &str = "trees";
+/// See [`ROOTS`].
+pub(crate) const TOP: &str = "top";
 /// Bytes of the length that starts the file, and the alignment of the tensors.
 const WORD: usize = 8;
 /// Holds the place of a hash that is not known yet.
@@ -25,14 +31,14 @@ const ZERO: Hash = Hash::from_bytes([0; blake3::OUT_LEN]);
 
 /// A tensor's name, type, shape and place after the header.
 #[derive(Debug)]
-pub(super) struct Tensor {
+pub(crate) struct Tensor {
     pub name: String,
     pub info: TensorInfo,
 }
 
 /// Everything before the tensors.
 #[derive(Debug)]
-pub(super) struct Header {
+pub(crate) struct Header {
     pub about: About,
     pub grid: Grid,
     pub tensors: Vec<Tensor>,
@@ -43,14 +49,31 @@ pub(super) struct Header {
 impl Header {
     /// Lays the tensors out, the widest type first, so that each is aligned when the header's end is; hashes are zero as yet.
     pub fn new(about: About, grid: Grid) -> Result<Header, String> {
-        about.check()?;
         let shape = grid.shape();
-        let axes = grid.axes().iter().map(|a| (a.name(), Dtype::F64, vec![a.values().len()]));
-        let scalars = about.scalars.iter().map(|s| (&s.name[..], Dtype::F32, shape.clone()));
-        let bytes = [FLAGS, SOLUTIONS].map(|name| (name, Dtype::U8, shape.clone()));
+        let scalars = about.scalars.iter().map(|s| (s.name.clone(), Dtype::F32, shape.clone()));
+        let bytes = [FLAGS, SOLUTIONS].map(|name| (name.to_owned(), Dtype::U8, shape.clone()));
+        let fields = scalars.chain(bytes).collect();
+        Header::with(about, grid, fields)
+    }
+
+    /// The same for cells: `top` of them along each axis, and so many words of trees.
+    pub fn of_cells(about: About, grid: Grid, top: usize, words: usize) -> Result<Header, String> {
+        let shape = |last: usize| [vec![top; grid.axes().len()], vec![last]].concat();
+        let fields = vec![
+            (ROOTS.to_owned(), Dtype::U32, shape(about.flags.len())),
+            (TREES.to_owned(), Dtype::U32, vec![words]),
+            (TOP.to_owned(), Dtype::U8, shape(2)),
+        ];
+        Header::with(about, grid, fields)
+    }
+
+    fn with(about: About, grid: Grid, fields: Vec<(String, Dtype, Vec<usize>)>) -> Result<Header, String> {
+        about.check()?;
+        let axes = grid.axes().iter().map(|a| (a.name().to_owned(), Dtype::F64, vec![a.values().len()])).collect::<Vec<_>>();
         let mut tensors: Vec<Tensor> = Vec::new();
         let mut start = 0usize;
-        for (name, dtype, shape) in axes.chain(scalars).chain(bytes) {
+        for (name, dtype, shape) in axes.into_iter().chain(fields) {
+            let name = &name[..];
             check_name("tensor", name)?;
             if tensors.iter().any(|t| t.name == name) {
                 return Err(format!("two tensors are named `{name}`; axes and fields need different names"));
@@ -133,7 +156,16 @@ impl Header {
         }
         let axes = axes.iter().map(|axis| axis.build(axis_values(&metadata, &axis.name, body)?));
         let grid = Grid::new(axes.collect::<Result<_, _>>()?).map_err(|e| e.to_string())?;
-        let mut header = Header::new(about, grid)?;
+        let mut header = match about.kind {
+            Kind::Nodes => Header::new(about, grid)?,
+            Kind::Cells => {
+                let length = |name: &str| metadata.info(name).and_then(|info| info.shape.first().copied());
+                let (Some(top), Some(words)) = (length(TOP), length(TREES)) else {
+                    return Err(format!("it has no tensors `{TOP}` and `{TREES}`"));
+                };
+                Header::of_cells(about, grid, top, words)?
+            }
+        };
         for (tensor, hash) in header.tensors.iter().zip(&mut header.hashes) {
             tensor.check(metadata.info(&tensor.name))?;
             let text = map.get(&hash_key(&tensor.name)).ok_or_else(|| format!("it has no hash of `{}`", tensor.name))?;

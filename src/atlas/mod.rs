@@ -28,10 +28,10 @@
 
 mod about;
 mod fault;
-mod header;
+pub(crate) mod header;
 mod write;
 
-pub use about::{About, FORMAT_VERSION, Named, Packed};
+pub use about::{About, FORMAT_VERSION, Kind, Named, Packed};
 pub use header::MAX_HEADER;
 pub use write::{Writer, Written};
 
@@ -109,28 +109,13 @@ impl Atlas {
     /// [`Error::Io`] when the file cannot be opened or mapped, [`Error::Atlas`] when it is not a valid atlas.
     pub fn open(path: impl AsRef<Path>) -> Result<Atlas> {
         let path = path.as_ref();
-        // Asked before opening, because opening a pipe would wait for its other end.
-        if !std::fs::metadata(path).map_err(Error::io(path))?.is_file() {
-            return Err(Error::Atlas {
-                path: path.to_owned(),
-                what: "it is not an ordinary file; an atlas is mapped into memory, and needs one".into(),
-            });
-        }
-        let file = File::open(path).map_err(Error::io(path))?;
-        Atlas::new(path.to_owned(), Atlas::map(path, &file)?)
+        Atlas::new(path.to_owned(), map_path(path)?)
     }
 
     /// Opens a file that has no place and goes with the atlas; `path` is the place it would have had.
     pub(crate) fn of_draft(path: PathBuf, mut draft: Draft) -> Result<Atlas> {
-        let map = Atlas::map(&path, draft.file())?;
+        let map = map_file(&path, draft.file())?;
         Ok(Atlas { _draft: Some(draft), ..Atlas::new(path, map)? })
-    }
-
-    fn map(path: &Path, file: &File) -> Result<Mmap> {
-        // SAFETY: the map is read-only and private to this value, and only ever read as u8, f32 or f64, for which every bit
-        // pattern is valid. That nobody changes the file meanwhile cannot be enforced; the documentation of `Atlas` asks for it.
-        // Should someone do so, no invariant that memory safety rests on is read from the map again after this check.
-        unsafe { Mmap::map(file) }.map_err(Error::io(path))
     }
 
     /// Checks a copy of the bytes of a file, as [`Atlas::open`] does.
@@ -138,11 +123,7 @@ impl Atlas {
     /// # Errors
     /// [`Error::Atlas`], with the path `(memory)`, when they are not a valid atlas; [`Error::Io`] when memory is short.
     pub fn from_bytes(bytes: &[u8]) -> Result<Atlas> {
-        let path = PathBuf::from("(memory)");
-        // A map of its own has the alignment of a mapped file; an empty one is not possible.
-        let mut map = MmapMut::map_anon(bytes.len().max(1)).map_err(Error::io(&path))?;
-        map[..bytes.len()].copy_from_slice(bytes);
-        let map = map.make_read_only().map_err(Error::io(&path))?;
+        let (path, map) = map_bytes(bytes)?;
         Atlas::new(path, map)
     }
 
@@ -152,6 +133,9 @@ impl Atlas {
             return Err(invalid("its numbers are little-endian, those of this machine are not".into()));
         }
         let (header, body) = Header::parse(&map).map_err(invalid)?;
+        if header.about.kind != Kind::Nodes {
+            return Err(invalid("it holds cells, not nodes; `spiral_atlas::cells::Cells` opens it".into()));
+        }
         let place = |name| {
             let range = header.range(name).ok_or_else(|| invalid(format!("it has no tensor `{name}`")))?;
             Ok(body + range.start..body + range.end)
@@ -307,4 +291,41 @@ impl Atlas {
     fn invalid(&self, what: String) -> Error {
         Error::Atlas { path: self.path.clone(), what }
     }
+}
+
+/// What the file of a path holds: nodes, which [`Atlas`] opens, or cells, which [`crate::cells::Cells`] opens.
+///
+/// # Errors
+/// Those of [`Atlas::open`].
+pub fn kind(path: impl AsRef<Path>) -> Result<Kind> {
+    let path = path.as_ref();
+    let map = map_path(path)?;
+    Header::parse(&map).map(|(header, _)| header.about.kind).map_err(|what| Error::Atlas { path: path.to_owned(), what })
+}
+
+/// Maps the file of a path.
+pub(crate) fn map_path(path: &Path) -> Result<Mmap> {
+    // Asked before opening, because opening a pipe would wait for its other end.
+    if !std::fs::metadata(path).map_err(Error::io(path))?.is_file() {
+        let what = "it is not an ordinary file; an atlas is mapped into memory, and needs one".into();
+        return Err(Error::Atlas { path: path.to_owned(), what });
+    }
+    map_file(path, &File::open(path).map_err(Error::io(path))?)
+}
+
+fn map_file(path: &Path, file: &File) -> Result<Mmap> {
+    // SAFETY: the map is read-only and private to the value that holds it, and only ever read as u8, u32, f32 or f64, for which every bit
+    // pattern is valid. That nobody changes the file meanwhile cannot be enforced; the documentation of `Atlas` asks for it.
+    // Should someone do so, no invariant that memory safety rests on is read from the map again after its first check.
+    unsafe { Mmap::map(file) }.map_err(Error::io(path))
+}
+
+/// A copy of bytes as a map of its own, which has the alignment of a mapped file, under a name for messages.
+pub(crate) fn map_bytes(bytes: &[u8]) -> Result<(PathBuf, Mmap)> {
+    let path = PathBuf::from("(memory)");
+    // An empty one is not possible.
+    let mut map = MmapMut::map_anon(bytes.len().max(1)).map_err(Error::io(&path))?;
+    map[..bytes.len()].copy_from_slice(bytes);
+    let map = map.make_read_only().map_err(Error::io(&path))?;
+    Ok((path, map))
 }

@@ -23,7 +23,8 @@ fn first_slice(pictures: &[PicturePlan]) -> Option<&PicturePlan> {
 
 /// Draws the first planned slices or comparisons of several atlases side by side; `None` when there are not several.
 pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
-    let planned = atlases.iter().zip(&recipe.atlases).filter_map(|(atlas, plan)| Some((atlas, first_slice(&plan.pictures)?)));
+    let of_nodes = recipe.atlases.iter().filter(|plan| plan.cells.is_none());
+    let planned = atlases.iter().zip(of_nodes).filter_map(|(atlas, plan)| Some((atlas, first_slice(&plan.pictures)?)));
     let slices = planned.map(|(atlas, plan)| picture::slice(atlas, plan)).collect::<Result<Vec<_>>>()?;
     if slices.len() < 2 {
         return Ok(None);
@@ -40,7 +41,11 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
 /// Those of [`spiral_atlas::family::Family::table`], [`Error::Recipe`] that names the file, and [`Error::Io`].
 pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
     for plan in &recipe.atlases {
-        plan.family.table(&plan.grid).map_err(|e| match e {
+        let checked = match plan.cells {
+            Some(budget) => spiral_atlas::cells::check(&super::cells::spec(recipe, plan, budget)),
+            None => plan.family.table(&plan.grid).map(drop),
+        };
+        checked.map_err(|e| match e {
             Error::Domain(what) => Error::Recipe(format!("{}, atlas `{}`: {what}", source.display(), plan.name)),
             other => other,
         })?;
@@ -49,7 +54,7 @@ pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
     for plan in &recipe.atlases {
         files.extend(picture::files(folder, &plan.name, plan.pictures.len()));
     }
-    let sliced = |plan: &&AtlasPlan| first_slice(&plan.pictures).is_some();
+    let sliced = |plan: &&AtlasPlan| plan.cells.is_none() && first_slice(&plan.pictures).is_some();
     if recipe.atlases.iter().filter(sliced).count() > 1 {
         files.push(together_path(source, folder));
     }

@@ -1,7 +1,8 @@
 //! `generate`: from a recipe to atlases, reports and pictures.
 
 use super::backend::{self, BackendArgs};
-use super::output::{self, Product, grouped};
+use super::cells;
+use super::output::{self, Product, atlas_path, grouped, report_path};
 use super::verify::{self, Compared};
 use super::{Outcome, draw};
 use spiral_atlas::Result;
@@ -80,7 +81,16 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let stop = super::stop_flag()?;
     output::make_folder(&args.out)?;
     let (mut all, mut atlases) = (Vec::new(), Vec::new());
+    let mut good = true;
     for plan in &recipe.atlases {
+        if let Some(budget) = plan.cells {
+            let made = cells::make(&recipe, plan, budget, &args.out, args.backend.threads(), &stop)?;
+            if !args.json {
+                output::print(&made.summary())?;
+            }
+            all.push(output::to_value(&made)?);
+            continue;
+        }
         let path = atlas_path(&args.out, &plan.name);
         let (report, writer) = write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
         writer.finish()?;
@@ -89,7 +99,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
         if !args.json {
             output::print(&made.summary(plan))?;
         }
-        all.push(made);
+        good &= made.check.iter().all(Compared::holds);
+        all.push(output::to_value(&made)?);
         atlases.push(atlas);
     }
     let together = draw::together(&args.recipe, &recipe, &atlases, &args.out)?;
@@ -98,25 +109,16 @@ pub fn run(args: &Args) -> Result<Outcome> {
     } else if let Some(picture) = together {
         output::print(&format!("side by side\n{}", picture.line()))?;
     }
-    let good = all.iter().flat_map(|made| &made.check).all(Compared::holds);
     if !good {
         output::complain("the check found differences; the files were kept");
     }
     Ok(if good { Outcome::Fine } else { Outcome::Bad })
 }
 
-/// Where the atlas of a name goes.
-pub fn atlas_path(folder: &Path, name: &str) -> PathBuf {
-    folder.join(format!("{name}.atlas.safetensors"))
-}
-
-fn report_path(folder: &Path, name: &str) -> PathBuf {
-    folder.join(format!("{name}.report.json"))
-}
-
 /// Makes sure, before any work, that the disk has room for all atlases of a recipe together.
 pub fn check_room(recipe: &Recipe, folder: &Path) -> Result<()> {
-    let sizes = recipe.atlases.iter().map(|plan| Writer::size(&spec(recipe, plan)));
+    let size = |plan: &AtlasPlan| plan.cells.map_or_else(|| Writer::size(&spec(recipe, plan)), Ok);
+    let sizes = recipe.atlases.iter().map(size);
     let sum = sizes.sum::<Result<u64>>()?;
     let what = match &recipe.atlases[..] {
         [one] => format!("the atlas `{}`", one.name),

@@ -1,6 +1,7 @@
 //! `info`: what an atlas says about itself.
 
 use super::Outcome;
+use super::cells::{self, Opened};
 use super::output::{self, Object, grouped};
 use spiral_atlas::Result;
 use spiral_atlas::atlas::{About, Atlas};
@@ -22,7 +23,10 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
-    let atlas = Atlas::open(&args.atlas)?;
+    let atlas = match Opened::open(&args.atlas)? {
+        Opened::Nodes(atlas) => atlas,
+        Opened::Cells(found) => return cells::info(&found, args.json).map(|()| Outcome::Fine),
+    };
     if args.json {
         output::print_json(&json(&atlas))?
     } else {
@@ -31,7 +35,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
     Ok(Outcome::Fine)
 }
 
-fn spacing(axis: &Axis) -> &'static str {
+pub fn spacing(axis: &Axis) -> &'static str {
     match axis.spacing() {
         Spacing::Linear { .. } => "linear",
         Spacing::Log { .. } => "log",
@@ -40,7 +44,7 @@ fn spacing(axis: &Axis) -> &'static str {
 }
 
 fn json(atlas: &Atlas) -> serde_json::Value {
-    let About { generator, name, family, chart, chart_doc, conventions, flags, counts, scalars, recipe } = atlas.about();
+    let About { kind: _, generator, name, family, chart, chart_doc, conventions, flags, counts, scalars, recipe } = atlas.about();
     let axis = |a: &Axis| {
         let values = a.values();
         serde_json::json!({

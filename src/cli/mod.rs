@@ -5,6 +5,7 @@
 
 mod adapters;
 mod backend;
+mod cells;
 mod curve;
 mod datum;
 mod draw;

@@ -32,6 +32,11 @@ pub fn to_json(value: &impl Serialize) -> Result<String> {
     serde_json::to_string_pretty(value).map_err(json_error)
 }
 
+/// A value as part of a larger JSON text.
+pub fn to_value(value: &impl Serialize) -> Result<serde_json::Value> {
+    serde_json::to_value(value).map_err(json_error)
+}
+
 /// The failure of writing JSON; none is known.
 pub fn json_error(e: serde_json::Error) -> Error {
     Error::Domain(format!("a report cannot be written as JSON: {e}"))
@@ -88,6 +93,16 @@ impl Product {
     pub fn line(&self) -> String {
         format!("  {}  {}\n    BLAKE3 {}\n", self.path.display(), size(self.bytes), self.blake3)
     }
+}
+
+/// Where the atlas of a name goes.
+pub fn atlas_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.atlas.safetensors"))
+}
+
+/// Where its report goes.
+pub fn report_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.report.json"))
 }
 
 /// Creates a folder with its parents, unless it is there.

@@ -1,5 +1,6 @@
 //! `query`: the exact answer for one datum of any family, or for many as a stream.
 
+use super::cells::{self, Opened};
 use super::datum::{Coordinates, Datum, from_cells, parse_family};
 use super::output::{self, Object};
 use super::{Outcome, points};
@@ -37,7 +38,7 @@ pub struct Args {
     /// at); - is standard input.
     #[arg(long, value_name = "FILE")]
     points: Option<PathBuf>,
-    /// Tell also what this atlas says, at the node nearest to the datum.
+    /// Tell also what this atlas says: at the node nearest to the datum, or of the cell that holds it (`cell`, null outside the cells).
     #[arg(long, value_name = "FILE")]
     atlas: Option<PathBuf>,
     /// Print JSON.
@@ -47,14 +48,18 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
-    let atlas = args.atlas.as_ref().map(Atlas::open).transpose()?;
-    let told = atlas.as_ref().map(picture::of).transpose()?;
+    let atlas = args.atlas.as_ref().map(Opened::open).transpose()?;
+    let of = |atlas: &Opened| match atlas {
+        Opened::Nodes(atlas) => picture::of(atlas),
+        Opened::Cells(found) => Ok(found.family()),
+    };
+    let told = atlas.as_ref().map(of).transpose()?;
     let family = args.family.or(told).unwrap_or(&Cubic);
-    if let (Some(atlas), Some(told)) = (&atlas, told)
+    if let (Some(path), Some(told)) = (&args.atlas, told)
         && told.name() != family.name()
     {
         let what = format!("it is an atlas of `{}`; the datum is one of `{}`", told.name(), family.name());
-        return Err(Error::Atlas { path: atlas.path().to_owned(), what });
+        return Err(Error::Atlas { path: path.clone(), what });
     }
     if let Some(path) = &args.points {
         let charts: Vec<&'static [&'static str]> = family.charts().iter().map(|chart| chart.axes).collect();
@@ -90,6 +95,9 @@ pub struct Answer {
     chosen: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     atlas: Option<Told>,
+    /// What the cell of the datum says of each flag, where the atlas has cells; none outside them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cell: Option<Option<Object<&'static str, &'static str>>>,
 }
 
 /// What an atlas says.
@@ -118,11 +126,11 @@ impl Answer {
     ///
     /// # Errors
     /// Those of [`Family::answer`].
-    pub fn new(family: &dyn Family, datum: Datum, atlas: Option<&Atlas>) -> Result<Answer> {
+    pub fn new(family: &dyn Family, datum: Datum, atlas: Option<&Opened>) -> Result<Answer> {
         let solved = family.answer(datum.chart, &datum.point)?;
         let axes = family.charts()[datum.chart].axes;
         let flag = |(bit, flag): (usize, &family::Flag)| (flag.name, solved.code.flags() >> bit & 1 == 1);
-        let coordinates = axes.iter().copied().zip(datum.point).collect::<Vec<_>>();
+        let coordinates = axes.iter().copied().zip(datum.point.iter().copied()).collect::<Vec<_>>();
         let place = |name: &str| {
             let given = coordinates.iter().find(|(axis, _)| *axis == name).map(|(_, x)| *x);
             given.or_else(|| solved.number(name)).unwrap_or(f64::NAN)
@@ -131,7 +139,14 @@ impl Answer {
             holds: family.holds(solved.code),
             flags: Object(family.flags().iter().enumerate().map(flag).collect()),
             counts: Object(family.counts().iter().map(|count| (count.name, count.of(solved.code.counts()))).collect()),
-            atlas: atlas.map(|atlas| look_up(atlas, place)),
+            atlas: atlas.and_then(|atlas| match atlas {
+                Opened::Nodes(atlas) => Some(look_up(atlas, place)),
+                Opened::Cells(_) => None,
+            }),
+            cell: atlas.and_then(|atlas| match atlas {
+                Opened::Nodes(_) => None,
+                Opened::Cells(found) => Some(cells::look_up(found, datum.chart, &datum.point)),
+            }),
             derived: Object(solved.derived),
             solutions: solved.solutions.into_iter().map(Object).collect(),
             chosen: solved.chosen,
@@ -153,6 +168,11 @@ impl Answer {
         for (i, solution) in self.solutions.iter().enumerate() {
             let chosen = if self.chosen == Some(i) { ", chosen" } else { "" };
             text += &format!("solution {i}{chosen}: {}\n", list(&solution.0, word));
+        }
+        match &self.cell {
+            Some(Some(cell)) => text += &format!("its cell: {}\n", list(&cell.0, |word| (*word).to_owned())),
+            Some(None) => text += "the cells do not reach there, or have other coordinates\n",
+            None => {}
         }
         text + &self.atlas.as_ref().map_or(String::new(), Told::text)
     }

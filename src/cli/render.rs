@@ -1,9 +1,9 @@
 //! `render`: pictures of an atlas, or of a recipe whose atlases are not kept.
 
 use super::backend::BackendArgs;
+use super::cells::{self, Opened};
 use super::output::{self, Product};
 use super::{Outcome, draw, generate};
-use spiral_atlas::atlas::Atlas;
 use spiral_atlas::recipe::Recipe;
 use spiral_atlas::{Result, picture};
 use std::path::PathBuf;
@@ -34,10 +34,12 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let products = if args.source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
         of_recipe(args)?
     } else {
-        let atlas = Atlas::open(&args.source)?;
-        let plans = picture::plans(&atlas)?;
+        let opened = Opened::open(&args.source)?;
         output::make_folder(&args.out)?;
-        draw::one(&atlas, &plans, &args.out)?
+        match &opened {
+            Opened::Nodes(atlas) => draw::one(atlas, &picture::plans(atlas)?, &args.out)?,
+            Opened::Cells(found) => cells::draw(found, &picture::cells::plans(found)?, &args.out)?,
+        }
     };
     if args.json {
         output::print_json(&products)?;
@@ -56,8 +58,13 @@ fn of_recipe(args: &Args) -> Result<Vec<Product>> {
     output::make_folder(&args.out)?;
     let (mut atlases, mut products) = (Vec::new(), Vec::new());
     for plan in &recipe.atlases {
+        if let Some(budget) = plan.cells {
+            let found = cells::in_memory(&recipe, plan, budget, args.backend.threads(), &stop)?;
+            products.extend(cells::draw(&found, &picture::cells::plans(&found)?, &args.out)?);
+            continue;
+        }
         // Beside the pictures: there is room for them, and the system's own folder may be memory.
-        let path = generate::atlas_path(&args.out, &plan.name);
+        let path = output::atlas_path(&args.out, &plan.name);
         let (_, writer) = generate::write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
         let atlas = writer.open()?;
         products.extend(draw::one(&atlas, &picture::plans(&atlas)?, &args.out)?);

@@ -2,6 +2,7 @@
 
 use super::Outcome;
 use super::backend::{self, BackendArgs};
+use super::cells::{self, Opened};
 use super::output::{self, grouped};
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::eval::agree::{self, Agreement, Stored};
@@ -13,6 +14,8 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 /// Recompute an atlas and compare every byte.
+///
+/// Cells are made anew by the CPU, and attacked with points, of which the family itself tells the truth.
 ///
 /// By default with the CPU and with every GPU adapter there is, hardware and software. Where there is no adapter, the CPU alone
 /// recomputes it, and the output says so. The exit status is 1 when anything differs: a hash, the legend, the recipe, or a value of a
@@ -63,7 +66,10 @@ struct Verified {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
-    let atlas = Atlas::open(&args.atlas)?;
+    let atlas = match Opened::open(&args.atlas)? {
+        Opened::Nodes(atlas) => atlas,
+        Opened::Cells(found) => return cells::verify(&found, args.backend.threads(), args.json),
+    };
     let family = picture::of(&atlas)?;
     let scalars = scalars(&atlas, family)?;
     let job = Job { family, grid: atlas.grid(), scalars: &scalars };

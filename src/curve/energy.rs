@@ -7,26 +7,98 @@
 
 use crate::num::bernstein::halve;
 use crate::num::{Number, Real};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::f64::consts::LN_2;
+
+/// A piece of the curve.
+struct Piece<N> {
+    speed: [N; 5],
+    turn: [N; 3],
+    depth: i32,
+    from: f64,
+    /// About the logarithm of the most that it may add.
+    most: f64,
+}
+
+impl<N: Real> Piece<N> {
+    fn new(speed: [N; 5], turn: [N; 3], depth: i32, from: f64) -> Piece<N> {
+        let least = speed.iter().map(|s| if s.is_positive() { s.ln() } else { f64::NEG_INFINITY }).fold(f64::INFINITY, f64::min);
+        let largest = turn.iter().map(|h| if h.is_positive() { h.ln() } else { h.most().ln() }).fold(f64::NEG_INFINITY, f64::max);
+        let most = 2.0 * largest - 3.0 * least - f64::from(depth) * LN_2;
+        Piece { speed, turn, depth, from, most: if most.is_nan() { f64::INFINITY } else { most } }
+    }
+
+    fn width(&self) -> N {
+        N::power_of_two(-self.depth, self.speed[0].bits())
+    }
+
+    /// From 0 to the most that it may add: coefficients bound both polynomials.
+    fn at_most(&self) -> Option<N> {
+        let zero = N::of(0.0, self.speed[0].bits());
+        let turn = self.turn.iter().fold(zero.clone(), |sum, h| sum.add(&h.size()));
+        let mut most = zero.clone();
+        for s in &self.speed {
+            most = most.add(&turn.mul(&turn).over(s)?.over(s)?.over(s)?);
+        }
+        self.speed.iter().all(N::is_positive).then(|| most.mul(&self.width()).union(&zero))
+    }
+}
+
+impl<N> PartialEq for Piece<N> {
+    fn eq(&self, other: &Piece<N>) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl<N> Eq for Piece<N> {}
+
+impl<N> PartialOrd for Piece<N> {
+    fn partial_cmp(&self, other: &Piece<N>) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<N> Ord for Piece<N> {
+    fn cmp(&self, other: &Piece<N>) -> Ordering {
+        self.most.total_cmp(&other.most)
+    }
+}
 
 /// `∫ h²/σ³` over [0, 1] for σ and h with these Bernstein coefficients; `None` when the precision does not suffice.
+///
+/// The piece that may add most comes first, and the search ends where all that is left adds less than 2^-61 of what is found, or than half
+/// the bits show: so the work grows with the halvings to the sharpest bend, and not with all there is between bends.
 pub(crate) fn energy<N: Real>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
-    // One halving more for each halving of the distance to a zero of σ, as close as doubles can put it.
-    let most = if speed[0].bits() <= 53 { 64 } else { 1000 };
-    let mut sum = N::of(0.0, speed[0].bits());
-    let mut waiting = vec![(speed.clone(), turn.clone(), 0)];
-    while let Some((speed, turn, depth)) = waiting.pop() {
-        if let Some(c) = centred(&speed)? {
-            sum = sum.add(&series(&speed, &c, &turn)?.times(2f64.powi(-depth)));
+    let bits = speed[0].bits();
+    // One halving more for each halving of the distance to a zero of σ, as close as data of doubles can put it.
+    let deepest = if bits <= 53 { 64 } else { 8192 };
+    let negligible = 0.5 * bits.max(122) as f64 * LN_2;
+    let mut waiting = BinaryHeap::from([Piece::new(speed.clone(), turn.clone(), 0, 0.0)]);
+    let mut found: Vec<(f64, N)> = Vec::new();
+    let mut largest = f64::NEG_INFINITY;
+    while let Some(piece) = waiting.pop() {
+        if piece.most + ((waiting.len() + 1) as f64).ln() < largest - negligible {
+            waiting.push(piece);
+            break;
+        }
+        if let Some(c) = centred(&piece.speed)? {
+            let part = series(&piece.speed, &c, &piece.turn)?.mul(&piece.width());
+            largest = largest.max(if part.is_positive() { part.ln() } else { f64::NEG_INFINITY });
+            found.push((piece.from, part));
             continue;
         }
-        if depth == most {
+        if piece.depth == deepest {
             return None;
         }
-        let ((s0, s1), (t0, t1)) = (halve(&speed), halve(&turn));
-        waiting.push((s1, t1, depth + 1));
-        waiting.push((s0, t0, depth + 1));
+        let ((s0, s1), (t0, t1)) = (halve(&piece.speed), halve(&piece.turn));
+        let (depth, half) = (piece.depth + 1, 2f64.powi(-piece.depth - 1));
+        waiting.push(Piece::new(s0, t0, depth, piece.from));
+        waiting.push(Piece::new(s1, t1, depth, piece.from + half));
     }
-    Some(sum)
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let sum = found.iter().fold(N::of(0.0, bits), |sum, (_, part)| sum.add(part));
+    waiting.iter().try_fold(sum, |sum, piece| Some(sum.add(&piece.at_most()?)))
 }
 
 fn combine<N: Number, const D: usize>(b: &[N; D], by: [f64; D]) -> N {

@@ -12,11 +12,13 @@ pub mod ph_path;
 pub mod ph_quintic;
 pub mod reach;
 mod record;
+mod region;
 mod rows;
 pub mod trig_quintic;
 
 pub use answer::{Answer, Value, Values};
 pub use kernel::{Kernel, Shader, ShaderInputs};
+pub use region::{Facts, MOST_SIDES, Region};
 
 use crate::error::{Error, Result};
 use crate::grid::{Axis, Grid, Spacing};
@@ -153,10 +155,20 @@ pub trait Family: Sync {
             }
         }
     }
+    /// Proofs over whole boxes of data, where the family has them.
+    fn region(&self) -> Option<&dyn Region> {
+        None
+    }
     /// Whether what the family looks for exists, by the flags of a datum.
     fn holds(&self, code: Code) -> bool {
         let set = |(bit, flag): (usize, &Flag)| code.flags() >> bit & 1 == 1 && self.yes().contains(&flag.name);
         self.flags().iter().enumerate().any(set)
+    }
+}
+
+impl std::fmt::Debug for dyn Family {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
     }
 }
 
@@ -175,7 +187,10 @@ fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
 }
 
 /// The code of one datum, as a grid of one node has it.
-fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
+///
+/// # Errors
+/// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
+pub(crate) fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
     let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
     let grid = Grid::new(family.charts()[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
     let table = family.table(&grid)?;

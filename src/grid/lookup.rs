@@ -59,6 +59,33 @@ impl Lookup {
         self.padded.len() - 2
     }
 
+    /// About the index of the value nearest to `x`, with its fraction.
+    #[inline]
+    fn guess(&self, x: f64) -> f64 {
+        match self.guess {
+            Guess::Linear { per, add } => x * per + add,
+            Guess::Log { per, add } => rough_log2(x) * per + add,
+            Guess::None => f64::NAN,
+        }
+    }
+
+    /// Index of the cell between two neighbouring values that holds `x`; of two the upper one. `None` outside the axis.
+    #[inline]
+    pub fn cell(&self, x: f64) -> Option<usize> {
+        let values = &self.padded[1..=self.count()];
+        let last = values.len().checked_sub(2)?;
+        // NaN fails.
+        if !((values[0] <= x) & (x <= values[last + 1])) {
+            return None;
+        }
+        // Between two values the guess lies between their indices; the comparisons tell a wrong one.
+        let index = (nearest_integer(self.guess(x) - 0.5) as usize).min(last);
+        if (values[index] <= x) & (x <= values[index + 1]) {
+            return Some(index);
+        }
+        Some(values.partition_point(|v| *v <= x).saturating_sub(1).min(last))
+    }
+
     /// [`Axis::nearest`], except that points further outside than half the step at that end give `None`.
     ///
     /// An axis of a single value has no step, and so accepts that value alone.
@@ -68,11 +95,7 @@ impl Lookup {
         if !((self.low <= x) & (x <= self.high)) {
             return None;
         }
-        let guess = match self.guess {
-            Guess::Linear { per, add } => x * per + add,
-            Guess::Log { per, add } => rough_log2(x) * per + add,
-            Guess::None => f64::NAN,
-        };
+        let guess = self.guess(x);
         // Any guess will do for an index in range; the comparisons below tell a wrong one.
         let index = (nearest_integer(guess) as usize).min(self.count() - 1);
         if let [below, here, above] = self.padded[index..index + 3] {

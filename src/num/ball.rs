@@ -118,6 +118,12 @@ impl Real for Ball {
     fn approx(&self) -> f64 {
         self.value
     }
+    fn power_of_two(exponent: i32, _bits: usize) -> Ball {
+        Ball { value: 2f64.powi(exponent), error: 0.0 }
+    }
+    fn ln(&self) -> f64 {
+        self.value.ln()
+    }
     fn to_f32(&self) -> Option<f32> {
         let (low, high) = self.ends();
         let (low, high) = (low as f32, high as f32);

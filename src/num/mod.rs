@@ -2,18 +2,18 @@
 
 mod ball;
 pub mod bernstein;
+mod form;
 mod interval;
 mod number;
 pub mod roots;
 pub mod sines;
-mod taylor;
 mod words;
 mod ziv;
 
 pub use ball::Ball;
+pub use form::{Form, Quadratic};
 pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
-pub use taylor::Quadratic;
 pub use words::told;
 pub use ziv::climb;
 

@@ -113,6 +113,10 @@ pub trait Real: super::bernstein::Certain {
     fn middle(&self) -> Self;
     /// The double next to its middle: a guess.
     fn approx(&self) -> f64;
+    /// 2 to any power that the arithmetic has.
+    fn power_of_two(exponent: i32, bits: usize) -> Self;
+    /// The natural logarithm of its middle, which is above 0: a guess, also where the middle itself is no double.
+    fn ln(&self) -> f64;
     /// The nearest single, when that is certain.
     fn to_f32(&self) -> Option<f32>;
 
@@ -150,6 +154,14 @@ impl Real for Interval {
     }
     fn approx(&self) -> f64 {
         Interval::approx(self)
+    }
+    fn power_of_two(exponent: i32, bits: usize) -> Interval {
+        Interval::power_of_two(exponent as isize, bits)
+    }
+    fn ln(&self) -> f64 {
+        let Some(exponent) = self.magnitude() else { return f64::NEG_INFINITY };
+        let scaled = self * &Interval::power_of_two(-exponent, self.bits());
+        scaled.approx().ln() + exponent as f64 * std::f64::consts::LN_2
     }
     fn to_f32(&self) -> Option<f32> {
         Interval::to_f32(self)

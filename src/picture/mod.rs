@@ -1,5 +1,6 @@
 //! Pictures of an atlas: from a plan of its recipe to the plain data that [`crate::plot`] draws.
 
+pub mod cells;
 mod words;
 
 pub use words::{angle, grouped, short};
@@ -29,13 +30,13 @@ pub fn plans(atlas: &Atlas) -> Result<Vec<PicturePlan>> {
     let planned = recipe.and_then(|r| r.atlases.into_iter().find(|a| a.name == atlas.about().name && a.grid == *atlas.grid()));
     match planned.map(|a| a.pictures) {
         Some(pictures) if !pictures.is_empty() => Ok(pictures),
-        _ => default_slice(atlas).map(|plan| vec![plan]),
+        _ => middle_slice(atlas.grid()).map(|plan| vec![plan]),
     }
 }
 
 /// The last two axes, at the middle of the others.
-fn default_slice(atlas: &Atlas) -> Result<PicturePlan> {
-    let counts = atlas.grid().shape();
+fn middle_slice(grid: &Grid) -> Result<PicturePlan> {
+    let counts = grid.shape();
     let Some(x) = counts.len().checked_sub(2) else {
         return Err(Error::Domain("an atlas of one axis has no slices; pictures need two axes".into()));
     };

@@ -106,6 +106,24 @@ fn atlas() -> Table {
             "The name of the atlas and of its files. No two atlases of a recipe have the same.",
         ),
         optional("family", "the name of a family in quotation marks", "the recipe's", "The family of this atlas."),
+        optional(
+            "kind",
+            "one of `\"nodes\"`, `\"cells\"`",
+            "`\"nodes\"`",
+            "What the file holds: fields at the nodes of the grid, or certified cells of a box: see [Cells](cells.md).",
+        ),
+        optional(
+            "resolution",
+            "a power of two from 2 to 2048",
+            "needed for cells",
+            "How many of the finest cells there are along each axis. It goes with `kind = \"cells\"` alone.",
+        ),
+        optional(
+            "budget",
+            "a size in quotation marks such as `\"32 MiB\"`, in KiB, MiB or GiB",
+            "needed for cells",
+            "Most bytes of the file. Where it does not suffice for the resolution, cells stay coarser, those of other flags than the family's answer first.",
+        ),
         needed(
             "axes",
             "a section `[atlas.axes]`, in single brackets, with a line for each axis",
@@ -142,7 +160,12 @@ fn axis() -> Table {
             "another spacing",
             "The values themselves, increasing. It goes without `count`.",
         ),
-        optional("count", &count, "needed with `linear` and `log`", "How many values there are, both ends included."),
+        optional(
+            "count",
+            &count,
+            "needed with `linear` and `log`",
+            "How many values there are, both ends included. An axis of cells has none.",
+        ),
     ];
     let about = format!(
         "Each line of `[atlas.axes]` is the name of an axis, `=`, and {AXIS}. A grid has up to {MAX_AXES} axes, \

@@ -23,6 +23,7 @@
 //! Angles may be written `"40deg"` or `"40°"` on axes of angles.
 //! [`reference()`] has all keys, with their values, defaults and meanings; docs/recipes.md is what it returns.
 
+mod cells;
 mod keys;
 mod levels;
 mod look;
@@ -68,8 +69,10 @@ pub struct AtlasPlan {
     pub scalars: Vec<usize>,
     /// What the axes are.
     pub chart: &'static Chart,
-    /// The nodes. Whether they lie in the family's domain, [`Family::table`] tells.
+    /// The nodes, or the edges of cells. Whether nodes lie in the family's domain, [`Family::table`] tells.
     pub grid: Grid,
+    /// Most bytes of a file of cells; `None` for nodes.
+    pub cells: Option<u64>,
     /// The pictures to draw.
     pub pictures: Vec<PicturePlan>,
 }
@@ -200,14 +203,20 @@ fn plan(raw: RawAtlas, family: &'static dyn Family, scalars: Vec<usize>) -> Resu
         return Err(Fault::new(raw.name.span(), what));
     }
     let chart = chart(family, &raw.axes)?;
+    let cells = cells::cells(&raw)?;
+    let edges = cells.map(|cells| cells.resolution + 1);
     let mut axes = Vec::new();
     for name in chart.axes {
         let Some(axis) = raw.axes.get_ref().iter().find(|(key, _)| key.get_ref() == name).map(|(_, axis)| axis) else { continue };
-        axes.push(spacing(name, axis.get_ref()).and_then(|s| new_axis(name, s)).map_err(|e| Fault::new(axis.span(), e))?);
+        axes.push(spacing(name, axis.get_ref(), edges).and_then(|s| new_axis(name, s)).map_err(|e| Fault::new(axis.span(), e))?);
     }
     let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
+    if cells.is_some() {
+        raw.picture.iter().try_for_each(cells::check_picture)?;
+    }
+    let scalars = if cells.is_some() { Vec::new() } else { scalars };
     let pictures = raw.picture.iter().map(|p| picture(p, &grid, family, chart, &scalars)).collect::<Result<_, _>>()?;
-    Ok(AtlasPlan { name: name.clone(), family, scalars, chart, grid, pictures })
+    Ok(AtlasPlan { name: name.clone(), family, scalars, chart, grid, cells: cells.map(|cells| cells.budget), pictures })
 }
 
 /// The chart that has just these axes.
@@ -231,8 +240,14 @@ fn chart(
     })
 }
 
-fn spacing(name: &str, raw: &RawAxis) -> Result<Spacing, String> {
-    match (raw.linear.as_deref(), raw.log.as_deref(), &raw.values, raw.count) {
+/// The spacing of an axis; `edges` is their number on an axis of cells, which has no `count`.
+fn spacing(name: &str, raw: &RawAxis, edges: Option<usize>) -> Result<Spacing, String> {
+    let count = match (edges, raw.count, &raw.values) {
+        (None, count, _) => count,
+        (Some(edges), None, None) => Some(edges),
+        _ => return Err(format!("axis `{name}` of cells takes `{{ linear = [first, last] }}` or `{{ log = [first, last] }}`")),
+    };
+    match (raw.linear.as_deref(), raw.log.as_deref(), &raw.values, count) {
         (Some([lo, hi]), None, None, Some(count)) => Ok(Spacing::Linear { lo: lo.on(name)?, hi: hi.on(name)?, count }),
         (None, Some([lo, hi]), None, Some(count)) => Ok(Spacing::Log { lo: lo.on(name)?, hi: hi.on(name)?, count }),
         (None, None, Some(values), None) => values.iter().map(|v| v.on(name)).collect::<Result<_, _>>().map(Spacing::Values),

@@ -44,6 +44,9 @@ pub(super) struct RawRecipe {
 pub(super) struct RawAtlas {
     pub name: Spanned<String>,
     pub family: Option<Spanned<String>>,
+    pub kind: Option<Spanned<String>>,
+    pub resolution: Option<Spanned<u32>>,
+    pub budget: Option<Spanned<String>>,
     pub axes: Spanned<BTreeMap<Spanned<String>, Spanned<RawAxis>>>,
     #[serde(default)]
     pub picture: Vec<RawPicture>,

@@ -4,8 +4,8 @@ use super::keys::tables;
 use crate::family;
 use std::fmt::Write;
 
-/// Two recipes that together have every key.
-pub(super) const EXAMPLES: [(&str, &str); 2] = [
+/// Recipes that together have every key.
+pub(super) const EXAMPLES: [(&str, &str); 3] = [
     (
         "Two atlases of one family. Each has a slice, so these are also drawn side by side. The first has small multiples over both \
          angles as well, and a slice of a scalar.",
@@ -90,6 +90,28 @@ eta = { linear = [0.1, 3], count = 30 }
 kind = "union"
 x = "xi"
 y = "eta"
+"#,
+    ),
+    (
+        "Certified cells of a box.",
+        r#"family = "cubic"
+
+[[atlas]]
+name = "coarse-cells"
+kind = "cells"
+resolution = 32
+budget = "2 MiB"
+[atlas.axes]
+phi0 = { linear = [0.05, 1.5] }
+phi1 = { linear = [0.06, 1.55] }
+kappa0 = { linear = [0.01, 1] }
+kappa1 = { log = [0.1, 100] }
+[[atlas.picture]]
+kind = "slice"
+x = "kappa0"
+y = "kappa1"
+at = { phi0 = 0.7, phi1 = 1.4 }
+regions = ["SPIRAL"]
 "#,
     ),
 ];

@@ -10,9 +10,6 @@ use crate::family::ph_quintic::{Quintic, SPIRAL, flags, solve};
 use serde::Serialize;
 use std::fmt;
 
-/// Greatest curvature times half the chord. The work grows with the digits between it and 1: seconds at 1e60, minutes at 1e300.
-const GREATEST: f64 = 1e30;
-
 /// All that is known of two ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhAnswer {
@@ -77,15 +74,10 @@ pub struct PhSolution {
 /// Length and energy to 2^-36 relative, usually a few ulp.
 ///
 /// # Errors
-/// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] for a curvature beyond 1e30 (times half the chord) or when a
-/// control point leaves the range of doubles. That no spiral exists is no error but [`PhOutcome::Why`].
+/// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control
+/// point leaves the range of doubles. That no spiral exists is no error but [`PhOutcome::Why`].
 pub fn ph_spiral(ends: &Ends) -> Result<PhAnswer> {
     let (datum, placement) = Placement::normalise(ends)?;
-    if let Some(kappa) = [datum.kappa0, datum.kappa1].into_iter().find(|kappa| kappa.abs() > GREATEST) {
-        return Err(Error::Domain(format!(
-            "a curvature times half the chord is {kappa:?}; for a PH quintic it must be at most {GREATEST:?} in magnitude"
-        )));
-    }
     let answer = |solutions, outcome| PhAnswer { ends: *ends, datum, placement, solutions, outcome };
     if let Some(why) = Why::no_convex_arc(ends, &datum, &placement)? {
         return Ok(answer(Vec::new(), PhOutcome::Why(why)));

@@ -1,5 +1,6 @@
 //! Atlases from recipe to picture: the file, the pipeline that fills it, recipes, pictures, and those that are shipped.
 
+mod cells;
 #[cfg(feature = "cli")]
 mod crude;
 mod file;

@@ -5,6 +5,7 @@
 #[path = "../adapters/mod.rs"]
 mod adapters;
 mod answers;
+mod cells;
 mod curve_output;
 mod curves;
 mod failures;

@@ -3,6 +3,7 @@
 mod any_spiral;
 mod cubic_oracle;
 mod cubic_properties;
+mod cubic_region;
 mod cubic_vectors;
 mod oracle;
 mod ph_oracle;

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room of `src/` with the rooms that it may import.
-const ROOMS: [(&str, &[&str]); 15] = [
+const ROOMS: [(&str, &[&str]); 16] = [
     ("error", &[]),
     ("steps", &[]),
     ("files", &["error"]),
@@ -20,12 +20,28 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("eval", &["family", "grid", "num", "error"]),
     ("recipe", &["family", "grid", "num", "files", "error"]),
     ("atlas", &["eval", "family", "grid", "num", "files", "error"]),
+    ("cells", &["atlas", "family", "grid", "files", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
     ("path", &["transition", "family", "curve", "num", "steps", "error"]),
-    ("picture", &["atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
+    ("picture", &["cells", "atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
     (
         "cli",
-        &["picture", "path", "transition", "atlas", "recipe", "eval", "plot", "family", "curve", "grid", "num", "files", "error"],
+        &[
+            "picture",
+            "path",
+            "transition",
+            "cells",
+            "atlas",
+            "recipe",
+            "eval",
+            "plot",
+            "family",
+            "curve",
+            "grid",
+            "num",
+            "files",
+            "error",
+        ],
     ),
 ];
 

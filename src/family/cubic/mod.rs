@@ -42,6 +42,7 @@ mod filter;
 mod pair;
 mod poly;
 mod precision;
+mod region;
 mod root;
 mod shader;
 mod solve;
@@ -49,7 +50,7 @@ mod table;
 
 pub use solve::{Datum, Root, Solutions, solve};
 
-use super::{Answer, Chart, Code, Count, Family, Flag, Scalar, Table, coordinates};
+use super::{Answer, Chart, Code, Count, Family, Flag, Region, Scalar, Table, coordinates};
 use crate::error::Result;
 use crate::grid::Grid;
 use fearless_simd::Level;
@@ -165,5 +166,8 @@ impl Family for Cubic {
     }
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         solve::answer(chart, coordinates(point)?)
+    }
+    fn region(&self) -> Option<&dyn Region> {
+        Some(self)
     }
 }

@@ -18,6 +18,8 @@
 
 use super::pair::Pair;
 use crate::num::{Number, Real};
+use crate::steps::step;
+use std::f64::consts::LN_2;
 
 /// The equations of a datum with κ0, κ1 >= 0, scaled.
 #[derive(Debug, Clone, Copy)]
@@ -187,26 +189,29 @@ impl<N: Real> Cubic<N> {
         let value = |z: &N| c2.mul(z).add(c1).mul(z).add(c0).mul(z);
         let rise = |z: &N| c2.mul(z).times(3.0).add(&c1.times(2.0)).mul(z).add(c0);
         let newton = |z: &N| Some(z.sub(&value(z).sub(right).over(&rise(z))?).middle());
-        let mut z = if guess > 0.0 && guess.is_finite() {
-            N::of(guess, right.bits())
-        } else {
-            // Out of the range of doubles, so they leave it; from above, a step takes off a third at least.
-            let mut z = (right.bits() > 53).then(|| right.over(c0))??.middle();
-            for _ in 0..4000 {
-                let next = newton(&z)?;
-                let near = z.sub(&next).sub(&z.times(2f64.powi(-30))).is_positive();
-                z = next;
-                if !near {
-                    break;
-                }
-            }
-            z
-        };
+        let mut z = if guess.is_normal() && guess > 0.0 { N::of(guess, right.bits()) } else { self.start(right)? };
         for _ in 0..polishing(right.bits()) {
             z = newton(&z)?;
         }
         let off = value(&z).sub(right).over(right)?.size();
         off.plus(-1.0 / 64.0).times(-1.0).is_positive().then(|| z.add(&z.mul(&off).times(1.05)))
+    }
+
+    /// About where the cubic reaches `right`, when coefficients or heights are no doubles: none of their size, only logarithms and the
+    /// cubic's shape, `Σ ck y^(k+1) = 1` with coefficients up to 1, are computed in doubles. So the work does not grow with their size.
+    ///
+    /// `|ln Z|` stays below 2^13, so that its rounding leaves more than 38 bits of Z.
+    fn start(&self, right: &N) -> Option<N> {
+        step();
+        let bits = (right.bits() > 53).then_some(right.bits())?;
+        // Of the coefficients the first is positive; the others may be 0.
+        let logs = [0, 1, 2].map(|k| right.ln() - self.c[k].ln());
+        let least = logs.iter().zip([1.0, 2.0, 3.0]).fold(f64::INFINITY, |least, (log, power)| least.min(log / power));
+        let c = [0, 1, 2].map(|k| ((k + 1) as f64 * least - logs[k]).exp());
+        let y = Cubic { c, j: [0.0; 3] }.guess(1.0);
+        let exponent = (least / LN_2).round();
+        let rest = y * (least - exponent * LN_2).exp();
+        (exponent.is_finite() && rest.is_normal()).then(|| N::power_of_two(exponent as i32, bits).times(rest))
     }
 
     /// s at height z.

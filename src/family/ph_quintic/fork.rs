@@ -25,7 +25,7 @@ pub(super) fn meets<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -
     let ends = [slope(from), slope(to)];
     let side = ends[0].certain_sign(0.0).filter(|side| *side != Equal && ends[1].certain_sign(0.0) == Some(*side))?;
     let change = curves.slope_changes(&from.t.union(&to.t), |i| (from.z[i].union(&to.z[i]), from.s[i].union(&to.s[i])))?;
-    let most = change[1].sub(&change[0]).most() * length * 1.0001;
+    let most = change[1].sub(&change[0]).size().times(length * 1.0001);
     let sum = ends[0].add(&ends[1]).times(if side == Less { -1.0 } else { 1.0 });
-    sum.sub(&N::of(most, sum.bits())).is_positive().then_some(once)
+    sum.sub(&most).is_positive().then_some(once)
 }

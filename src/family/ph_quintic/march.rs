@@ -19,7 +19,9 @@ use super::curves::Curves;
 use super::knot::{Knot, length};
 use super::{fork, narrow};
 use crate::num::Real;
+use crate::steps::step as count;
 use std::cmp::Ordering::{self, Greater};
+use std::f64::consts::LN_2;
 
 /// A solution: t and Z, enclosed.
 #[derive(Debug, Clone, Copy)]
@@ -58,6 +60,7 @@ impl<N: Real> March<N> {
     }
 
     fn knot(&self, t: N) -> Option<Knot<N>> {
+        count();
         let (near, exact) = (self.fast.at(&t.approx()), self.curves.at(&t));
         let side = |i: usize| {
             let z = exact[i].height(&self.curves.right[i], near[i].guess(self.fast.right[i]))?;
@@ -130,8 +133,10 @@ impl<N: Real> March<N> {
     }
 
     fn outermost(&self, side: i32, clear: impl Fn(&Knot<N>) -> bool) -> Option<Knot<N>> {
-        let knot = |exponent: i32| self.knot(N::of(2f64.powi(side * exponent), self.bits()));
-        (2..10).find_map(|i| knot(1 << i).filter(&clear))
+        let knot = |exponent: i32| self.knot(N::power_of_two(side * exponent, self.bits()));
+        // t, in scaled units, is a product of few powers of the data: below 2^1100 each, but doubles square it.
+        let last = if self.bits() <= 53 { 9 } else { 13 };
+        (2..=last).find_map(|i| knot(1 << i).filter(&clear))
     }
 
     /// The one solution between two knots.
@@ -139,9 +144,8 @@ impl<N: Real> March<N> {
         let side = a.gap.certain_sign(0.0)?;
         let (mut low, mut high) = (a.t.clone(), b.t.clone());
         let within = |t: &N, low: &N, high: &N| t.sub(low).is_positive() && high.sub(t).is_positive();
-        let middle = |low: &N, high: &N| low.add(high).times(0.5).middle();
-        let guess = N::of(self.guess(a, b), self.bits());
-        let mut knot = self.knot(if within(&guess, &low, &high) { guess } else { middle(&low, &high) })?;
+        let guess = Some(self.guess(a, b)).filter(|t| t.is_normal()).map(|t| N::of(t, self.bits()));
+        let mut knot = self.knot(guess.filter(|t| within(t, &low, &high)).map_or_else(|| middle(&low, &high), Some)?)?;
         let step = |knot: &Knot<N>| knot.gap.over(&knot.s[1].sub(&knot.s[0]));
         let enough = 2f64.powi(-(self.bits().min(1200) as i32) * 3 / 4);
         for _ in 0..MOST_STEPS {
@@ -154,8 +158,14 @@ impl<N: Real> March<N> {
                 Some(_) => high = knot.t.clone(),
                 None => break,
             }
-            let newton = knot.t.sub(&knot.t.mul(&moved)).middle();
-            knot = self.knot(if within(&newton, &low, &high) { newton } else { middle(&low, &high) })?;
+            // Near the solution in t; far from it in ln t, where both curves are nearly straight and D is no longer its bound.
+            let newton = if moved.most() < 0.25 {
+                Some(knot.t.sub(&knot.t.mul(&moved)).middle())
+            } else {
+                let turn = knot.s[0].sub(&knot.s[1]).approx();
+                times_exp(&knot.t, (knot.z[0].ln() - knot.z[1].ln()) / turn)
+            };
+            knot = self.knot(newton.filter(|t| within(t, &low, &high)).map_or_else(|| middle(&low, &high), Some)?)?;
         }
         let inside = |t: &N| within(t, &a.t, &b.t);
         // Twice as far as the error of D may move the solution; what is needed, the signs tell.
@@ -219,13 +229,28 @@ fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Option<bool> {
     monotone.then_some(at_a != at_b && at_a != Ordering::Equal)
 }
 
+/// `t exp(x)`, about; `None` when x is too large or no number.
+fn times_exp<N: Real>(t: &N, x: f64) -> Option<N> {
+    let exponent = (x / LN_2).round();
+    let rest = (x - exponent * LN_2).exp();
+    (exponent.abs() < 2f64.powi(14)).then(|| t.mul(&N::power_of_two(exponent as i32, t.bits())).times(rest).middle())
+}
+
+/// The middle of two in ln t, whatever their sizes.
+fn middle<N: Real>(low: &N, high: &N) -> Option<N> {
+    Some(low.sqrt()?.mul(&high.sqrt()?).middle())
+}
+
 /// A point between two, not in their middle, where symmetric data have solutions; `None` when they are too close.
 fn between<N: Real>(a: &N, b: &N) -> Option<N> {
     let (low, high) = (a.approx(), b.approx());
+    if !(low.is_normal() && high.is_normal()) && b.ln() - a.ln() > 0.2 {
+        return times_exp(a, 0.493 * (b.ln() - a.ln()));
+    }
     if high > 1.2 * low {
         let t = low.sqrt() * high.sqrt() * 1.037;
         return Some(N::of(t, a.bits()));
     }
     let apart = b.sub(a);
-    (apart.approx() > low * 2f64.powi(nearest(a.bits()))).then(|| a.add(&apart.times(0.469)).middle())
+    apart.sub(&a.times(2f64.powi(nearest(a.bits())))).is_positive().then(|| a.add(&apart.times(0.469)).middle())
 }

@@ -123,3 +123,6 @@ impl Family for PhQuintic {
         solve::answer(coordinates(point)?)
     }
 }
+
+#[cfg(test)]
+mod steps;

@@ -3,7 +3,7 @@
 use super::pair::Pair;
 use super::truth::{self, Margin, Measures, Truth, chosen, measure};
 use crate::curve::PhQuintic;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
 use crate::family::hermite::check;
 use crate::family::{Answer, Code};
@@ -66,7 +66,8 @@ impl Solutions {
 /// 2^-36, relative, margins to 2^-30, absolute; pre-image and control points follow from them in doubles.
 ///
 /// # Errors
-/// [`crate::Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`;
+/// [`crate::Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`, or where A, B, energy or
+/// length of a solution is above 0 in truth and leaves the range of doubles ([`flags`] answers there too);
 /// [`crate::Error::Undecided`] at the precision cap.
 ///
 /// # Source
@@ -77,7 +78,25 @@ pub fn solve(datum: &Datum) -> Result<Solutions> {
     if let Some(solutions) = Pair::<Ball>::new(phi0, phi1).and_then(|pair| described(datum, &pair)) {
         return Ok(solutions);
     }
-    climb(datum, "a solution", |bits| described(datum, &*Pair::cached(phi0, phi1, bits)?)).map(|(solutions, _)| solutions)
+    let (solutions, _) = climb(datum, "a solution", |bits| described(datum, &*Pair::cached(phi0, phi1, bits)?))?;
+    solutions.all.iter().try_for_each(|quintic| within_range(datum, quintic))?;
+    Ok(solutions)
+}
+
+/// No precision brings a number back that no double has.
+fn within_range(datum: &Datum, quintic: &Quintic) -> Result<()> {
+    let Quintic { a, b, energy, length, .. } = *quintic;
+    let lost = [("A", a), ("B", b), ("the bending energy", energy), ("the length", length)];
+    match lost.into_iter().find(|(_, x)| !(x.is_finite() && *x > 0.0)) {
+        None => Ok(()),
+        Some((name, _)) => {
+            let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
+            Err(Error::Domain(format!(
+                "{name} of a PH quintic leaves the range of doubles for phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = {kappa0:?}, \
+                 kappa1 = {kappa1:?}; choose less extreme numbers"
+            )))
+        }
+    }
 }
 
 /// The flags of one datum, as of [`Solutions::flags`], without its curves: several hundred times cheaper than [`solve`] where there is no spiral.
@@ -113,6 +132,10 @@ fn described<N: Real + Margin>(datum: &Datum, pair: &Pair<N>) -> Option<Solution
 /// The double in the middle of a number known to `2^-36` of itself plus `floor`.
 fn known<N: Real>(x: &N, floor: f64) -> Option<f64> {
     let value = x.approx();
+    // Intervals have numbers that doubles do not; their own overflow is another matter.
+    if value.is_infinite() && x.bits() > 53 {
+        return Some(value);
+    }
     let off = x.sub(&x.middle()).most();
     (value.is_finite() && off <= 2f64.powi(-37) * value.abs() + floor).then_some(value)
 }

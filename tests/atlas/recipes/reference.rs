@@ -91,6 +91,7 @@ fn the_examples_of_the_reference_run() {
     }
     pictures.sort();
     let expected = [
+        ("coarse-cells", 1000, 860, 3780),
         ("cubic-or-ph-quintic", 1000, 860, 3780),
         ("example-0", 1240, 700, 3780),
         ("first-1", 1600, 1200, 7559),

@@ -1,59 +1,79 @@
-//! Quadratic polynomials in two symbols that know how far they may be off: doubles for proofs over boxes.
+//! Quadratic polynomials in a few symbols that know how far they may be off: doubles for proofs over boxes.
 //!
-//! A ball forgets on what its number depends; of a number that varies over a box it holds every combination of the extremes. Here the first two
-//! orders of that dependence are kept, so that terms cancel as they should and what is lost is of the third order in the size of the box.
+//! A ball forgets on what its number depends; of a number that varies over a box it holds every combination of the
+//! extremes. Here the first two orders of that dependence are kept, so that terms cancel as they should and what is
+//! lost is of the third order in the size of the box.
+//!
+//! Every operation adds to the error what its roundings and the terms that it cuts off can do. So a form holds the
+//! truth at every place of the symbols, whatever was computed with it.
 
-use super::bernstein::Certain;
+mod real;
+
 use super::{Ball, Number, Real};
-use std::cmp::Ordering;
 
 /// Unit roundoff.
 const UNIT: f64 = 0.5 * f64::EPSILON;
-/// Covers the roundings of an error's own computation: fewer than 24 additions and products of numbers that are not negative.
+/// Covers the roundings of an error's own computation: fewer than 28 additions and products of numbers that are not
+/// negative. With four symbols the longest chain is that of a product: nine additions for a size, and eleven more
+/// operations.
 const GROW: f64 = 1.0 + 32.0 * UNIT;
-/// More than underflow can do to a result and to the terms of its error.
+/// More than underflow can do to a result and to the terms of its error: at most forty products round below the
+/// normal range, each by less than 2^-1074.
 const TINY: f64 = f64::MIN_POSITIVE;
 
-/// All functions of `x` and `y` from -1 to 1 within `error` of `value + slope (x, y) + bend (x², xy, y²)`.
+/// All functions of `K` symbols from -1 to 1 within `error` of `value + slope · symbols + bend · products of two
+/// symbols`.
+///
+/// `H` is `K (K + 1) / 2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Quadratic {
+pub struct Form<const K: usize, const H: usize> {
     /// In the middle of the box.
     pub value: f64,
-    /// Of x and y.
-    pub slope: [f64; 2],
-    /// Of x², xy and y².
-    pub bend: [f64; 3],
+    /// Of each symbol.
+    pub slope: [f64; K],
+    /// Of each product of two, row by row: of x, y, z those of x², xy, xz, y², yz, z².
+    pub bend: [f64; H],
     /// At least 0.
     pub error: f64,
 }
 
-impl Quadratic {
-    /// Numbers of a ball, which may depend on x and y in any way.
-    pub fn ball(ball: Ball) -> Quadratic {
-        Quadratic { value: ball.value, slope: [0.0; 2], bend: [0.0; 3], error: ball.error }
+/// A form in two symbols.
+pub type Quadratic = Form<2, 3>;
+
+#[inline(always)]
+fn sum<const N: usize>(terms: &[f64; N]) -> f64 {
+    let mut sum = 0.0;
+    for term in terms {
+        sum += term.abs();
+    }
+    sum
+}
+
+impl<const K: usize, const H: usize> Form<K, H> {
+    /// Numbers of a ball, which may depend on the symbols in any way.
+    #[inline(always)]
+    pub fn ball(ball: Ball) -> Form<K, H> {
+        const { assert!(2 * H == K * (K + 1)) };
+        Form { value: ball.value, slope: [0.0; K], bend: [0.0; H], error: ball.error }
     }
 
-    /// The numbers from `low` to `high`, as a linear function of one symbol: 0 or 1.
-    pub fn along([low, high]: [f64; 2], symbol: usize) -> Quadratic {
-        let mut slope = [0.0; 2];
-        slope[symbol] = 0.5 * (high - low);
+    /// The numbers from `low` to `high`, as a linear function of one symbol.
+    pub fn along([low, high]: [f64; 2], symbol: usize) -> Form<K, H> {
         // More than the roundings of both.
-        Quadratic {
-            value: 0.5 * (low + high),
-            slope,
-            bend: [0.0; 3],
-            error: 2.0 * f64::EPSILON * (low.abs() + high.abs()) + TINY,
-        }
+        let error = 2.0 * f64::EPSILON * (low.abs() + high.abs()) + TINY;
+        let mut form = Form::ball(Ball { value: 0.5 * (low + high), error });
+        form.slope[symbol] = 0.5 * (high - low);
+        form
     }
 
     #[inline(always)]
     fn linear(&self) -> f64 {
-        self.slope[0].abs() + self.slope[1].abs()
+        sum(&self.slope)
     }
 
     #[inline(always)]
     fn curved(&self) -> f64 {
-        self.bend[0].abs() + self.bend[1].abs() + self.bend[2].abs()
+        sum(&self.bend)
     }
 
     /// How far its numbers are from `value`, at most.
@@ -68,41 +88,66 @@ impl Quadratic {
     }
 
     /// Less than every number it holds, and not by much where it is convex or nearly linear.
+    #[inline(always)]
     pub fn low(&self) -> f64 {
-        let [a, b, c] = self.bend;
-        // |2xy| <= x² + y².
-        let own = [a - 0.5 * b.abs(), c - 0.5 * b.abs()];
-        let fall = |slope: f64, bend: f64| {
+        self.value - self.depth(1.0)
+    }
+
+    /// More than every number it holds, and not by much where it is concave or nearly linear.
+    #[inline(always)]
+    pub fn high(&self) -> f64 {
+        self.value + self.depth(-1.0)
+    }
+
+    /// How far `sign` times the form falls below `sign` times its value, at most.
+    #[inline(always)]
+    fn depth(&self, sign: f64) -> f64 {
+        // |2xy| <= x² + y²: half of a mixed term goes to each of its symbols.
+        let mut own = [0.0; K];
+        let mut at = 0;
+        for i in 0..K {
+            own[i] += sign * self.bend[at];
+            at += 1;
+            for j in i + 1..K {
+                let half = 0.5 * self.bend[at].abs();
+                own[i] -= half;
+                own[j] -= half;
+                at += 1;
+            }
+        }
+        let mut fall = 0.0;
+        for (slope, bend) in self.slope.iter().zip(own) {
             let slope = slope.abs();
-            if slope < 2.0 * bend { 0.25 * slope * (slope / bend) } else { slope - bend }
-        };
-        // The roundings are below a few units of what they belong to.
+            fall += if slope < 2.0 * bend { 0.25 * slope * (slope / bend) } else { slope - bend };
+        }
+        // The roundings are below a few units of what they belong to: each term of a fall passes at most 3 + 2 K + 3
+        // operations.
         let size = self.value.abs() + self.linear() + self.curved();
-        self.value - fall(self.slope[0], own[0]) - fall(self.slope[1], own[1]) - (self.error + 16.0 * UNIT * size) * GROW
+        fall + (self.error + 32.0 * UNIT * size) * GROW + TINY
     }
 
     /// Off by so much more.
-    fn off(mut self, error: f64) -> Quadratic {
+    #[inline(always)]
+    pub fn off(mut self, error: f64) -> Form<K, H> {
         self.error = (self.error + error) * GROW;
         self
     }
 
     #[inline(always)]
-    fn zip(&self, other: &Quadratic, f: impl Fn(f64, f64) -> f64) -> Quadratic {
-        let ([a, b], [c, d]) = (self.slope, other.slope);
-        let ([p, q, r], [s, t, u]) = (self.bend, other.bend);
-        let sum = Quadratic {
-            value: f(self.value, other.value),
-            slope: [f(a, c), f(b, d)],
-            bend: [f(p, s), f(q, t), f(r, u)],
-            error: 0.0,
-        };
+    fn zip(&self, other: &Form<K, H>, f: impl Fn(f64, f64) -> f64) -> Form<K, H> {
+        let mut sum = Form::ball(Ball { value: f(self.value, other.value), error: 0.0 });
+        for i in 0..K {
+            sum.slope[i] = f(self.slope[i], other.slope[i]);
+        }
+        for i in 0..H {
+            sum.bend[i] = f(self.bend[i], other.bend[i]);
+        }
         let size = sum.value.abs() + sum.linear() + sum.curved();
-        Quadratic { error: (self.error + other.error + UNIT * size) * GROW, ..sum }
+        Form { error: (self.error + other.error + UNIT * size) * GROW, ..sum }
     }
 
     /// `1 / self`: with a double r near `1 / value` and `self r = 1 + u` that is `r (1 - u + u² - u³ / (1 + u))`.
-    fn inverse(&self) -> Option<Quadratic> {
+    pub fn inverse(&self) -> Option<Form<K, H>> {
         let r = 1.0 / self.value;
         let u = self.times(r).plus(-1.0);
         let most = u.most();
@@ -113,37 +158,47 @@ impl Quadratic {
     }
 }
 
-impl Number for Quadratic {
+impl<const K: usize, const H: usize> Number for Form<K, H> {
     #[inline(always)]
-    fn add(&self, other: &Quadratic) -> Quadratic {
+    fn add(&self, other: &Form<K, H>) -> Form<K, H> {
         self.zip(other, |a, b| a + b)
     }
     #[inline(always)]
-    fn sub(&self, other: &Quadratic) -> Quadratic {
+    fn sub(&self, other: &Form<K, H>) -> Form<K, H> {
         self.zip(other, |a, b| a - b)
     }
-    /// Each coefficient is a sum of at most four products, and all these together are terms of the product of the sizes: four roundings of each.
+    /// Each coefficient is a sum of at most four products, and all these together are terms of the product of the
+    /// sizes: four roundings of each.
     #[inline(always)]
-    fn mul(&self, other: &Quadratic) -> Quadratic {
+    fn mul(&self, other: &Form<K, H>) -> Form<K, H> {
         let (x, y) = (self.value, other.value);
-        let ([a, b], [c, d]) = (self.slope, other.slope);
-        let ([p, q, r], [s, t, u]) = (self.bend, other.bend);
         let (one, two) = (self.linear(), other.linear());
         let (own, its) = (self.curved(), other.curved());
         let (size, other_size) = (x.abs() + one + own, y.abs() + two + its);
         let cut = one * its + own * two + own * its;
         let inputs = self.error * (other_size + other.error) + other.error * size;
-        Quadratic {
-            value: x * y,
-            slope: [x * c + a * y, x * d + b * y],
-            bend: [x * s + a * c + p * y, x * t + (a * d + b * c) + q * y, x * u + b * d + r * y],
-            error: (cut + inputs + 4.0 * UNIT * (size * other_size)) * GROW + TINY,
+        let error = (cut + inputs + 4.0 * UNIT * (size * other_size)) * GROW + TINY;
+        let mut product = Form::ball(Ball { value: x * y, error });
+        for i in 0..K {
+            product.slope[i] = x * other.slope[i] + self.slope[i] * y;
         }
+        let mut at = 0;
+        for i in 0..K {
+            let (a, c) = (self.slope[i], other.slope[i]);
+            product.bend[at] = x * other.bend[at] + a * c + self.bend[at] * y;
+            at += 1;
+            for j in i + 1..K {
+                let mixed = a * other.slope[j] + self.slope[j] * c;
+                product.bend[at] = x * other.bend[at] + mixed + self.bend[at] * y;
+                at += 1;
+            }
+        }
+        product
     }
     #[inline(always)]
-    fn times(&self, k: f64) -> Quadratic {
+    fn times(&self, k: f64) -> Form<K, H> {
         let size = self.value.abs() + self.linear() + self.curved();
-        Quadratic {
+        Form {
             value: self.value * k,
             slope: self.slope.map(|x| x * k),
             bend: self.bend.map(|x| x * k),
@@ -151,62 +206,9 @@ impl Number for Quadratic {
         }
     }
     #[inline(always)]
-    fn plus(&self, k: f64) -> Quadratic {
+    fn plus(&self, k: f64) -> Form<K, H> {
         let value = self.value + k;
-        Quadratic { value, error: (self.error + value.abs() * UNIT) * GROW, ..*self }
-    }
-}
-
-impl Certain for Quadratic {
-    fn certain_sign(&self, error: f64) -> Option<Ordering> {
-        self.range().certain_sign(error)
-    }
-}
-
-impl Real for Quadratic {
-    fn of(x: f64, _bits: usize) -> Quadratic {
-        Quadratic { value: x, slope: [0.0; 2], bend: [0.0; 3], error: 0.0 }
-    }
-    fn bits(&self) -> usize {
-        53
-    }
-    fn over(&self, divisor: &Quadratic) -> Option<Quadratic> {
-        Some(self.mul(&divisor.inverse()?))
-    }
-    /// With a double s near `1 / value` and `self s = 1 + u` that is `√(1/s) (1 + u/2 - u²/8 + ...)`. All further terms have one sign for `u < 0`,
-    /// so that the rest is largest at the least u: for `u >= -m` it is `1 - m/2 - m²/8 - √(1-m)`, and at most `m³ / 16 (1-m)^(-5/2)`.
-    fn sqrt(&self) -> Option<Quadratic> {
-        (self.value > self.around()).then_some(())?;
-        let s = 1.0 / self.value;
-        let u = self.times(s).plus(-1.0);
-        let most = u.most();
-        (most < 1.0).then_some(())?;
-        let left = 1.0 - most;
-        let rest = (most * most * most / (16.0 * left * left * left.sqrt()))
-            .min(1.0 - 0.5 * most - 0.125 * most * most - left.sqrt() + 8.0 * UNIT);
-        let root = u.times(0.5).sub(&u.mul(&u).times(0.125)).plus(1.0).off(rest * GROW);
-        // That √(1/s) is off by three units.
-        let back = root.times((1.0 / s).sqrt());
-        let size = back.most();
-        Some(back.off(4.0 * UNIT * size))
-    }
-    fn union(&self, other: &Quadratic) -> Quadratic {
-        Quadratic::ball(self.range().union(&other.range()))
-    }
-    fn size(&self) -> Quadratic {
-        Quadratic::ball(self.range().size())
-    }
-    fn most(&self) -> f64 {
-        (self.value.abs() + self.around()) * GROW
-    }
-    fn middle(&self) -> Quadratic {
-        Quadratic::of(self.value, 53)
-    }
-    fn approx(&self) -> f64 {
-        self.value
-    }
-    fn to_f32(&self) -> Option<f32> {
-        self.range().to_f32()
+        Form { value, error: (self.error + value.abs() * UNIT) * GROW, ..*self }
     }
 }
 
@@ -215,6 +217,9 @@ mod tests {
     use super::*;
     use crate::noise::Noise;
     use crate::num::Interval;
+
+    use crate::num::bernstein::Certain;
+    use std::cmp::Ordering;
 
     /// Of any size.
     fn scaled(noise: &mut Noise) -> f64 {
@@ -311,6 +316,50 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             assert!(q.low() <= least && (q.bend[1] != 0.0 || q.low() > least - 1e-3), "{q:?} {least}");
         }
+    }
+
+    /// In four symbols, each operation holds the truth at corners and inside, and the extremes hold every number.
+    #[test]
+    fn four_symbols_hold_the_truth() {
+        type Four = Form<4, 10>;
+        let mut noise = Noise(3);
+        let (mut worst, mut held) = (0.0f64, 0);
+        for _ in 0..1500 {
+            let width = 2f64.powi((30.0 * (noise.signed() - 1.0)) as i32);
+            let ranges = [0; 4].map(|_| {
+                let (middle, half) = (scaled(&mut noise), width * noise.signed().abs());
+                [middle - half * middle.abs(), middle + half * middle.abs()]
+            });
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| Four::along(ranges[i], i));
+            let Some(found) = a.mul(&b).sub(&c.times(0.3)).over(&d.plus(0.7)).map(|q| q.mul(&a).add(&b.mul(&d))) else {
+                continue;
+            };
+            for _ in 0..3 {
+                let place = [0; 4].map(|_| (2.0 * noise.signed()).clamp(-1.0, 1.0));
+                let at: [Interval; 4] = std::array::from_fn(|i| {
+                    let [low, high] = ranges[i].map(|x| Interval::new(x, 300));
+                    &low.scale(0.5 - 0.5 * place[i]) + &high.scale(0.5 + 0.5 * place[i])
+                });
+                let quotient = (&(&at[0] * &at[1]) - &at[2].scale(0.3)).over(&at[3].plus(0.7)).expect("not zero");
+                let truth = &(&quotient * &at[0]) + &(&at[1] * &at[3]);
+                let symbols = place.map(|x| Interval::new(x, 300));
+                let mut sum = Interval::new(found.value, 300);
+                let mut next = 0;
+                for i in 0..4 {
+                    sum = &sum + &symbols[i].scale(found.slope[i]);
+                    for other in &symbols[i..] {
+                        sum = &sum + &(&symbols[i] * other).scale(found.bend[next]);
+                        next += 1;
+                    }
+                }
+                let off = (&truth - &sum).approx().abs();
+                assert!(off <= found.error, "{ranges:?} {place:?}: {found:?} is off by {off}");
+                assert!(found.low() <= truth.approx() && truth.approx() <= found.high(), "{ranges:?} {place:?}: {found:?}");
+                worst = worst.max(off / found.error);
+                held += 1;
+            }
+        }
+        assert!(worst > 0.05 && held > 2000, "{worst} {held}");
     }
 
     /// The same numbers as balls would lose what cancels.

@@ -1,0 +1,110 @@
+//! Cells of the cubic, by hand: `cargo bench --bench cells -- [resolution] [MiB]`. What is MIXED, and what a lookup
+//! and a verdict cost.
+
+use spiral_atlas::cells::{Cells, Spec, build, write};
+use spiral_atlas::family::cubic::{ANY_SPIRAL, Datum, SPIRAL, solve};
+use spiral_atlas::family::{Family, by_name};
+use spiral_atlas::grid::{Axis, Grid, Spacing};
+use std::hint::black_box;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+const POINTS: usize = 1_000_000;
+/// Few enough for the first cache, with the parts of the file that they touch.
+const FEW: usize = 1_000;
+
+fn main() -> spiral_atlas::Result<()> {
+    let numbers: Vec<usize> = std::env::args().filter_map(|a| a.parse().ok()).collect();
+    let (resolution, mib) = (numbers.first().copied().unwrap_or(64), numbers.get(1).copied().unwrap_or(32));
+    let count = resolution + 1;
+    let axis = |name, spacing| Axis::new(name, spacing);
+    let grid = Grid::new(vec![
+        axis("phi0", Spacing::Linear { lo: 0.05, hi: 1.5, count })?,
+        axis("phi1", Spacing::Linear { lo: 0.06, hi: 1.55, count })?,
+        axis("kappa0", Spacing::Linear { lo: 0.01, hi: 1.0, count })?,
+        axis("kappa1", Spacing::Log { lo: 0.1, hi: 100.0, count })?,
+    ])?;
+    let family: &'static dyn Family = by_name("cubic").ok_or_else(|| spiral_atlas::Error::Domain("no cubic".into()))?;
+    let spec = Spec { name: "bench", family, grid: &grid, budget: (mib as u64) << 20, recipe: "" };
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let started = Instant::now();
+    let built = build(&spec, threads, &AtomicBool::new(false), &|_| ())?;
+    println!("resolution {resolution}, {mib} MiB: made in {:.1} s with {threads} threads", started.elapsed().as_secs_f64());
+    let path = std::env::temp_dir().join("spiral-atlas-bench-cells.safetensors");
+    write(&path, &spec, &built)?;
+    let started = Instant::now();
+    let cells = Cells::open(&path)?;
+    println!("{} bytes, opened in {:.3} s", cells.bytes(), started.elapsed().as_secs_f64());
+
+    let mut random = Random(1);
+    let points: Vec<[f64; 4]> = (0..POINTS).map(|_| random.point()).collect();
+    // Uniform inside the outer bound: in angles and curvatures, not in cells.
+    let mut within: Vec<[f64; 4]> = Vec::new();
+    while within.len() < POINTS {
+        let point = random.point();
+        if cells.verdict(&point, ANY_SPIRAL)? != 0 {
+            within.push(point);
+        }
+    }
+    for (what, points) in [("whole box", &points), ("inside the outer bound", &within)] {
+        let mut mixed = [0; 5];
+        for known in points.iter().filter_map(|p| cells.lookup(p)) {
+            mixed.iter_mut().enumerate().for_each(|(bit, n)| *n += u32::from((known.inside | known.outside) >> bit & 1 == 0));
+        }
+        let shares = mixed
+            .iter()
+            .zip(family.flags())
+            .map(|(n, flag)| format!("{} {:.2} %", flag.name, f64::from(*n) / points.len() as f64 * 100.0));
+        println!("MIXED of queries, {what}: {}", shares.collect::<Vec<_>>().join(", "));
+    }
+    let time = |what: &str, points: &[[f64; 4]], rounds: usize, of: &dyn Fn(&[f64; 4])| {
+        let best = (0..5).map(|_| {
+            let started = Instant::now();
+            for _ in 0..rounds {
+                points.iter().for_each(of);
+            }
+            started.elapsed().as_secs_f64() * 1e9 / (rounds * points.len()) as f64
+        });
+        println!("{what}: {:.1} ns", best.fold(f64::INFINITY, f64::min));
+    };
+    let lookup = |p: &[f64; 4]| {
+        black_box(cells.lookup(black_box(p)));
+    };
+    time("lookup, in cache, whole box", &points[..FEW], 1000, &lookup);
+    time("lookup, in cache, inside the outer bound", &within[..FEW], 1000, &lookup);
+    time("lookup, a million points, whole box", &points, 1, &lookup);
+    time("lookup, a million points, inside the outer bound", &within, 1, &lookup);
+    let all = |p: &[f64; 4]| {
+        let _ = black_box(cells.verdict(black_box(p), u8::MAX));
+    };
+    let spiral = |p: &[f64; 4]| {
+        let _ = black_box(cells.verdict(black_box(p), SPIRAL));
+    };
+    time("verdict of all flags, inside the outer bound", &within, 1, &all);
+    time("verdict of SPIRAL, inside the outer bound", &within, 1, &spiral);
+    time("verdict of SPIRAL, whole box", &points, 1, &spiral);
+    let solved = |p: &[f64; 4]| {
+        let [phi0, phi1, kappa0, kappa1] = *p;
+        let _ = black_box(solve(&Datum { phi0, phi1, kappa0, kappa1 }));
+    };
+    time("solve, inside the outer bound", &within[..100_000], 1, &solved);
+    time("solve, whole box", &points[..100_000], 1, &solved);
+    std::fs::remove_file(&path).map_err(|source| spiral_atlas::Error::Io { path, source })
+}
+
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Anywhere in the box, κ1 by its logarithm.
+    fn point(&mut self) -> [f64; 4] {
+        let [a, b, c, d] = [0; 4].map(|_| self.unit());
+        [0.05 + 1.45 * a, 0.06 + 1.49 * b, 0.01 + 0.99 * c, 0.1 * 1000f64.powf(d)]
+    }
+}

@@ -1,0 +1,95 @@
+//! Certified cells: an atlas whose verdicts hold at every point between its nodes, not at nodes alone.
+//!
+//! The box of a recipe is divided into cells, `resolution` along each axis, a power of two. Of each flag a cell says
+//! INSIDE (it holds at every real point of the closed cell that lies in the family's domain), OUTSIDE (it holds at
+//! none) or MIXED (neither is known). These are proofs of [`crate::family::Region`]. [`Cells::lookup`] gives what the
+//! cell of a point says, in nanoseconds; [`Cells::verdict`] gives the truth, because it asks the family itself where
+//! the cell is MIXED.
+//!
+//! # How it is done
+//! - `tree.rs`: the file's words. A few top cells say what is known of all flags at once. Below, each flag has a tree
+//!   of its own, whose nodes divide a MIXED cell in two along each axis. So it is coarse where a flag is uniform, and
+//!   fine at its boundary.
+//! - `classify.rs`: what is proved of one cell, also by halves of it.
+//! - `build.rs`: the trees, level by level, the flags that matter most first, until the budget is used up. Cells are
+//!   independent of each other and results are taken in order, so the bytes do not depend on the number of threads.
+//! - `file.rs`: one safetensors file, mapped and checked. docs/cells.md states it byte by byte.
+//! - `check.rs`: recomputes a file, and attacks it with points.
+
+mod build;
+mod check;
+mod classify;
+mod file;
+mod tree;
+
+pub use build::{Built, build};
+pub use check::{Attack, attack, differences};
+pub use file::{Cells, bytes, write};
+pub use tree::Known;
+
+use crate::family::{self, Family};
+use crate::grid::Grid;
+
+/// What [`build`] must know.
+#[derive(Clone, Copy)]
+pub struct Spec<'a> {
+    /// The atlas's name: letters, digits, `_` and `-`.
+    pub name: &'a str,
+    /// The family; one with a [`crate::family::Region`].
+    pub family: &'static dyn Family,
+    /// The edges of the finest cells: one more than the resolution along each axis.
+    pub grid: &'a Grid,
+    /// Most bytes of the file.
+    pub budget: u64,
+    /// The recipe's text.
+    pub recipe: &'a str,
+}
+
+/// Whether so many cells along each axis can be: a power of two from 2 to 2048.
+///
+/// # Errors
+/// In words, what is allowed.
+pub fn check_resolution(resolution: usize) -> Result<(), String> {
+    let fits = resolution.is_power_of_two() && (2..=2048).contains(&resolution);
+    if fits { Ok(()) } else { Err(format!("the resolution is {resolution}; it must be a power of two from 2 to 2048")) }
+}
+
+/// Checks, before any work, that cells of a specification can be made.
+///
+/// # Errors
+/// [`crate::Error::Domain`] as of [`build`].
+pub fn check(spec: &Spec) -> crate::Result<()> {
+    region(spec.family, spec.grid)?;
+    build::shape(spec.grid, spec.family.flags().len()).map(|_| ())
+}
+
+/// The mask of all flags of a family.
+fn all_flags(family: &dyn Family) -> u8 {
+    (0..family.flags().len()).fold(0, |mask, bit| mask | 1 << bit)
+}
+
+/// The flags in the order in which a budget is spent on them: those that answer the family's question first.
+fn by_weight(family: &dyn Family) -> Vec<usize> {
+    let answers = |bit: &usize| family.yes().contains(&family.flags()[*bit].name);
+    let (first, rest): (Vec<usize>, Vec<usize>) = (0..family.flags().len()).partition(answers);
+    [first, rest].concat()
+}
+
+/// The proofs of a family over boxes, and the chart of a grid's axes.
+///
+/// # Errors
+/// [`crate::Error::Domain`] where the family has none, or the axes are no chart of it.
+fn region(family: &'static dyn Family, grid: &Grid) -> crate::Result<(&'static dyn family::Region, usize)> {
+    let domain = crate::Error::Domain;
+    let region = family.region().ok_or_else(|| {
+        let able: Vec<&str> = family::all().iter().filter(|f| f.region().is_some()).map(|f| f.name()).collect();
+        domain(format!("`{}` has no proofs over boxes, so no cells; families that have: {}", family.name(), able.join(", ")))
+    })?;
+    let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
+    let chart = family.charts().iter().position(|c| c.axes == names && region.covers(c.name));
+    let chart = chart.ok_or_else(|| {
+        let able: Vec<String> = family.charts().iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(", ")).collect();
+        domain(format!("cells of `{}` need the axes {}; given: {}", family.name(), able.join(" or "), names.join(", ")))
+    })?;
+    Ok((region, chart))
+}

@@ -1,0 +1,241 @@
+//! What the commands do with an atlas of cells.
+
+use super::Outcome;
+use super::output::{self, Object, Product, grouped};
+use spiral_atlas::atlas::{Atlas, Kind};
+use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec};
+use spiral_atlas::files::{size, write_file};
+use spiral_atlas::recipe::{AtlasPlan, PicturePlan, Recipe};
+use spiral_atlas::{Result, atlas, picture};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// Rounds of an attack, of some 200 points each.
+const ROUNDS: u64 = 5_000;
+
+/// A file of either kind.
+pub enum Opened {
+    Nodes(Box<Atlas>),
+    Cells(Box<Cells>),
+}
+
+impl Opened {
+    pub fn open(path: impl AsRef<Path>) -> Result<Opened> {
+        let path = path.as_ref();
+        Ok(match atlas::kind(path)? {
+            Kind::Nodes => Opened::Nodes(Box::new(Atlas::open(path)?)),
+            Kind::Cells => Opened::Cells(Box::new(Cells::open(path)?)),
+        })
+    }
+}
+
+/// What was made of one atlas of cells.
+#[derive(serde::Serialize)]
+pub struct Made {
+    atlas: String,
+    id: String,
+    kind: &'static str,
+    resolution: usize,
+    threads: usize,
+    seconds: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<Product>,
+}
+
+/// What a plan of cells specifies, with the budget that it has.
+pub fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> Spec<'a> {
+    Spec { name: &plan.name, family: plan.family, grid: &plan.grid, budget, recipe: &recipe.text }
+}
+
+/// Makes cells, with a bar that tells how many have been divided.
+fn build(spec: &Spec, threads: usize, stop: &AtomicBool) -> Result<Built> {
+    // How many will be divided is not known before: a cell takes some five bytes.
+    let bar = output::progress(spec.name.to_owned(), spec.budget / 5);
+    let built = cells::build(spec, threads, stop, &|divided| bar.set_position(divided));
+    bar.finish_and_clear();
+    built
+}
+
+/// Makes the cells of a plan for pictures alone.
+pub fn in_memory(recipe: &Recipe, plan: &AtlasPlan, budget: u64, threads: usize, stop: &AtomicBool) -> Result<Cells> {
+    let spec = spec(recipe, plan, budget);
+    Cells::from_bytes(&cells::bytes(&spec, &build(&spec, threads, stop)?)?)
+}
+
+/// Makes the file of a plan, its report and its pictures.
+pub fn make(recipe: &Recipe, plan: &AtlasPlan, budget: u64, out: &Path, threads: usize, stop: &AtomicBool) -> Result<Made> {
+    let spec = spec(recipe, plan, budget);
+    let started = Instant::now();
+    let built = build(&spec, threads, stop)?;
+    let path = output::atlas_path(out, &plan.name);
+    cells::write(&path, &spec, &built)?;
+    let cells = Cells::open(&path)?;
+    let (id, seconds) = (cells.id()?.to_hex().to_string(), started.elapsed().as_secs_f64());
+    let mut made =
+        Made { atlas: plan.name.clone(), id, kind: "cells", resolution: cells.resolution(), threads, seconds, files: Vec::new() };
+    let beside = output::report_path(out, &plan.name);
+    write_file(&beside, (output::to_json(&made)? + "\n").as_bytes())?;
+    made.files = vec![Product::of(&path)?, Product::of(&beside)?];
+    made.files.extend(draw(&cells, &plan.pictures, out)?);
+    Ok(made)
+}
+
+impl Made {
+    pub fn summary(&self) -> String {
+        let Made { atlas, resolution, threads, seconds, .. } = self;
+        let text =
+            format!("{atlas}: cells, up to {resolution} an axis\n  by the CPU in {seconds:.2} s, with {threads} threads\n");
+        text + &self.files.iter().map(Product::line).collect::<String>()
+    }
+}
+
+/// Draws pictures of cells into a folder.
+pub fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
+    let files = picture::files(folder, &cells.about().name, plans.len());
+    let draw = |(plan, file): (&PicturePlan, PathBuf)| {
+        write_file(&file, &picture::cells::draw(cells, plan)?)?;
+        Product::of(&file)
+    };
+    plans.iter().zip(files).map(draw).collect()
+}
+
+#[derive(serde::Serialize)]
+struct Verified<'a> {
+    atlas: &'a Path,
+    id: String,
+    /// What is wrong before any cell is looked at; empty is good.
+    faults: Vec<String>,
+    /// Words of the file that differ from those made anew, and the first of them.
+    differences: u64,
+    first_difference: Option<String>,
+    attack: Attack,
+    seconds: f64,
+    good: bool,
+}
+
+/// Makes the cells anew and compares every word; asks the family itself about points.
+pub fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
+    let started = Instant::now();
+    let stop = super::stop_flag()?;
+    let mut faults: Vec<String> = cells.check_hashes().err().map(|e| e.to_string()).into_iter().collect();
+    let about = cells.about();
+    let plan = Recipe::parse(&about.recipe).ok().map(|recipe| recipe.atlases.into_iter().find(|plan| plan.name == about.name));
+    let same = |plan: &AtlasPlan| plan.family.name() == about.family && plan.grid == *cells.grid() && plan.cells.is_some();
+    // A text that is no recipe (of a file made by a program) says nothing; its cells then have no budget but what
+    // they took.
+    match &plan {
+        Some(None) => faults.push(format!("its recipe has no atlas `{}`", about.name)),
+        Some(Some(plan)) if !same(plan) => faults.push("its recipe gives another family or other cells than the file has".into()),
+        _ => {}
+    }
+    let budget = plan.flatten().and_then(|plan| plan.cells).unwrap_or(u64::MAX);
+    let family = cells.family();
+    let flags = family.flags().iter().map(|f| (f.name, f.doc));
+    if !about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(flags) || about.conventions != family.conventions() {
+        faults.push(format!("its legend is not that of `{}`", family.name()));
+    }
+    let attack = cells::attack(cells, ROUNDS, 1, &stop)?;
+    let spec = Spec { name: &about.name, family, grid: cells.grid(), budget, recipe: &about.recipe };
+    let (differences, first_difference) = cells::differences(cells, &build(&spec, threads, &stop)?);
+    let good = faults.is_empty() && differences == 0 && attack.wrong == 0 && attack.verdicts > 0;
+    let (atlas, id, seconds) = (cells.path(), cells.id()?.to_hex().to_string(), started.elapsed().as_secs_f64());
+    let verified = Verified { atlas, id, faults, differences, first_difference, attack, seconds, good };
+    if json {
+        output::print_json(&verified)?
+    } else {
+        output::print(&verified.text())?
+    }
+    if !good {
+        output::complain(&format!("{}: verification failed", cells.path().display()));
+    }
+    Ok(if good { Outcome::Fine } else { Outcome::Bad })
+}
+
+impl Verified<'_> {
+    fn text(&self) -> String {
+        let mut text = format!("{}\n  id {}\n", self.atlas.display(), self.id);
+        text += if self.faults.is_empty() { "  hashes, legend and recipe are sound\n" } else { "" };
+        for fault in &self.faults {
+            text += &format!("  FAULT: {fault}\n");
+        }
+        let Attack { points, verdicts, wrong, first } = &self.attack;
+        let (points, verdicts) = (grouped(*points), grouped(*verdicts));
+        text += &match (wrong, first) {
+            (0, _) => format!("  attacked with {points} points: {verdicts} verdicts of cells, all true\n"),
+            (_, first) => {
+                let first = first.as_deref().unwrap_or("");
+                format!("  attacked with {points} points: {verdicts} verdicts of cells, {} WRONG\n    {first}\n", grouped(*wrong))
+            }
+        };
+        text += &match &self.first_difference {
+            None => "  made anew: every word agrees".to_owned(),
+            Some(first) => format!("  made anew: {} words DIFFER\n    {first}\n ", grouped(self.differences)),
+        };
+        text + &format!(" ({:.2} s)\n", self.seconds)
+    }
+}
+
+/// What a file of cells says about itself.
+pub fn info(cells: &Cells, json: bool) -> Result<()> {
+    let about = cells.about();
+    let id = cells.id()?.to_hex().to_string();
+    let axes = cells.grid().axes();
+    if json {
+        let axis = |a: &spiral_atlas::grid::Axis| {
+            let values = a.values();
+            serde_json::json!({
+                "name": a.name(), "spacing": super::info::spacing(a), "first": values[0], "last": values[values.len() - 1],
+            })
+        };
+        let hashes = Object(cells.hashes().map(|(name, hash)| (name, hash.to_hex().to_string())).collect());
+        return output::print_json(&serde_json::json!({
+            "file": cells.path(), "name": about.name, "id": id, "kind": "cells", "generator": about.generator,
+            "family": about.family, "chart": about.chart, "chart_doc": about.chart_doc, "conventions": about.conventions,
+            "resolution": cells.resolution(), "bytes": cells.bytes(), "axes": axes.iter().map(axis).collect::<Vec<_>>(),
+            "flags": about.flags, "blake3": hashes, "recipe": about.recipe,
+        }));
+    }
+    let mut text = format!("{}\n", cells.path().display());
+    for (key, value) in [
+        ("name", &about.name),
+        ("id", &id),
+        ("generator", &about.generator),
+        ("family", &about.family),
+        ("conventions", &about.conventions),
+    ] {
+        text += &format!("  {key:<12} {value}\n");
+    }
+    let (resolution, bytes) = (cells.resolution(), size(cells.bytes()));
+    text += &format!("cells, up to {resolution} an axis, in {bytes}; chart `{}`\n", about.chart);
+    for axis in axes {
+        let (first, last) = (axis.values()[0], axis.values()[resolution]);
+        text += &format!("  {:<12} {:<6} from {first:?} to {last:?}\n", axis.name(), super::info::spacing(axis));
+    }
+    text += &format!("  {}\nflags\n", about.chart_doc);
+    for (bit, flag) in about.flags.iter().enumerate() {
+        text += &format!("  bit {bit} {:<14} {}\n", flag.name, flag.doc);
+    }
+    text += "BLAKE3 of each tensor, as stated (`verify` checks them)\n";
+    for (name, hash) in cells.hashes() {
+        text += &format!("  {name:<12} {hash}\n");
+    }
+    text += "recipe\n";
+    for line in about.recipe.lines() {
+        text += format!("  {line}").trim_end();
+        text += "\n";
+    }
+    output::print(&text)
+}
+
+/// What the cell of a datum says of each flag; `None` outside the box, or for a datum in other coordinates than those
+/// of the file.
+pub fn look_up(cells: &Cells, chart: usize, point: &[f64]) -> Option<Object<&'static str, &'static str>> {
+    let Known { inside, outside } = if chart == cells.chart() { cells.lookup(point)? } else { return None };
+    let word = |bit: usize| match (inside >> bit & 1, outside >> bit & 1) {
+        (1, _) => "INSIDE",
+        (_, 1) => "OUTSIDE",
+        _ => "MIXED",
+    };
+    Some(Object(cells.family().flags().iter().enumerate().map(|(bit, flag)| (flag.name, word(bit))).collect()))
+}

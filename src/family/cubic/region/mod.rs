@@ -1,0 +1,359 @@
+//! What is proved of the cubic over boxes of (φ0, φ1, κ0, κ1).
+//!
+//! # How it is done
+//! Everything is a form of second order in the four coordinates of the box (`num/form.rs`), which holds its own
+//! rounding errors and what it cuts off. So a form with only positive numbers is a proof for every real point of the
+//! closed box. Outside the domain nothing is said, and a datum is judged by the module `cubic`: no root where a or k
+//! is not positive, no spiral where ANY_SPIRAL fails.
+//!
+//! - ANY_SPIRAL: closed forms (`any.rs`).
+//! - SOLVABLE: the signs of 3k - 1, 3a - 1 and Δ, as in the module `cubic`.
+//! - A flag that asks for *some* root with a property (SPIRAL, THEOREM31_ANY) holds over the box when one enclosed
+//!   root (`root.rs`) lies in the open square and has it, over the whole box. Which root that is does not matter.
+//! - It fails over the box when *every* root of every datum fails. For that, all roots must be accounted for.
+//!
+//! # All roots
+//! Of a datum with a, k > 0 take the roots in the square (0, 3)². F' is -1 at x = 0 and at y = 0, and positive on one
+//! interval around 1/√a at most. A root with F' > 0 is the *middle* one; there is one at most. A root with F' < 0 and
+//! `a x² < 1` is the *left* one: F falls from x = 0 to it, so there is one at most, and it needs F(0) > 0, that is k
+//! < 1/3. The *right* one has F' < 0 and `k y² < 1`; it is the left one with x and y exchanged, and needs a < 1/3.
+//!
+//! An enclosure of F' < 0 and `a x² < 1` may reach below x = 0. Where k < 1/3 it still holds the left root and no
+//! other: F is negative far to the left and positive at 0, so its one negative root is met rising. Where k >= 1/3
+//! there is no left root, and nothing is said of what the enclosure holds.
+//!
+//! - Δ > 0, or a and k above 1/3: these three are all roots. A double root has Δ = 0. A root with F' < 0, `a x² >= 1`
+//!   and `k y² >= 1` would have a larger x and a larger y than the middle root, which exists here; but y falls with
+//!   x.
+//! - Δ < 0 and not both above 1/3: no root, or one where a and k are below 1/3. F has two real roots then, one of
+//!   them negative and met rising. So a root with F' < 0 is the one.
+//! - Δ = 0 inside the box: the roots are the left one and those of a span (`root.rs`), or the same with x and y
+//!   exchanged. In the span x itself, within its range, takes the place of the symbol of κ1, on which `y = 3 - a x²`
+//!   does not depend (κ0, when exchanged).
+//!
+//! THEOREM31 is about the smaller root of a solvable datum. k > 1/3 there, so that is the middle one (or the double
+//! one, which lies in the span).
+
+mod angles;
+mod any;
+mod root;
+
+use super::poly::side;
+use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
+use crate::family::region::{Facts, Region};
+use crate::num::bernstein::{Quintic, halve, least};
+use crate::num::{Form, Number};
+use angles::{Angles, centred};
+use root::{Root, span};
+use std::cell::Cell;
+
+/// A form in φ0, φ1, κ0, κ1.
+type Four = Form<4, 10>;
+
+/// What is known of a condition all over a box: it holds, it fails, or neither is known.
+type Known = Option<bool>;
+
+fn and(a: Known, b: Known) -> Known {
+    match (a, b) {
+        (Some(false), _) | (_, Some(false)) => Some(false),
+        (Some(true), Some(true)) => Some(true),
+        _ => None,
+    }
+}
+
+fn or(a: Known, b: Known) -> Known {
+    and(a.map(|a| !a), b.map(|b| !b)).map(|both| !both)
+}
+
+/// Whether a form is positive, or negative, all over the box.
+fn positive(form: &Four) -> Known {
+    if form.low() > 0.0 {
+        Some(true)
+    } else if form.high() < 0.0 {
+        Some(false)
+    } else {
+        None
+    }
+}
+
+/// Whether a root exists, and Theorem 3.1 and the exact test at it, wherever it exists.
+#[derive(Clone, Copy)]
+struct Branch {
+    exists: Known,
+    theorem: Known,
+    spiral: Known,
+}
+
+impl Branch {
+    const ABSENT: Branch = Branch { exists: Some(false), theorem: Some(false), spiral: Some(false) };
+    const OPEN: Branch = Branch { exists: None, theorem: None, spiral: None };
+}
+
+thread_local! {
+    /// The last angles: neighbouring boxes share them.
+    static LAST: Cell<Option<([[f64; 2]; 2], Angles)>> = const { Cell::new(None) };
+}
+
+fn angles_of(phi0: [f64; 2], phi1: [f64; 2]) -> Option<Angles> {
+    match LAST.get() {
+        Some((key, angles)) if key == [phi0, phi1] => Some(angles),
+        _ => {
+            let angles = Angles::new(phi0, phi1)?;
+            LAST.set(Some(([phi0, phi1], angles)));
+            Some(angles)
+        }
+    }
+}
+
+impl Region for Cubic {
+    fn covers(&self, chart: &str) -> bool {
+        chart == super::CHARTS[0].name
+    }
+
+    fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
+        let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else { return Facts::default() };
+        if chart != 0 {
+            return Facts::default();
+        }
+        let sides: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
+        let [phi0, phi1, ..] = sides;
+        let inside = phi0[0] > 0.0 && phi1[0] > 0.0 && crate::num::sines::sum_below_pi(phi0[1], phi1[1]);
+        if !inside || !sides.iter().flatten().all(|x| x.is_finite()) {
+            return Facts::default();
+        }
+        prove(&sides, wanted)
+    }
+}
+
+fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
+    let mut facts = Facts::default();
+    let (any, pull) = any::any(sides);
+    let note = |facts: &mut Facts, flags: u8, known: Known| match known {
+        Some(true) => facts.inside |= flags & wanted,
+        Some(false) => facts.outside |= flags & wanted,
+        None => {}
+    };
+    note(&mut facts, ANY_SPIRAL, any);
+    if any.is_none() && wanted & ANY_SPIRAL != 0 {
+        facts.pull = pull;
+    }
+    let curves = THEOREM31 | THEOREM31_ANY | SPIRAL;
+    if any == Some(false) {
+        note(&mut facts, curves, Some(false));
+    }
+    let [phi0, phi1, kappa0, kappa1] = *sides;
+    if kappa0[1] <= 0.0 || kappa1[1] <= 0.0 {
+        note(&mut facts, curves | SOLVABLE, Some(false));
+    }
+    let open = wanted & !(facts.inside | facts.outside);
+    if open & (curves | SOLVABLE) == 0 {
+        return facts;
+    }
+    let Some(angles) = angles_of(phi0, phi1) else {
+        // Nothing is known of what matters: halve what is widest for its size.
+        facts.pull = sides.map(|[low, high]| (high - low) / (low.abs() + high.abs()));
+        return facts;
+    };
+    let data = Data::new(angles, kappa0, kappa1);
+    let solvable = data.solvable();
+    // What holds of some datum only where it has roots needs both curvatures positive.
+    let rooted = kappa0[0] > 0.0 && kappa1[0] > 0.0;
+    let sure = |known: Known| if rooted { known } else { known.filter(|holds| !holds) };
+    note(&mut facts, SOLVABLE, sure(solvable));
+    if open & SOLVABLE != 0 && solvable.is_none() {
+        data.pull_edges(&mut facts.pull);
+    }
+    if open & curves != 0 {
+        let branches = data.branches(open, any, &mut facts.pull);
+        let some = |of: fn(&Branch) -> Known| {
+            let [left, middle, right] = branches.map(|b| and(b.exists, of(&b)));
+            or(or(left, middle), right)
+        };
+        let first = and(solvable, and(branches[1].exists, branches[1].theorem));
+        note(&mut facts, SPIRAL, sure(and(any, some(|b| b.spiral))));
+        note(&mut facts, THEOREM31_ANY, sure(and(any, some(|b| b.theorem))));
+        note(&mut facts, THEOREM31, sure(and(any, first)));
+    }
+    facts
+}
+
+/// A box, ready for proofs.
+struct Data {
+    angles: Angles,
+    a: Four,
+    k: Four,
+    /// Whether a and k are above 1/3.
+    above: [Known; 2],
+    /// Whether the middle root exists: Δ > 0, or a and k above 1/3.
+    wedge: Known,
+    delta: Four,
+}
+
+impl Data {
+    fn new(angles: Angles, kappa0: [f64; 2], kappa1: [f64; 2]) -> Data {
+        let a = angles.curve0.mul(&centred(kappa0, 2));
+        let k = angles.curve1.mul(&centred(kappa1, 3));
+        let above = [&a, &k].map(|x| positive(&x.times(3.0).plus(-1.0)));
+        let ak = a.mul(&k);
+        let delta = ak.mul(&ak.times(768.0).sub(&a.add(&k).times(256.0)).plus(96.0)).plus(-1.0);
+        let wedge = if above == [Some(true); 2] { Some(true) } else { positive(&delta) };
+        Data { angles, a, k, above, wedge, delta }
+    }
+
+    fn solvable(&self) -> Known {
+        and(self.above[1], self.wedge)
+    }
+
+    /// How much the coordinates move what is open of the case.
+    fn pull_edges(&self, pull: &mut [f64; 4]) {
+        let edges = [(self.wedge, &self.delta), (self.above[0], &self.a), (self.above[1], &self.k)];
+        for (_, form) in edges.iter().filter(|(known, _)| known.is_none()) {
+            add_pull(pull, form);
+        }
+    }
+
+    /// The left, middle and right root; for a lone root the first alone.
+    fn branches(&self, open: u8, any: Known, pull: &mut [f64; 4]) -> [Branch; 3] {
+        let (a, k) = (&self.a, &self.k);
+        let below = self.above.map(|above| above.map(|above| !above));
+        match self.wedge {
+            Some(true) => {
+                let left = self.branch(below[1], Root::left, open, pull);
+                let middle = self.branch(Some(true), Root::middle, open, pull);
+                [left, middle, self.branch(below[0], Root::right, open, pull)]
+            }
+            Some(false) => {
+                let exists = and(below[0], below[1]);
+                [self.branch(exists, Root::lone, open, pull), Branch::ABSENT, Branch::ABSENT]
+            }
+            // A span proves only that there is no spiral in it.
+            None if any == Some(false) => [Branch::OPEN; 3],
+            None => {
+                let x = span(a, k).map(|range| Four::along(range, 3));
+                if let Some(x) = x
+                    && self.fails(&x, &a.mul(&x.mul(&x)).times(-1.0).plus(3.0))
+                {
+                    return [self.branch(below[1], Root::left, open, pull), Branch::ABSENT, Branch::ABSENT];
+                }
+                let y = span(k, a).map(|range| Four::along(range, 2));
+                if let Some(y) = y
+                    && self.fails(&k.mul(&y.mul(&y)).times(-1.0).plus(3.0), &y)
+                {
+                    return [Branch::ABSENT, Branch::ABSENT, self.branch(below[0], Root::right, open, pull)];
+                }
+                self.pull_edges(pull);
+                [Branch::OPEN; 3]
+            }
+        }
+    }
+
+    /// One root: `exists` is what is known of it from the case.
+    fn branch(&self, exists: Known, find: fn(&Four, &Four) -> Option<Root>, open: u8, pull: &mut [f64; 4]) -> Branch {
+        if exists == Some(false) {
+            return Branch::ABSENT;
+        }
+        let Some(root) = find(&self.a, &self.k) else {
+            self.pull_edges(pull);
+            add_pull(pull, &self.a);
+            add_pull(pull, &self.k);
+            return Branch { exists, ..Branch::OPEN };
+        };
+        let [start, end] = self.sides(&root.x, &root.y);
+        let theorem = and(half(&start, &root.y), half(&end, &root.x));
+        if theorem == Some(true) {
+            return Branch { exists, theorem, spiral: Some(true) };
+        }
+        let spiral = monotone(&start, &end, &root.x, &root.y);
+        // Theorem 3.1 is sufficient: no spiral, no theorem.
+        let theorem = if spiral == Some(false) { spiral } else { theorem };
+        let undecided = [(SPIRAL, spiral), (THEOREM31_ANY, theorem), (THEOREM31, theorem)];
+        if undecided.iter().any(|(flag, known)| open & flag != 0 && known.is_none()) {
+            start.iter().chain(&end).filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));
+            add_pull(pull, &root.x);
+            add_pull(pull, &root.y);
+        }
+        if exists.is_none() {
+            self.pull_edges(pull);
+        }
+        Branch { exists, theorem, spiral }
+    }
+
+    fn sides(&self, x: &Four, y: &Four) -> [[Four; 3]; 2] {
+        let Angles { p, r, g0, g1, .. } = &self.angles;
+        [side(x, y, p, g0, r), side(y, x, r, g1, p).map(|form| form.times(-1.0))]
+    }
+
+    /// Whether no (x, y) of these numbers, both positive, makes a spiral.
+    fn fails(&self, x: &Four, y: &Four) -> bool {
+        let [start, end] = self.sides(x, y);
+        monotone(&start, &end, x, y) == Some(false)
+    }
+}
+
+/// Adds how much each coordinate moves a form, for its size.
+fn add_pull(pull: &mut [f64; 4], form: &Four) {
+    let size = form.value.abs() + form.slope.iter().map(|s| s.abs()).sum::<f64>();
+    if size > 0.0 && size.is_finite() {
+        pull.iter_mut().zip(form.slope).for_each(|(pull, slope)| *pull += slope.abs() / size);
+    }
+}
+
+/// One half of Theorem 3.1: `B0 >= 0, B2 >= 0, B1 >= 0 or B1² <= 8 w B0 B2`.
+fn half(b: &[Four; 3], w: &Four) -> Known {
+    let outer = and(positive(&b[0]), positive(&b[2]));
+    if outer == Some(false) {
+        return outer;
+    }
+    let middle = match positive(&b[1]) {
+        Some(true) => Some(true),
+        known => or(known, positive(&b[0].mul(&b[2]).mul(w).times(8.0).sub(&b[1].mul(&b[1])))),
+    };
+    and(outer, middle)
+}
+
+/// Whether the spiral polynomial is positive on [0, 1] all over the box, or negative somewhere on [0, 1] at each
+/// place of it.
+///
+/// x and y are positive at the root that is asked about, wherever there is one. So the sign of B0 or C0, H0 and H5
+/// without their squares, says it all when it is negative, also where x or y comes near 0.
+fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Known {
+    if positive(&start[0]) == Some(false) || positive(&end[0]) == Some(false) {
+        return Some(false);
+    }
+    let quintic = [
+        y.mul(y).mul(&start[0]).times(5.0),
+        y.mul(&start[1]),
+        y.mul(&start[2]),
+        x.mul(&end[2]),
+        x.mul(&end[1]),
+        x.mul(x).mul(&end[0]).times(5.0),
+    ];
+    let middle: Quintic<f64> = quintic.map(|form| form.value);
+    let (value, t) = least(&middle);
+    if value < 0.0 {
+        return (at(&quintic, t).high() < 0.0).then_some(false);
+    }
+    above(&quintic, 6).then_some(true)
+}
+
+/// The quintic at t times a positive number: Horner's rule in `s = t / (1 - t)`, or in 1/s from the other end. Any s
+/// is some t, so its rounding does not matter.
+fn at(c: &Quintic<Four>, t: f64) -> Four {
+    const BINOMIALS: [f64; 6] = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
+    let back = t > 0.5;
+    let s = if back { (1.0 - t) / t } else { t / (1.0 - t) };
+    let term = |i: usize| c[if back { i } else { 5 - i }].times(BINOMIALS[i]);
+    (1..6).fold(term(0), |sum, i| sum.times(s).add(&term(i)))
+}
+
+/// Whether the quintic is positive on [0, 1] all over the box, by halving.
+fn above(c: &Quintic<Four>, depth: u32) -> bool {
+    if c.iter().all(|form| form.low() > 0.0) {
+        return true;
+    }
+    if depth == 0 || c[0].low() <= 0.0 || c[5].low() <= 0.0 {
+        return false;
+    }
+    let (left, right) = halve(c);
+    above(&left, depth - 1) && above(&right, depth - 1)
+}

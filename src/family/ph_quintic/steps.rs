@@ -1,0 +1,64 @@
+//! The work for one datum is bounded by its digits: its counted steps stay few near every case where the equations degenerate.
+//!
+//! A step is one knot, or one height that starts from logarithms. Brackets take some 60 knots at most, and solutions a dozen each; a few
+//! precisions are tried.
+
+use super::{Datum, flags, solve};
+use crate::error::Error;
+use crate::steps::counted;
+use std::f64::consts::PI;
+
+const ANGLES: [f64; 6] = [1e-300, 1e-100, 1e-10, 0.7, 1.4, 3.0];
+const CURVATURES: [f64; 8] = [0.0, 1e-300, 1e-20, 0.2, 3.0, 1e60, 1e150, 1e300];
+
+/// Counts one datum; whether it was answered.
+fn case(datum: Datum, most: &mut (usize, Option<Datum>)) -> bool {
+    let (verdict, told) = counted(|| flags(&datum));
+    let (steps, solved) = counted(|| solve(&datum));
+    if verdict + steps > most.0 {
+        *most = (verdict + steps, Some(datum));
+    }
+    match (told, solved) {
+        (Ok(flags), Ok(solutions)) => {
+            assert_eq!(flags, solutions.flags(), "{datum:?}");
+            true
+        }
+        (_, Err(Error::Undecided { .. } | Error::Domain(_))) => false,
+        (told, solved) => panic!("{datum:?}: {told:?}, {solved:?}"),
+    }
+}
+
+#[test]
+fn few_steps_for_data_of_any_size() {
+    let mut most = (0, None);
+    let (mut all, mut answered) = (0, 0);
+    for (i, phi0) in ANGLES.into_iter().enumerate() {
+        for (j, phi1) in ANGLES.into_iter().enumerate().filter(|(_, phi1)| phi0 + phi1 < PI) {
+            for (k, kappa0) in CURVATURES.into_iter().enumerate().skip((i + j) % 3).step_by(3) {
+                // Another last curvature for each.
+                let kappa1 = CURVATURES[(i + 3 * j + 5 * k) % CURVATURES.len()];
+                all += 1;
+                answered += usize::from(case(Datum { phi0, phi1, kappa0, kappa1 }, &mut most));
+            }
+        }
+    }
+    println!("{answered} of {all} answered; most steps {most:?}");
+    assert!(most.0 < 400 && answered * 10 > all * 8, "{answered} of {all} answered; most steps {most:?}");
+}
+
+#[test]
+fn few_steps_beside_the_limits_of_angles_and_curvatures() {
+    let mut most = (0, None);
+    let next = |x: f64| [x.next_down(), x, x.next_up()];
+    for phi0 in next(0.7) {
+        for phi1 in next(0.7).into_iter().chain(next(PI - 0.7)).filter(|phi1| crate::num::sines::sum_below_pi(phi0, *phi1)) {
+            for kappa in [0.3, 1.0, 1e40] {
+                for kappa1 in next(kappa) {
+                    case(Datum { phi0, phi1, kappa0: kappa, kappa1 }, &mut most);
+                }
+            }
+        }
+    }
+    println!("most steps {most:?}");
+    assert!(most.0 < 400, "{most:?}");
+}

@@ -1,0 +1,74 @@
+//! Pictures of cells: a plane through them, where each flag is known, and where it is not.
+
+use super::{heading, place, sheet, view};
+use crate::cells::{Cells, Known};
+use crate::error::{Error, Result};
+use crate::grid::{Axis, Spacing};
+use crate::plot::{self, AxisView, Mark, Region, Slice};
+use crate::recipe::{PicturePlan, Recipe, SLICE_SIZE};
+
+/// The plans of a file of cells: those of the recipe in its metadata, or its last two axes at the middle of the others.
+///
+/// # Errors
+/// [`Error::Domain`] when it has a single axis.
+pub fn plans(cells: &Cells) -> Result<Vec<PicturePlan>> {
+    let about = cells.about();
+    let recipe = Recipe::parse(&about.recipe).ok();
+    let planned = recipe.and_then(|r| r.atlases.into_iter().find(|a| a.name == about.name && a.grid == *cells.grid()));
+    match planned.map(|a| a.pictures) {
+        Some(pictures) if !pictures.is_empty() => Ok(pictures),
+        _ => super::middle_slice(cells.grid()).map(|plan| vec![plan]),
+    }
+}
+
+/// Draws a slice through the finest cells. Of each region of the plan (of its family's widest flag and those of its
+/// answer, where it chooses none) two are drawn: where it is MIXED, and where it is INSIDE.
+///
+/// # Errors
+/// Those of [`plot`].
+pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
+    let (axes, family) = (cells.grid().axes(), cells.family());
+    let [across, up] = [plan.x, plan.y].map(|axis| middles(&axes[axis]));
+    let mut point: Vec<f64> = axes.iter().map(|axis| axis.values()[0]).collect();
+    for (axis, nodes) in &plan.at {
+        point[*axis] = axes[*axis].values()[nodes.first().copied().unwrap_or_default()];
+    }
+    let mut known: Vec<Known> = Vec::with_capacity(across.len() * up.len());
+    for y in &up {
+        for x in &across {
+            (point[plan.x], point[plan.y]) = (*x, *y);
+            let cell = cells.lookup(&point).ok_or_else(|| Error::Domain(format!("{point:?} is in no cell")))?;
+            known.push(cell);
+        }
+    }
+    let named = |name: &&str| family.flags().iter().position(|flag| flag.name == *name);
+    let usual = || family.nested().iter().take(1).chain(family.yes()).filter_map(named).collect::<Vec<usize>>();
+    let shown = if plan.regions.is_empty() { usual() } else { plan.regions.clone() };
+    let regions = shown.iter().flat_map(|bit| {
+        let label = family.flags()[*bit].label;
+        let mask = |holds: &dyn Fn(&Known) -> bool| known.iter().map(holds).collect();
+        [
+            Region { label: format!("{label}: MIXED"), mask: mask(&|k| (k.inside | k.outside) >> bit & 1 == 0) },
+            Region { label: format!("{label}: INSIDE"), mask: mask(&|k| k.inside >> bit & 1 == 1) },
+        ]
+    });
+    let places: Vec<String> = plan.at.iter().filter_map(|(axis, nodes)| Some(place(&axes[*axis], *nodes.first()?))).collect();
+    let axis = |axis: usize, values: Vec<f64>| AxisView { values, ..view(&axes[axis]) };
+    let slice = Slice {
+        title: heading(plan, &format!("{}: {}", cells.about().name, places.join(", "))),
+        x: axis(plan.x, across),
+        y: axis(plan.y, up),
+        regions: regions.collect(),
+        outlines: Vec::new(),
+        marks: plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect(),
+        note: "each node is a cell: INSIDE is proved at every point of it; MIXED is not known, or true in a part of it".into(),
+    };
+    plot::slice_png(&slice, sheet(&plan.look, SLICE_SIZE))
+}
+
+/// The middle of each finest cell of an axis.
+fn middles(axis: &Axis) -> Vec<f64> {
+    let log = matches!(axis.spacing(), Spacing::Log { .. });
+    let middle = |w: &[f64]| if log { w[0].sqrt() * w[1].sqrt() } else { 0.5 * w[0] + 0.5 * w[1] };
+    axis.values().windows(2).map(middle).collect()
+}

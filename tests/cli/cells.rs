@@ -1,0 +1,91 @@
+//! Cells from recipe to answer.
+
+use super::{Folder, fine, names, run};
+
+const CELLS: &str = r#"
+family = "cubic"
+[[atlas]]
+name = "few"
+kind = "cells"
+resolution = 16
+budget = "200 KiB"
+[atlas.axes]
+phi0 = { linear = [0.68, 0.7] }
+phi1 = { linear = ["80deg", 1.41] }
+kappa0 = { linear = [0.3, 0.5] }
+kappa1 = { log = [2.5, 4] }
+[[atlas.picture]]
+kind = "slice"
+x = "kappa0"
+y = "kappa1"
+at = { phi0 = 0.69, phi1 = 1.4 }
+"#;
+
+const POINTS: &str = "phi0,phi1,kappa0,kappa1\n0.69,1.4,0.4,3.5\n0.5,1.4,0.4,3.5\n0.69,1.4,0.31,2.6\n";
+
+#[test]
+fn cells_are_made_told_asked_and_verified() {
+    let folder = Folder::new(CELLS);
+    folder.generate(&[]);
+    assert_eq!(names(&folder.at("out")), ["few.atlas.safetensors", "few.png", "few.report.json"]);
+    let file = folder.text("out/few.atlas.safetensors");
+    let told = fine(["info", &file, "--json"]).json();
+    assert_eq!((&told["kind"], &told["resolution"], &told["family"]), (&"cells".into(), &16.into(), &"cubic".into()));
+    assert!(fine(["info", &file]).out.contains("cells, up to 16 an axis"));
+
+    std::fs::write(folder.at("points.csv"), POINTS).unwrap();
+    let said = fine(["query", "--atlas", &file, "--points", &folder.text("points.csv")]);
+    let rows: Vec<serde_json::Value> = said.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!((rows.len(), &rows[1]["cell"]), (3, &serde_json::Value::Null));
+    assert!(rows[1].as_object().unwrap().contains_key("cell"));
+    for row in [&rows[0], &rows[2]] {
+        let (cell, flags) = (row["cell"].as_object().unwrap(), row["flags"].as_object().unwrap());
+        assert_eq!(cell.keys().collect::<Vec<_>>(), flags.keys().collect::<Vec<_>>());
+        for (name, holds) in flags {
+            let word = cell[name].as_str().unwrap();
+            assert!(word == "MIXED" || (word == "INSIDE") == holds.as_bool().unwrap(), "{name}: {row}");
+        }
+    }
+    assert_eq!(rows[0]["cell"]["SPIRAL"], "INSIDE");
+    let plain = fine(["query", "--phi0", "0.69", "--phi1", "1.4", "--kappa0", "0.4", "--kappa1", "3.5", "--atlas", &file]);
+    assert!(plain.out.contains("its cell: ") && plain.out.contains("SPIRAL = INSIDE"), "{}", plain.out);
+    // The same place in other coordinates was rounded, so its cell says nothing of it.
+    let other = run(["query", "--phi0", "0.69", "--phi1", "1.4", "--a", "0.8", "--k", "2", "--atlas", &file, "--json"]);
+    assert_eq!(other.json()["cell"], serde_json::Value::Null);
+
+    fine(["render", &file, "--out", &folder.text("again")]);
+    let picture = |name: &str| std::fs::read(folder.at(name)).unwrap();
+    assert!(picture("again/few.png") == picture("out/few.png"));
+
+    let verified = fine(["verify", &file, "--json"]).json();
+    assert_eq!((&verified["good"], &verified["differences"], &verified["attack"]["wrong"]), (&true.into(), &0.into(), &0.into()));
+    // One flag of one top cell, the last of the file.
+    let mut bytes = std::fs::read(&file).unwrap();
+    let last = bytes.chunks_exact(2).rposition(|known| known[0] & 8 != 0).unwrap() * 2;
+    (bytes[last], bytes[last + 1]) = (bytes[last] & !8, bytes[last + 1] | 8);
+    std::fs::write(&file, bytes).unwrap();
+    let found = run(["verify", &file]);
+    assert_eq!(found.code, Some(1), "{}", found.out);
+    assert!(found.out.contains("FAULT") && found.out.contains("1 words DIFFER\n    `top` at"), "{}", found.out);
+}
+
+#[test]
+fn mistakes_in_recipes_of_cells_are_named() {
+    let cases = [
+        ("resolution = 16", "resolution = 20", "`resolution` is 20; it must be a power of two"),
+        ("budget = \"200 KiB\"", "budget = \"200 kilos\"", "`budget` is \"200 kilos\""),
+        ("budget = \"200 KiB\"", "budget = \"1 KiB\"", "top cells alone take"),
+        ("budget = \"200 KiB\"\n", "", "needs `resolution` and `budget`"),
+        ("kind = \"cells\"", "kind = \"nodes\"", "`resolution` belongs to"),
+        ("kind = \"cells\"", "kind = \"cell\"", "did you mean `cells`?"),
+        ("[0.68, 0.7] }", "[0.68, 0.7], count = 3 }", "axis `phi0` of cells takes"),
+        ("family = \"cubic\"", "family = \"ph-quintic\"", "no proofs over boxes"),
+        ("kind = \"slice\"", "kind = \"multiples\"", "of the kind `slice`"),
+    ];
+    for (from, to, what) in cases {
+        let folder = Folder::new(&CELLS.replacen(from, to, 1));
+        let said = run(["generate", &folder.text("recipe.toml"), "--out", &folder.text("out")]);
+        assert!(said.code == Some(2) && said.err.contains(what), "{to}: {}", said.err);
+        assert!(!folder.at("out").join("few.atlas.safetensors").exists());
+    }
+}
