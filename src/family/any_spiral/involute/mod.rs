@@ -129,7 +129,9 @@ pub fn involute(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
     }
     for (name, k) in [("k1", chord.k1), ("k2", chord.k2)] {
         if k.is_nan() || k.abs() > GREATEST {
-            return Err(Error::Domain(format!("{name} is {k:?}; it must be at most {GREATEST:?} in magnitude (times half the chord)")));
+            return Err(Error::Domain(format!(
+                "{name} is {k:?}; it must be at most {GREATEST:?} in magnitude (times half the chord)"
+            )));
         }
     }
     if let Some(n) = turns.iter().find(|n| **n > MOST_TURNS) {
