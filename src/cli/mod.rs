@@ -9,6 +9,7 @@ mod cells;
 mod curve;
 mod datum;
 mod draw;
+mod export;
 mod generate;
 mod info;
 mod output;
@@ -53,6 +54,7 @@ enum Command {
     Query(query::Args),
     Curve(Box<curve::Args>),
     Path(path::Args),
+    Export(export::Args),
     /// Print shell completions.
     #[command(after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]
     Completions {
@@ -85,6 +87,7 @@ pub fn main() -> ExitCode {
         Command::Query(args) => query::run(&args),
         Command::Curve(args) => curve::run(&args),
         Command::Path(args) => path::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::Completions { shell } => completions(shell),
     };
     match done {

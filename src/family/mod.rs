@@ -4,6 +4,7 @@
 
 mod answer;
 pub mod any_spiral;
+mod batch;
 pub mod cubic;
 mod hermite;
 mod kernel;
@@ -17,6 +18,7 @@ mod rows;
 pub mod trig_quintic;
 
 pub use answer::{Answer, Value, Values};
+pub use batch::{RowError, verdicts};
 pub use kernel::{Kernel, Shader, ShaderInputs};
 pub use region::{Facts, MOST_SIDES, Region};
 
@@ -190,7 +192,7 @@ fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
 ///
 /// # Errors
 /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
-pub(crate) fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
+pub fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
     let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
     let grid = Grid::new(family.charts()[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
     let table = family.table(&grid)?;

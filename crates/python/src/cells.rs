@@ -1,0 +1,130 @@
+//! Certified cells: verdicts at every point of a box.
+
+use crate::atlas::rows;
+use crate::error::{raise, raise_row};
+use numpy::ndarray::ArrayView2;
+use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{IntoPyDict, PyDict};
+use std::path::PathBuf;
+
+/// Certified cells, mapped into memory. Made by `open_cells`.
+///
+/// The box of the file is divided into cells. Of each flag a cell says that it holds at every point, at none, or that
+/// this is not known.
+#[pyclass(frozen, module = "spiral_atlas")]
+pub struct Cells(pub spiral_atlas::cells::Cells);
+
+/// Opens a file of cells and checks its header, axes and trees; `Cells.check` reads the hashes too.
+///
+/// Raises:
+///     OSError: the file cannot be opened.
+///     AtlasError: it is not a valid file of cells.
+#[pyfunction]
+pub fn open_cells(path: PathBuf) -> PyResult<Cells> {
+    spiral_atlas::cells::Cells::open(path).map(Cells).map_err(raise)
+}
+
+type Masks<'py> = Bound<'py, PyArray1<u8>>;
+
+impl Cells {
+    fn columns(&self, points: &ArrayView2<'_, f64>) -> PyResult<usize> {
+        let axes = self.0.grid().axes().len();
+        if points.ncols() == axes {
+            return Ok(axes);
+        }
+        Err(PyValueError::new_err(format!("the points have {} columns; the cells have {axes} axes", points.ncols())))
+    }
+}
+
+#[pymethods]
+impl Cells {
+    /// The path it was opened from.
+    #[getter]
+    fn path(&self) -> PathBuf {
+        self.0.path().to_owned()
+    }
+
+    /// The family's name.
+    #[getter]
+    fn family(&self) -> &str {
+        self.0.family().name()
+    }
+
+    /// First and last value of each axis, by name, in the order of the coordinates.
+    #[getter]
+    fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let ends = |values: &[f64]| (values[0], values[values.len() - 1]);
+        self.0.grid().axes().iter().map(|axis| (axis.name(), ends(axis.values()))).into_py_dict(py)
+    }
+
+    /// Cells along each axis.
+    #[getter]
+    fn resolution(&self) -> usize {
+        self.0.resolution()
+    }
+
+    /// Names and meanings of the bits of the masks, bit 0 first.
+    #[getter]
+    fn flag_docs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.0.about().flags.iter().map(|flag| (flag.name.clone(), flag.doc.clone())).into_py_dict(py)
+    }
+
+    /// What the cell of each point says, in nanoseconds a point.
+    ///
+    /// Args:
+    ///     points: numbers of shape (n, number of axes); a float64 array is not copied.
+    ///
+    /// Returns:
+    ///     (inside, outside): two uint8 arrays of shape (n,), masks of flags. A flag in `inside` holds at every point of
+    ///     the cell, a flag in `outside` at none. A flag in neither is not known; outside the box none is.
+    fn lookup<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyArrayLike2<'py, f64, AllowTypeChange>,
+    ) -> PyResult<(Masks<'py>, Masks<'py>)> {
+        let points = points.as_array();
+        let axes = self.columns(&points)?;
+        let (inside, outside): (Vec<u8>, Vec<u8>) = py.detach(|| {
+            let known = |point| self.0.lookup(point).unwrap_or_default();
+            rows(&points.as_standard_layout(), axes).map(known).map(|known| (known.inside, known.outside)).unzip()
+        });
+        Ok((inside.into_pyarray(py), outside.into_pyarray(py)))
+    }
+
+    /// The truth at each point: from its cell where that says it, or else from the family itself, also outside the box.
+    ///
+    /// Args:
+    ///     points: numbers of shape (n, number of axes); a float64 array is not copied.
+    ///     flags: mask of the flags that are wanted. Fewer wanted flags are known to more cells.
+    ///
+    /// Returns:
+    ///     uint8 array of shape (n,): those of the wanted flags that hold.
+    ///
+    /// Raises:
+    ///     ValueError: naming the row and the value, when a point lies outside the family's domain.
+    ///     UndecidedError: naming the row.
+    #[pyo3(signature = (points, flags = 255))]
+    fn verdict<'py>(&self, py: Python<'py>, points: PyArrayLike2<'py, f64, AllowTypeChange>, flags: u8) -> PyResult<Masks<'py>> {
+        let points = points.as_array();
+        let axes = self.columns(&points)?;
+        let held: Result<Vec<u8>, _> = py.detach(|| {
+            let truth = |(i, point)| self.0.verdict(point, flags).map_err(|e| (i, e));
+            rows(&points.as_standard_layout(), axes).enumerate().map(truth).collect()
+        });
+        held.map(|held| held.into_pyarray(py)).map_err(|(row, error)| raise_row(py, row, error))
+    }
+
+    /// Reads the whole file and checks the hash of every array.
+    ///
+    /// Raises:
+    ///     AtlasError: naming the first array that is damaged.
+    fn check(&self, py: Python<'_>) -> PyResult<()> {
+        py.detach(|| self.0.check_hashes()).map_err(raise)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<spiral_atlas.Cells of {}: {} along each axis>", self.0.family().name(), self.0.resolution())
+    }
+}
