@@ -51,7 +51,7 @@ fn most_looks(bits: usize) -> usize {
     match bits {
         0..=53 => 160,
         54..=2048 => 10 * bits,
-        _ => 2048,
+        _ => 400,
     }
 }
 
