@@ -21,6 +21,9 @@ pub struct Ball {
 }
 
 impl Ball {
+    /// Nothing is known of it.
+    pub const ANY: Ball = Ball { value: 0.0, error: f64::INFINITY };
+
     /// A number known to `units` of 2^-53, relative.
     pub fn near(value: f64, units: f64) -> Ball {
         Ball { value, error: value.abs() * (units * UNIT * GROW) + TINY }

@@ -8,7 +8,7 @@ use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
 use crate::curve::energy;
 use crate::family::{Code, outer};
 use crate::num::bernstein::{MOST_HALVINGS, exact_margin, margin, positive};
-use crate::num::{Ball, Interval, Real};
+use crate::num::{Ball, Interval, Real, Twin};
 
 /// A solution and whether its curvature rises throughout.
 #[derive(Debug, Clone)]
@@ -97,6 +97,13 @@ impl Margin for Ball {
     fn of_quintic(c: &[Ball; 6]) -> Option<Ball> {
         let (value, error) = margin(&c.map(|b| b.value), c.iter().fold(0.0, |most, b| b.error.max(most)));
         Some(Ball { value, error })
+    }
+}
+
+impl Margin for Twin {
+    /// That of its coefficients as balls, which are as accurate as a margin need be.
+    fn of_quintic(c: &[Twin; 6]) -> Option<Twin> {
+        Ball::of_quintic(&[0, 1, 2, 3, 4, 5].map(|i| c[i].ball())).map(|margin| Twin::around(&margin))
     }
 }
 
