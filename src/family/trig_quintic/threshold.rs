@@ -104,12 +104,16 @@ impl<N: Number> Number for Power<N> {
     }
     fn mul(&self, other: &Self) -> Self {
         let (from, to) = ((self.from + other.from).min(DEGREE + 1), (self.to + other.to).min(DEGREE + 1));
-        let at = |k: usize| {
-            let terms = self.from.max(k.saturating_sub(other.to))..=self.to.min(k.saturating_sub(other.from));
-            let products = terms.filter(|_| k >= from).map(|i| self.c[i].mul(&other.c[k - i]));
-            products.reduce(|a, b| a.add(&b)).unwrap_or_else(|| self.c[0].times(0.0))
-        };
-        Power { c: from_fn(at), from, to }
+        let zero = self.c[0].times(0.0);
+        let mut c: [N; DEGREE + 2] = from_fn(|_| zero.clone());
+        for i in self.from..=self.to {
+            for j in other.from..=other.to.min(DEGREE + 1 - i) {
+                let product = self.c[i].mul(&other.c[j]);
+                // The first of a place is the place's.
+                c[i + j] = if i == self.from || j == other.to { product } else { c[i + j].add(&product) };
+            }
+        }
+        Power { c, from, to }
     }
     fn times(&self, constant: f64) -> Self {
         let at = |i| if (self.from..=self.to).contains(&i) { self.c[i].times(constant) } else { self.c[i].clone() };
