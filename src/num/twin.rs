@@ -43,7 +43,11 @@ impl Twin {
     fn sum(x: f64, y: f64, error: f64) -> Twin {
         let (high, low) = two_sum(x, y);
         // Not for NaN either.
-        if low.abs() + error < f64::INFINITY { Twin { high, low, error } } else { Twin { high: 0.0, low: 0.0, error: f64::INFINITY } }
+        if low.abs() + error < f64::INFINITY {
+            Twin { high, low, error }
+        } else {
+            Twin { high: 0.0, low: 0.0, error: f64::INFINITY }
+        }
     }
 
     /// The same numbers.
@@ -71,9 +75,12 @@ impl Twin {
         };
         let r2 = Twin::of(r, TWIN_BITS).mul(&Twin::of(r, TWIN_BITS));
         // Σ (-1)^i r^2i / (2i + 1)! and the same of (2i)!, without their first terms.
-        let series = |first: usize| (1..8).rev().map(|i| &INVERSES[2 * i + first]).fold(Twin::of(0.0, TWIN_BITS), |sum, inverse| {
-            r2.mul(&inverse.sub(&sum))
-        });
+        let series = |first: usize| {
+            (1..8)
+                .rev()
+                .map(|i| &INVERSES[2 * i + first])
+                .fold(Twin::of(0.0, TWIN_BITS), |sum, inverse| r2.mul(&inverse.sub(&sum)))
+        };
         let rest = |x: Twin| Twin { error: x.error + 2f64.powi(-114), ..x };
         // sin r = r - r s, cos r = 1 - c.
         let (s, c) = (rest(series(1)), rest(series(0)));
@@ -304,7 +311,12 @@ mod tests {
     #[test]
     fn what_overflows_is_not_certain() {
         let huge = Twin::of(1e200, TWIN_BITS);
-        for x in [huge.mul(&huge), huge.mul(&huge).sub(&huge.mul(&huge)), Twin::of(1e308, TWIN_BITS).times(2.0), Twin::sine_cosine(9.0).0] {
+        for x in [
+            huge.mul(&huge),
+            huge.mul(&huge).sub(&huge.mul(&huge)),
+            Twin::of(1e308, TWIN_BITS).times(2.0),
+            Twin::sine_cosine(9.0).0,
+        ] {
             assert_eq!((x.certain_sign(0.0), x.to_f64(), x.to_f32(), x.error), (None, None, None, f64::INFINITY), "{x:?}");
         }
     }

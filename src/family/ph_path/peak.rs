@@ -38,7 +38,9 @@ impl<N: Real> Arc<N> {
             }
             let Some(slopes) = piece.slopes() else { continue };
             let certain = |x: &Ball, side| x.certain_sign(0.0) == Some(side);
-            let over = if at <= 0.0 && slopes.iter().all(|x| certain(x, Less)) || at >= 1.0 && slopes.iter().all(|x| certain(x, Greater)) {
+            let over = if at <= 0.0 && slopes.iter().all(|x| certain(x, Less))
+                || at >= 1.0 && slopes.iter().all(|x| certain(x, Greater))
+            {
                 0.0
             } else if slopes.windows(2).all(|x| certain(&x[1].sub(&x[0]), Less)) {
                 self.slope(t).most() * piece.slowest()?.powi(-3) * reach * GROW + f64::MIN_POSITIVE
@@ -85,12 +87,8 @@ impl Arc<Ball> {
         let rise = |a: &Ball, b: &Ball| b.sub(a).times(2.0);
         let bent = [rise(&h0, &h1), rise(&h1, &h2)];
         // σ' from 1, 4, 6, 4, 1 times σ: `4 (σ1 - σ0)`, `12 (σ2 - σ1)` and so on.
-        let gain = [
-            s1.sub(&s0.times(4.0)),
-            s2.times(2.0).sub(&s1.times(3.0)),
-            s3.times(3.0).sub(&s2.times(2.0)),
-            s4.times(4.0).sub(s3),
-        ];
+        let gain =
+            [s1.sub(&s0.times(4.0)), s2.times(2.0).sub(&s1.times(3.0)), s3.times(3.0).sub(&s2.times(2.0)), s4.times(4.0).sub(s3)];
         let (up, down): ([Ball; 6], [Ball; 6]) = (product(&speed, &bent), product(&[h0, h1.times(2.0), h2], &gain));
         let binomial = [10.0, 2.0, 1.0, 1.0, 2.0, 10.0];
         Some(std::array::from_fn(|i| up[i].sub(&down[i].times(2.0)).times(binomial[i])))

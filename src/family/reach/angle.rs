@@ -3,8 +3,8 @@
 use super::Kind;
 use crate::error::{Error, Result};
 use crate::family::hermite::told_angle;
-use crate::num::{Interval, Real, Twin};
 use crate::num::sines::{cos, sin};
+use crate::num::{Interval, Real, Twin};
 use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::rc::Rc;

@@ -9,6 +9,7 @@
 
 use super::exact::{HALVINGS, Shape, bernstein};
 use super::filter::{ERROR, UNIT, decide, is_ordinary};
+use super::guess::guess;
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
@@ -21,7 +22,7 @@ pub(super) const MOST: f32 = 64.0;
 /// And down to this.
 pub(super) const LEAST: f32 = 1.0 / 64.0;
 /// Degree of f in the ratio.
-const DEGREE: usize = 6;
+pub(super) const DEGREE: usize = 6;
 /// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute terms: the
 /// coefficients, for which products of polynomials add up to 7 terms on three levels; powers (6), weights (10), a product and a
 /// sum of 7.
@@ -36,10 +37,12 @@ const ROUNDS: u32 = 24;
 /// # Errors
 /// [`crate::Error::Undecided`] at the precision cap.
 pub(super) fn least_ratio(shape: &Shape) -> Result<f32> {
-    match fast(shape).and_then(|sweep| sweep.search(None)) {
-        Some(value) => Ok(value),
-        None => exact_least_ratio(shape),
-    }
+    let found = fast(shape).and_then(|sweep| {
+        let hint = guess(&sweep.c);
+        // The guess is nearly always right; else every ratio between may be tried.
+        hint.and_then(|hint| sweep.search(Some(hint))).or_else(|| sweep.search(None))
+    });
+    found.map_or_else(|| exact_least_ratio(shape), Ok)
 }
 
 /// The same by intervals alone.
