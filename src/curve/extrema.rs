@@ -103,8 +103,8 @@ const MOST: usize = 8;
 pub(super) fn halves(b: &[f64]) -> ([f64; MOST], [f64; MOST]) {
     let (mut left, mut right) = ([0.0; MOST], [0.0; MOST]);
     right[..b.len()].copy_from_slice(b);
-    for step in 0..b.len() {
-        left[step] = right[0];
+    for (step, first) in left[..b.len()].iter_mut().enumerate() {
+        *first = right[0];
         for i in 0..b.len() - 1 - step {
             right[i] = 0.5 * (right[i] + right[i + 1]);
         }

@@ -4,7 +4,7 @@ use super::bernstein::Certain;
 use super::sines::two_sum;
 use super::{Ball, Interval, Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 /// Unit roundoff of doubles.
 const UNIT: f64 = 0.5 * f64::EPSILON;
@@ -69,10 +69,14 @@ impl Twin {
         let size = x.abs();
         let k = (size * 16.0).round();
         let r = size - k / 16.0;
-        let Some((sin, cos)) = KNOTS.get(k as usize) else {
+        let Some(knot) = KNOTS.get(k as usize) else {
             let any = Twin::sum(0.0, 0.0, f64::INFINITY);
             return (any, any);
         };
+        let (sin, cos) = knot.get_or_init(|| {
+            let (sin, cos) = Interval::sin_cos(k / 16.0, 160);
+            (of_interval(&sin), of_interval(&cos))
+        });
         let r2 = Twin::of(r, TWIN_BITS).mul(&Twin::of(r, TWIN_BITS));
         // Σ (-1)^i r^2i / (2i + 1)! and the same of (2i)!, without their first terms.
         let series = |first: usize| {
@@ -107,11 +111,8 @@ fn of_interval(x: &Interval) -> Twin {
     Twin { high, low, error: high.abs() * 2f64.powi(-105) }
 }
 
-/// Sines and cosines of k/16 up to π.
-static KNOTS: LazyLock<Vec<(Twin, Twin)>> = LazyLock::new(|| {
-    let knot = |k: i32| Interval::sin_cos(f64::from(k) / 16.0, 160);
-    (0..52).map(|k| knot(k)).map(|(sin, cos)| (of_interval(&sin), of_interval(&cos))).collect()
-});
+/// Sines and cosines of k/16 up to π, each computed when it is first needed.
+static KNOTS: [OnceLock<(Twin, Twin)>; 52] = [const { OnceLock::new() }; 52];
 
 /// One over the factorials up to 15!.
 static INVERSES: LazyLock<Vec<Twin>> = LazyLock::new(|| {

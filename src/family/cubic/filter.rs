@@ -156,7 +156,7 @@ fn dipping<S: Simd>(side: &Side<S>, w: S::f64s, delta: S::f64s) -> [(S::f64s, S:
     let mut terms = side.weighed(w, delta);
     terms[2] = (terms[2].0 * 2.0, terms[2].1 * 2.0);
     for (h, e) in &mut terms {
-        *e = *e + h.abs() * (16.0 * Precision::F64.unit);
+        *e += h.abs() * (16.0 * Precision::F64.unit);
     }
     terms
 }
