@@ -21,8 +21,18 @@ pub struct Ball {
 }
 
 impl Ball {
-    /// Nothing is known of it.
-    pub const ANY: Ball = Ball { value: 0.0, error: f64::INFINITY };
+    /// The same number of another arithmetic, as well as doubles can hold it.
+    #[inline(always)]
+    pub fn enclosing<N: Real>(x: &N) -> Ball {
+        let value = x.approx();
+        if !value.is_finite() {
+            // Beyond the range of doubles every number is possible.
+            return Ball { value: 0.0, error: f64::INFINITY };
+        }
+        // `most` may be off by a rounding.
+        let error = x.sub(&N::of(value, x.bits())).most() * (1.0 + 2.0 * f64::EPSILON) + f64::MIN_POSITIVE;
+        Ball { value, error }
+    }
 
     /// A number known to `units` of 2^-53, relative.
     pub fn near(value: f64, units: f64) -> Ball {

@@ -1,6 +1,6 @@
 //! One notation for the arithmetic that doubles, SIMD lanes and intervals share, so that a formula is written once.
 
-use super::{Ball, Interval};
+use super::Interval;
 use fearless_simd::{Simd, SimdBase};
 
 /// `+ - *` and nothing else: what proofs may use.
@@ -119,19 +119,6 @@ pub trait Real: super::bernstein::Certain {
     fn ln(&self) -> f64;
     /// The nearest single, when that is certain.
     fn to_f32(&self) -> Option<f32>;
-
-    /// In doubles, as well as they can hold it.
-    #[inline(always)]
-    fn ball(&self) -> Ball {
-        let value = self.approx();
-        // Beyond the range of doubles every number is possible.
-        if !value.is_finite() {
-            return Ball::ANY;
-        }
-        // `most` may be off by a rounding.
-        let error = self.sub(&Self::of(value, self.bits())).most() * (1.0 + 2.0 * f64::EPSILON) + f64::MIN_POSITIVE;
-        Ball { value, error }
-    }
 
     /// Whether it is certainly above 0.
     #[inline(always)]

@@ -225,7 +225,7 @@ impl Real for Twin {
         self.high.ln()
     }
     fn to_f32(&self) -> Option<f32> {
-        let Ball { value, error } = self.ball();
+        let Ball { value, error } = Ball::enclosing(self);
         let error = error + value.abs() * f64::EPSILON;
         let (low, high) = ((value - error) as f32, (value + error) as f32);
         // One zero, whatever the sign of what underflowed.

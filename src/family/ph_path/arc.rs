@@ -177,7 +177,7 @@ impl<N: Real> Arc<N> {
     ///
     /// Doubles are tried first, whatever the precision: for most curvatures they suffice.
     pub fn below(&self, v: &N, touching: usize) -> Bound {
-        let by_doubles = if self.bits() > 53 { self.rough().halved_below(&v.ball(), touching) } else { Bound::Open };
+        let by_doubles = if self.bits() > 53 { self.rough().halved_below(&Ball::enclosing(v), touching) } else { Bound::Open };
         match by_doubles {
             Bound::Open => self.halved_below(v, touching),
             told => told,
@@ -186,7 +186,10 @@ impl<N: Real> Arc<N> {
 
     /// The same in doubles.
     pub fn rough(&self) -> Arc<Ball> {
-        Arc { w: [0, 1, 2].map(|i| [0, 1].map(|k| self.w[i][k].ball())), turn: [0, 1, 2].map(|i| self.turn[i].ball()) }
+        Arc {
+            w: [0, 1, 2].map(|i| [0, 1].map(|k| Ball::enclosing(&self.w[i][k]))),
+            turn: [0, 1, 2].map(|i| Ball::enclosing(&self.turn[i])),
+        }
     }
 
     fn halved_below(&self, v: &N, touching: usize) -> Bound {

@@ -24,7 +24,7 @@ impl<N: Real> Arc<N> {
     /// The greatest |κ|, if it is proved to be taken at t, near it, or not to exceed the value at t by more than the share `margin`.
     pub(super) fn only_peak(&self, t: &N, margin: &N) -> Option<N> {
         let value = self.curvature(t)?;
-        let (rough, most, at) = (self.rough(), value.ball(), t.approx());
+        let (rough, most, at) = (self.rough(), Ball::enclosing(&value), t.approx());
         for reach in REACHES {
             let [first, last] = [(at - reach).max(0.0), (at + reach).min(1.0)];
             let (mut piece, mut others) = (rough.clone(), [None, None]);

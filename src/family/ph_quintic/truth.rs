@@ -103,7 +103,7 @@ impl Margin for Ball {
 impl Margin for Twin {
     /// That of its coefficients as balls, which are as accurate as a margin need be.
     fn of_quintic(c: &[Twin; 6]) -> Option<Twin> {
-        Ball::of_quintic(&[0, 1, 2, 3, 4, 5].map(|i| c[i].ball())).map(|margin| Twin::around(&margin))
+        Ball::of_quintic(&[0, 1, 2, 3, 4, 5].map(|i| Ball::enclosing(&c[i]))).map(|margin| Twin::around(&margin))
     }
 }
 

@@ -4,7 +4,13 @@
 //! negative up to the largest ratio; from there Newton's method finds where f and its slope along the curve are 0 together.
 
 use super::poly::{BERNSTEIN, K};
-use super::threshold::{DEGREE, LEAST, MOST};
+
+/// Ratios up to this are looked at.
+pub(super) const MOST: f32 = 64.0;
+/// And down to this.
+pub(super) const LEAST: f32 = 1.0 / 64.0;
+/// Degree of f in the ratio.
+pub(super) const DEGREE: usize = 6;
 
 /// Places along the curve, besides its ends.
 const PLACES: usize = 24;

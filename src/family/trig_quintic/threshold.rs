@@ -9,7 +9,7 @@
 
 use super::exact::{HALVINGS, Shape, bernstein};
 use super::filter::{ERROR, UNIT, decide, is_ordinary};
-use super::guess::guess;
+use super::guess::{DEGREE, LEAST, MOST, guess};
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
@@ -17,12 +17,6 @@ use crate::num::bernstein::{Certain, positive};
 use crate::num::{Interval, Number, climb};
 use std::array::from_fn;
 
-/// Ratios up to this are looked at.
-pub(super) const MOST: f32 = 64.0;
-/// And down to this.
-pub(super) const LEAST: f32 = 1.0 / 64.0;
-/// Degree of f in the ratio.
-pub(super) const DEGREE: usize = 6;
 /// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute terms: the
 /// coefficients, for which products of polynomials add up to 7 terms on three levels; powers (6), weights (10), a product and a
 /// sum of 7.
