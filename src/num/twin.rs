@@ -10,13 +10,14 @@ use std::sync::{LazyLock, OnceLock};
 const UNIT: f64 = 0.5 * f64::EPSILON;
 /// Covers the roundings of an error's own computation: at most ten, each relative.
 const GROW: f64 = 1.0 + 16.0 * UNIT;
-/// More than underflow can do to a result and to the terms of its error: some thirty products round below the normal range, each by less
-/// than 2^-1074.
+/// More than underflow can do to a result and to the terms of its error: some thirty products round below the normal
+/// range, each by less than 2^-1074.
 const TINY: f64 = f64::MIN_POSITIVE;
 /// What results are about good to, in bits.
 pub const TWIN_BITS: usize = 100;
 
-/// All numbers within `error` of `high + low`, where `high` is the double next to that sum. Overflow makes it hold all numbers.
+/// All numbers within `error` of `high + low`, where `high` is the double next to that sum. Overflow makes it hold
+/// all numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Twin {
     high: f64,
@@ -63,8 +64,9 @@ impl Twin {
     /// `(sin x, cos x)` for |x| <= π.
     ///
     /// # Accuracy
-    /// As its error says, some 2^-104. With `x = k/16 + r`, `|r| <= 1/32` (exact: both are multiples of the last bit of x, and the difference is
-    /// smaller than x), the series in r stop at `r^15/15! < 2^-115` and `r^16/16! < 2^-124`.
+    /// As its error says, some 2^-104. With `x = k/16 + r`, `|r| <= 1/32` (exact: both are multiples of the last bit
+    /// of x, and the difference is smaller than x), the series in r stop at `r^15/15! < 2^-115` and `r^16/16! <
+    /// 2^-124`.
     pub fn sine_cosine(x: f64) -> (Twin, Twin) {
         let size = x.abs();
         let k = (size * 16.0).round();
@@ -136,8 +138,8 @@ impl Number for Twin {
     fn sub(&self, other: &Twin) -> Twin {
         self.add(&Twin { high: -other.high, low: -other.low, error: other.error })
     }
-    /// With `|low| <= u |high|`, u the unit: both cross products round by u² of the product, their sum by 2u², the sum with the rest of
-    /// the main product by 3u², and the product of the lows is u²: 8u² in all.
+    /// With `|low| <= u |high|`, u the unit: both cross products round by u² of the product, their sum by 2u², the
+    /// sum with the rest of the main product by 3u², and the product of the lows is u²: 8u² in all.
     #[inline(always)]
     fn mul(&self, other: &Twin) -> Twin {
         let (product, rest) = two_product(self.high, other.high);

@@ -1,11 +1,12 @@
-//! The greatest |curvature| from one peak and its neighbourhood: what [`Arc::below`] alone proves only after many halvings, because the
-//! curvature is level at a peak.
+//! The greatest |curvature| from one peak and its neighbourhood: what [`Arc::below`] alone proves only after many
+//! halvings, because the curvature is level at a peak.
 //!
-//! With `|κ| = ±h/σ²` its slope is `N/σ³`, `N = ±(σh' - 2hσ')`, of degree 5. Around the peak, at t, a piece is taken on which h keeps
-//! its sign and N falls, as its Bernstein coefficients do. On one side of t the slope then points towards t throughout, and |κ| is at
-//! most |κ(t)|. On the other it is at most `|N(t)| / σ³`, so that |κ| exceeds |κ(t)| by no more than that times the length
-//! of the piece. At an end of the curve it is enough that N does not point inwards. All else must stay below |κ(t)|, by
-//! [`Arc::below`]: it is lower there by about the square of the piece's length.
+//! With `|κ| = ±h/σ²` its slope is `N/σ³`, `N = ±(σh' - 2hσ')`, of degree 5. Around the peak, at t, a piece is taken
+//! on which h keeps its sign and N falls, as its Bernstein coefficients do. On one side of t the slope then points
+//! towards t throughout, and |κ| is at most |κ(t)|. On the other it is at most `|N(t)| / σ³`, so that |κ| exceeds
+//! |κ(t)| by no more than that times the length of the piece. At an end of the curve it is enough that N does not
+//! point inwards. All else must stay below |κ(t)|, by [`Arc::below`]: it is lower there by about the square of the
+//! piece's length.
 //!
 //! Only the value at t and N(t) take the precision of the datum; certificates are in doubles.
 
@@ -21,7 +22,8 @@ const REACHES: [f64; 5] = [0.125, 0.03125, 0.00390625, 1.220703125e-4, 1e-6];
 const GROW: f64 = 1.0 + 1e-9;
 
 impl<N: Real> Arc<N> {
-    /// The greatest |κ|, if it is proved to be taken at t, near it, or not to exceed the value at t by more than the share `margin`.
+    /// The greatest |κ|, if it is proved to be taken at t, near it, or not to exceed the value at t by more than the
+    /// share `margin`.
     pub(super) fn only_peak(&self, t: &N, margin: &N) -> Option<N> {
         let value = self.curvature(t)?;
         let (rough, most, at) = (self.rough(), Ball::enclosing(&value), t.approx());

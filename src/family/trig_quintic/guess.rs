@@ -1,7 +1,8 @@
 //! Where the threshold is, about: nothing here is proved.
 //!
-//! At the threshold f, as a form along the curve, touches 0 from above. Among some places on the curve that one is taken at which f is
-//! negative up to the largest ratio; from there Newton's method finds where f and its slope along the curve are 0 together.
+//! At the threshold f, as a form along the curve, touches 0 from above. Among some places on the curve that one is
+//! taken at which f is negative up to the largest ratio; from there Newton's method finds where f and its slope along
+//! the curve are 0 together.
 
 use super::poly::{BERNSTEIN, K};
 
