@@ -33,7 +33,7 @@ impl PhQuintic {
         let energy = plain().filter(known).or_else(|| unit.energy_from_slow_places().filter(known)).or_else(|| {
             // What cancels in a nearly straight curve; regular, it has few pieces.
             let w = unit.preimage.map(|z| z.map(|x| Interval::new(x, BITS)));
-            energy(&rates(&w)?).map(|e| Ball::around(&e)).filter(known)
+            energy(&rates(&w)?).map(|e| Ball::enclosing(&e)).filter(known)
         });
         energy.map_or(f64::INFINITY, |e| e.value / size)
     }
@@ -47,7 +47,7 @@ impl PhQuintic {
             let (speed, turn) = rates(&self.part([w[0], w[1]]))?;
             // With u = (t - a)/(b - a) as parameter h is `b - a` times as large, and dt is `(b - a) du`.
             let inverse = Ball::of(1.0, 53).over(&Ball::near(w[1] - w[0], 1.0))?;
-            Some(energy(&(speed.map(|x| Ball::around(&x)), turn.map(|x| Ball::around(&x))))?.mul(&inverse))
+            Some(energy(&(speed.map(|x| Ball::enclosing(&x)), turn.map(|x| Ball::enclosing(&x))))?.mul(&inverse))
         };
         ends.windows(2).map(part).reduce(|sum, part| Some(sum?.add(&part?)))?
     }

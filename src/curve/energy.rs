@@ -141,25 +141,25 @@ fn series<N: Real>(speed: &[N; 5], c: &[N; 4], turn: &[N; 3]) -> Option<N> {
         h[2].mul(&h[2]),
     ];
     let number = |x: f64| N::of(x, bits);
-    // The last four coefficients, the latest first.
-    let mut y = [number(1.0), number(0.0), number(0.0), number(0.0)];
+    // The last five coefficients, the latest first.
+    let mut y = [number(1.0), number(0.0), number(0.0), number(0.0), number(0.0)];
     let mut sum = number(0.0);
-    let terms = bits + 12;
+    let terms = bits + 16;
     for m in 0..=terms {
-        // ∫ u^(i + m) over [-1, 1], halved.
-        let even = (0..5).filter(|i| (i + m) % 2 == 0);
-        for i in even {
-            sum = sum.add(&e[i].mul(&y[0]).over(&number((i + m + 1) as f64))?);
+        // ∫ u^m over [-1, 1], halved, times the coefficient of u^m of h² y.
+        if m % 2 == 0 {
+            let part = (1..5).fold(e[0].mul(&y[0]), |part, i| part.add(&e[i].mul(&y[i])));
+            sum = sum.add(&part.over(&number((m + 1) as f64))?);
         }
         let next = (1..5).fold(number(0.0), |next, j| next.sub(&c[j - 1].mul(&y[j - 1]).times((m + 1 + 2 * j) as f64)));
         let next = next.over(&number((m + 1) as f64))?;
-        let [y0, y1, y2, _] = y;
-        y = [next, y0, y1, y2];
+        let [y0, y1, y2, y3, _] = y;
+        y = [next, y0, y1, y2, y3];
     }
-    // Each of the terms left out is at most 64 · 2^-m · Σ|e|/(m + 1).
+    // What is left out are products of some e_i and y_j with i + j > terms, in all at most 64 · 2^(i - terms) · |e_i|.
     let most = e.iter().fold(number(0.0), |sum, e| sum.add(&e.size()));
     let tail =
-        (0..terms).step_by(500).fold(most.times(64.0), |tail, from| tail.times(2f64.powi(-(500.min(terms - from) as i32))));
+        (0..terms).step_by(500).fold(most.times(1024.0), |tail, from| tail.times(2f64.powi(-(500.min(terms - from) as i32))));
     let c0 = middle(speed);
     sum.add(&tail).over(&c0.mul(&c0).mul(&c0))
 }

@@ -21,19 +21,22 @@ pub struct Ball {
 }
 
 impl Ball {
+    /// The same number of another arithmetic, as well as doubles can hold it.
+    #[inline(always)]
+    pub fn enclosing<N: Real>(x: &N) -> Ball {
+        let value = x.approx();
+        if !value.is_finite() {
+            // Beyond the range of doubles every number is possible.
+            return Ball { value: 0.0, error: f64::INFINITY };
+        }
+        // `most` may be off by a rounding.
+        let error = x.sub(&N::of(value, x.bits())).most() * (1.0 + 2.0 * f64::EPSILON) + f64::MIN_POSITIVE;
+        Ball { value, error }
+    }
+
     /// A number known to `units` of 2^-53, relative.
     pub fn near(value: f64, units: f64) -> Ball {
         Ball { value, error: value.abs() * (units * UNIT * GROW) + TINY }
-    }
-
-    /// A ball around an interval; it holds all numbers where doubles do not reach.
-    pub fn around(x: &Interval) -> Ball {
-        let value = x.approx();
-        if !value.is_finite() {
-            return Ball { value: 0.0, error: f64::INFINITY };
-        }
-        // To the nearest double, and at least half a unit for what that rounds away.
-        Ball { value, error: x.plus(-value).size().upper().approx() * GROW + TINY }
     }
 
     /// The interval from its smallest to its largest number; `None` when those are no doubles.

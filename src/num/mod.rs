@@ -7,6 +7,7 @@ mod interval;
 mod number;
 pub mod roots;
 pub mod sines;
+mod twin;
 mod words;
 mod ziv;
 
@@ -14,6 +15,7 @@ pub use ball::Ball;
 pub use form::{Form, Quadratic};
 pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
+pub use twin::{TWIN_BITS, Twin};
 pub use words::told;
 pub use ziv::{FIRST_BITS, climb};
 

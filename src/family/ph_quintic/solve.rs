@@ -75,7 +75,8 @@ impl Solutions {
 pub fn solve(datum: &Datum) -> Result<Solutions> {
     let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
     check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
-    if let Some(solutions) = Pair::<Ball>::new(phi0, phi1).and_then(|pair| described(datum, &pair)) {
+    let by_doubles = Pair::<Ball>::new(phi0, phi1).and_then(|pair| described(datum, &pair));
+    if let Some(solutions) = by_doubles.or_else(|| described(datum, &Pair::twins(phi0, phi1)?)) {
         return Ok(solutions);
     }
     let (solutions, _) = climb(datum, "a solution", |bits| described(datum, &*Pair::cached(phi0, phi1, bits)?))?;
@@ -108,6 +109,9 @@ pub fn flags(datum: &Datum) -> Result<u8> {
     check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
     let kappa = [kappa0, kappa1];
     if let Some(code) = Pair::<Ball>::new(phi0, phi1).and_then(|pair| truth::verdict(&pair, kappa)) {
+        return Ok(code.flags());
+    }
+    if let Some(code) = Pair::twins(phi0, phi1).and_then(|pair| truth::verdict(&pair, kappa)) {
         return Ok(code.flags());
     }
     climb(datum, "a verdict", |bits| truth::verdict(&*Pair::cached(phi0, phi1, bits)?, kappa)).map(|(code, _)| code.flags())
@@ -180,8 +184,8 @@ pub(super) fn answer(point: &[f64; 4]) -> Result<Answer> {
 /// The scalars A, B, energy, length, margin (0 to 4) of the chosen spiral of a datum that has one, each rounded to nearest f32 with proof;
 /// beyond the largest single, that.
 pub(super) fn scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> Result<()> {
-    let fast = Pair::<Ball>::new(datum.phi0, datum.phi1).and_then(|pair| rounded(datum, &pair, which));
-    match fast {
+    let by_doubles = Pair::<Ball>::new(datum.phi0, datum.phi1).and_then(|pair| rounded(datum, &pair, which));
+    match by_doubles.or_else(|| rounded(datum, &Pair::twins(datum.phi0, datum.phi1)?, which)) {
         Some(values) => {
             out.copy_from_slice(&values);
             Ok(())

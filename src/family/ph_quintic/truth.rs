@@ -8,7 +8,7 @@ use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
 use crate::curve::energy;
 use crate::family::{Code, outer};
 use crate::num::bernstein::{MOST_HALVINGS, exact_margin, margin, positive};
-use crate::num::{Ball, FIRST_BITS, Interval, Real};
+use crate::num::{Ball, FIRST_BITS, Interval, Real, Twin};
 
 /// A solution and whether its curvature rises throughout.
 #[derive(Debug, Clone)]
@@ -80,6 +80,9 @@ pub(super) fn solve<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Truth<N>
     Some(Truth { code: code(any, solutions.len(), spirals), solutions, curves: Some(march.curves) })
 }
 
+/// An energy in doubles that is off by this share of itself at most is taken: a sixteenth of what `solve` promises.
+const ENOUGH: f64 = 1.0 / (1u64 << 40) as f64;
+
 /// What is measured of a solution.
 #[derive(Debug, Clone)]
 pub(super) struct Measures<N> {
@@ -105,6 +108,19 @@ impl Measured for Ball {
     }
 }
 
+impl Measured for Twin {
+    /// That of its coefficients as balls, which are as accurate as a margin need be.
+    fn margin(c: &[Twin; 6]) -> Option<Twin> {
+        Ball::margin(&[0, 1, 2, 3, 4, 5].map(|i| Ball::enclosing(&c[i]))).map(|margin| Twin::around(&margin))
+    }
+    /// In doubles, where they find more digits than [`super::solve`] promises.
+    fn energy(speed: &[Twin; 5], turn: &[Twin; 3]) -> Option<Twin> {
+        let ball = energy(&speed.each_ref().map(Ball::enclosing), &turn.each_ref().map(Ball::enclosing))?;
+        let fast = (ball.error <= ball.value * ENOUGH).then(|| Twin::around(&ball));
+        fast.or_else(|| energy(speed, turn))
+    }
+}
+
 impl Measured for Interval {
     fn margin(c: &[Interval; 6]) -> Option<Interval> {
         exact_margin(c)
@@ -114,8 +130,8 @@ impl Measured for Interval {
     fn energy(speed: &[Interval; 5], turn: &[Interval; 3]) -> Option<Interval> {
         let bits = speed[0].bits();
         let in_doubles = || {
-            let ball = energy(&speed.each_ref().map(Ball::around), &turn.each_ref().map(Ball::around))?;
-            (ball.error <= ball.value * 2f64.powi(-40)).then(|| ball.interval(bits))?
+            let ball = energy(&speed.each_ref().map(Ball::enclosing), &turn.each_ref().map(Ball::enclosing))?;
+            (ball.error <= ball.value * ENOUGH).then(|| ball.interval(bits))?
         };
         let fast = if bits <= FIRST_BITS { in_doubles() } else { None };
         fast.or_else(|| energy(speed, turn))
