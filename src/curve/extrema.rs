@@ -68,42 +68,47 @@ fn choose(n: usize, k: usize) -> f64 {
 
 /// Halves until the coefficients change sign at most once, then bisects. A touching zero is no change.
 pub(super) fn sign_changes(b: &[f64], lo: f64, hi: f64, depth: u32, roots: &mut Vec<f64>) {
-    let signs: Vec<bool> = b.iter().filter(|c| **c != 0.0).map(|c| *c > 0.0).collect();
-    if signs.windows(2).all(|w| w[0] == w[1]) {
+    let signs = || b.iter().filter(|c| **c != 0.0).map(|c| *c > 0.0);
+    let first = signs().next();
+    if signs().all(|sign| Some(sign) == first) {
         return;
     }
     let middle = 0.5 * (lo + hi);
     if depth == 0 {
         // By the variation diminishing property an odd number of changes holds a change of the polynomial itself.
-        if signs.first() != signs.last() {
+        if first != signs().next_back() {
             roots.push(middle);
         }
         return;
     }
     let (left, right) = halves(b);
-    sign_changes(&left, lo, middle, depth - 1, roots);
+    let (left, right) = (&left[..b.len()], &right[..b.len()]);
+    sign_changes(left, lo, middle, depth - 1, roots);
     // A zero exactly in the middle belongs to neither half's inside.
-    let (before, after) = (last_sign(&left), last_sign(&right.iter().rev().copied().collect::<Vec<_>>()));
+    let (before, after) = (last_sign(left.iter().rev()), last_sign(right.iter()));
     if left.last() == Some(&0.0) && before != after {
         roots.push(middle);
     }
-    sign_changes(&right, middle, hi, depth - 1, roots);
+    sign_changes(right, middle, hi, depth - 1, roots);
 }
 
-fn last_sign(b: &[f64]) -> Option<bool> {
-    b.iter().rev().find(|c| **c != 0.0).map(|c| *c > 0.0)
+fn last_sign<'b>(mut b: impl Iterator<Item = &'b f64>) -> Option<bool> {
+    b.find(|c| **c != 0.0).map(|c| *c > 0.0)
 }
 
-/// De Casteljau at 1/2.
-pub(super) fn halves(b: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let mut row = b.to_vec();
-    let (mut left, mut right) = (vec![row[0]], vec![row[row.len() - 1]]);
-    while row.len() > 1 {
-        row = row.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
-        left.push(row[0]);
-        right.push(row[row.len() - 1]);
+/// The most coefficients of a form here, those of a degree of 7.
+const MOST: usize = 8;
+
+/// De Casteljau at 1/2; both halves have as many coefficients as b, at most [`MOST`].
+pub(super) fn halves(b: &[f64]) -> ([f64; MOST], [f64; MOST]) {
+    let (mut left, mut right) = ([0.0; MOST], [0.0; MOST]);
+    right[..b.len()].copy_from_slice(b);
+    for (step, first) in left[..b.len()].iter_mut().enumerate() {
+        *first = right[0];
+        for i in 0..b.len() - 1 - step {
+            right[i] = 0.5 * (right[i] + right[i + 1]);
+        }
     }
-    right.reverse();
     (left, right)
 }
 

@@ -343,5 +343,6 @@ fn bound(speed: &[f64], turn: &[f64], floor: f64, halvings: u32) -> f64 {
         return if least > floor { (most + 1e-12) / (least * least) } else { f64::INFINITY };
     }
     let ((s0, s1), (h0, h1)) = (extrema::halves(speed), extrema::halves(turn));
-    bound(&s0, &h0, floor, halvings - 1).max(bound(&s1, &h1, floor, halvings - 1))
+    let half = |s: &[f64], h: &[f64]| bound(&s[..speed.len()], &h[..turn.len()], floor, halvings - 1);
+    half(&s0, &h0).max(half(&s1, &h1))
 }

@@ -1,7 +1,7 @@
 //! Doubles that know how far they may be off: what the f64 step of a family computes with where counting roundings by hand would not pay.
 
 use super::bernstein::Certain;
-use super::{Number, Real};
+use super::{Interval, Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
 
 /// Unit roundoff.
@@ -21,9 +21,28 @@ pub struct Ball {
 }
 
 impl Ball {
+    /// The same number of another arithmetic, as well as doubles can hold it.
+    #[inline(always)]
+    pub fn enclosing<N: Real>(x: &N) -> Ball {
+        let value = x.approx();
+        if !value.is_finite() {
+            // Beyond the range of doubles every number is possible.
+            return Ball { value: 0.0, error: f64::INFINITY };
+        }
+        // `most` may be off by a rounding.
+        let error = x.sub(&N::of(value, x.bits())).most() * (1.0 + 2.0 * f64::EPSILON) + f64::MIN_POSITIVE;
+        Ball { value, error }
+    }
+
     /// A number known to `units` of 2^-53, relative.
     pub fn near(value: f64, units: f64) -> Ball {
         Ball { value, error: value.abs() * (units * UNIT * GROW) + TINY }
+    }
+
+    /// The interval from its smallest to its largest number; `None` when those are no doubles.
+    pub fn interval(&self, bits: usize) -> Option<Interval> {
+        let number = |x: f64| x.is_finite().then(|| Interval::new(x, bits));
+        Some(&number(self.value)? + &number(self.error)?.size())
     }
 
     /// From the smallest to the largest of its numbers, a little widened.

@@ -1,6 +1,6 @@
 //! Roots of functions on a bracket: a guess in doubles, and intervals that are proved to hold one.
 
-use super::Interval;
+use super::{Interval, Real, TWIN_BITS};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// Finds where `f` changes its sign between `low` and `high`, at which its signs must differ; a guess, nothing proved.
@@ -119,6 +119,35 @@ pub fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
             return Some(low.union(&high));
         }
         delta = (&delta * &step).upper();
+    }
+    None
+}
+
+/// Newton's method from a guess in doubles, and a proof as in [`enclose`]: for numbers of about twice their digits, whose range doubles have.
+///
+/// `f` gives value and slope. Three steps double the digits of any guess that shows some 14 of them.
+pub fn near<N: Real>(f: impl Fn(&N) -> Option<(N, N)>, guess: f64) -> Option<N> {
+    let mut x = N::of(guess, TWIN_BITS);
+    let bits = x.bits();
+    let mut last = f(&x)?;
+    for _ in 0..3 {
+        let step = last.0.over(&last.1)?;
+        x = x.sub(&step).middle();
+        last = f(&x)?;
+        if step.most() < x.most() * 2f64.powi(-(bits as i32) / 2) {
+            break;
+        }
+    }
+    // Twice what the value and its rounding may move the root, and no less than numbers show.
+    let mut delta = (2.0 * last.0.over(&last.1)?.most()).max(x.most() * 2f64.powi(4 - bits as i32));
+    for _ in 0..4 {
+        let reach = N::of(delta, bits);
+        let (low, high) = (x.sub(&reach).middle(), x.add(&reach).middle());
+        let sign = |x: &N| f(x)?.0.certain_sign(0.0).filter(|s| *s != Equal);
+        if sign(&low).is_some_and(|s| sign(&high) == Some(s.reverse())) {
+            return Some(low.union(&high));
+        }
+        delta *= 16.0;
     }
     None
 }

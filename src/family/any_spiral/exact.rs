@@ -7,7 +7,7 @@ use super::{Code, EXISTS, INFLECTION, RISING};
 use crate::error::Result;
 use crate::family::{NO_VALUE, outer};
 use crate::num::sines::two_sum;
-use crate::num::{Interval, climb};
+use crate::num::{Interval, Number, Real, TWIN_BITS, Twin, climb};
 
 /// Angles against the chord and curvatures times half the chord, taken as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,6 +77,27 @@ impl Datum {
             return &(&k1 * &k2) + &(&(&k2 - &k1) * &sin0);
         }
         &(&(&k1 + &sin0) * &(&k2 - &sin1)) + &square
+    }
+
+    /// Q in two doubles; `None` where angles are so small that halving their sum might not be exact.
+    pub fn q_of_twins(&self) -> Option<Twin> {
+        let number = |x: f64| Twin::of(x, TWIN_BITS);
+        let (k1, k2) = (number(self.k1), number(self.k2));
+        let ((sin0, cos0), (sin1, cos1)) = (Twin::sine_cosine(self.alpha), Twin::sine_cosine(self.beta));
+        if self.alpha == self.beta {
+            return Some(k1.mul(&k2).add(&k2.sub(&k1).mul(&sin0)));
+        }
+        let square = match two_sum(self.alpha, self.beta) {
+            (0.0, _) => number(0.0),
+            // A small square would cancel.
+            (sum, 0.0) if sum.abs() < 1e-3 && sum.abs() > 1e-300 => {
+                let sine = Twin::sine_cosine(0.5 * sum).0;
+                sine.mul(&sine)
+            }
+            (sum, _) if sum.abs() < 1e-3 => return None,
+            _ => sin0.mul(&sin1).sub(&cos0.mul(&cos1)).plus(1.0).times(0.5),
+        };
+        Some(k1.add(&sin0).mul(&k2.sub(&sin1)).add(&square))
     }
 
     /// `(α + β)/2`.

@@ -143,21 +143,33 @@ fn conditions<S: Simd>(start: &Side<S>, end: &Side<S>, root: &Root<S>) -> Condit
 /// Each coefficient `H_i` carries what its B and its root may be off; three products and Horner's ten operations add less than 16 units.
 #[inline(always)]
 fn dips<S: Simd>(simd: S, start: &Side<S>, end: &Side<S>, root: &Root<S>) -> u64 {
-    let half = |side: &Side<S>, w: S::f64s| {
-        let [first, second, (value, error)] = side.weighed(w, root.delta);
-        [first, second, (value * 2.0, error * 2.0)].map(|(h, e)| (h, e + h.abs() * (16.0 * Precision::F64.unit)))
-    };
-    let ([h0, h1, h2], [h5, h4, h3]) = (half(start, root.y), half(end, root.x));
+    let ([h0, h1, h2], [h5, h4, h3]) = (dipping::<S>(start, root.y, root.delta), dipping::<S>(end, root.x, root.delta));
     let polynomial = [h0, h1, h2, h3, h4, h5];
-    let at = |s: f64| {
-        let (mut value, mut bound) = polynomial[5];
-        for (h, e) in polynomial[..5].iter().rev() {
-            value = value * s + *h;
-            bound = bound * s + *e;
-        }
-        bits::<S>(value.simd_lt(S::f64s::splat(simd, 0.0) - bound))
-    };
-    at(0.5) | at(1.0) | at(2.0)
+    negative::<S>(simd, &polynomial, 0.5) | negative::<S>(simd, &polynomial, 1.0) | negative::<S>(simd, &polynomial, 2.0)
+}
+
+/// One half of the coefficients, with errors.
+// A function, as all that runs on vectors here: a closure is not always inlined into code for a wider level, and then every vector
+// operation becomes a call.
+#[inline(always)]
+fn dipping<S: Simd>(side: &Side<S>, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
+    let mut terms = side.weighed(w, delta);
+    terms[2] = (terms[2].0 * 2.0, terms[2].1 * 2.0);
+    for (h, e) in &mut terms {
+        *e += h.abs() * (16.0 * Precision::F64.unit);
+    }
+    terms
+}
+
+/// Lanes where the polynomial is certainly negative at s > 0.
+#[inline(always)]
+fn negative<S: Simd>(simd: S, polynomial: &[(S::f64s, S::f64s); 6], s: f64) -> u64 {
+    let (mut value, mut bound) = polynomial[5];
+    for (h, e) in polynomial[..5].iter().rev() {
+        value = value * s + *h;
+        bound = bound * s + *e;
+    }
+    bits::<S>(value.simd_lt(S::f64s::splat(simd, 0.0) - bound))
 }
 
 /// [`positive`] with the f64 bounds: twenty halvings reach features of 2^-20 of the segment, finer than the bounds show.

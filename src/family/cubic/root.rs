@@ -114,30 +114,30 @@ impl<S: Simd> Side<S> {
     /// `w² B0, w B1, w B2`, and how far each may be off before its own rounding: w and the B are off by `delta` and their errors.
     #[inline(always)]
     pub fn weighed(&self, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
-        let (b, e, near) = (self.value, self.error, w + delta);
+        let ([b0, b1, b2], [e0, e1, e2], near) = (self.value, self.error, w + delta);
         // 1.01 covers the roundings of the bounds themselves.
-        let linear = |i: usize| (w * b[i], (near * e[i] + delta * b[i].abs()) * 1.01);
-        let square = (near * near * e[0] + (w + near) * delta * b[0].abs()) * 1.01;
-        [(w * w * b[0], square), linear(1), linear(2)]
+        let square = (near * near * e0 + (w + near) * delta * b0.abs()) * 1.01;
+        let first = (near * e1 + delta * b1.abs()) * 1.01;
+        let second = (near * e2 + delta * b2.abs()) * 1.01;
+        [(w * w * b0, square), (w * b1, first), (w * b2, second)]
     }
 }
 
 /// The Bernstein coefficients of the spiral polynomial (times 5) in one lane, and how far each may be off.
 ///
 /// `b = (5y²B0, yB1, yB2, xC2, xC1, 5x²C0)`: the binomials of degree 5 divide `H_i`.
+#[inline(always)]
 pub(super) fn bernstein<S: Simd>(start: &Side<S>, end: &Side<S>, root: &Root<S>, lane: usize) -> (Quintic<f64>, f64) {
-    let half = |side: &Side<S>, w: S::f64s| {
-        let terms = side.weighed(w, root.delta).map(|(value, error)| (value.as_slice()[lane], error.as_slice()[lane]));
-        let scaled = [5.0, 1.0, 1.0].into_iter().zip(terms).map(|(factor, (value, error))| (factor * value, factor * error));
-        // Up to four roundings a coefficient.
-        scaled.map(|(value, error)| (value, error + 4.0 * Precision::F64.unit * value.abs()))
-    };
+    let halves = [start.weighed(root.y, root.delta), end.weighed(root.x, root.delta)];
     let mut c = [0.0; 6];
     let mut worst = 0.0f64;
-    let places = [0, 1, 2, 5, 4, 3];
-    for (place, (value, error)) in places.into_iter().zip(half(start, root.y).chain(half(end, root.x))) {
-        c[place] = value;
-        worst = worst.max(error);
+    for (half, places) in halves.iter().zip([[0, 1, 2], [5, 4, 3]]) {
+        for ((value, error), (place, factor)) in half.iter().zip(places.into_iter().zip([5.0, 1.0, 1.0])) {
+            let (value, error) = (factor * value.as_slice()[lane], factor * error.as_slice()[lane]);
+            c[place] = value;
+            // Up to four roundings a coefficient.
+            worst = worst.max(error + 4.0 * Precision::F64.unit * value.abs());
+        }
     }
     (c, worst)
 }

@@ -6,7 +6,7 @@ use super::{Kind, PhPath};
 use crate::curve::{Candidate, Choice, EqualLength, Hermite, equal_length, hermite};
 use crate::error::Result;
 use crate::family::{Answer, Value, Values, verdict};
-use crate::num::{Interval, climb};
+use crate::num::{Interval, TWIN_BITS, Twin, climb};
 
 pub(super) fn answer(kind: Kind, point: &[f64]) -> Result<Answer> {
     let code = verdict(&PhPath(kind), 0, point)?;
@@ -27,8 +27,16 @@ pub(super) fn answer(kind: Kind, point: &[f64]) -> Result<Answer> {
     Ok(Answer { code, derived, solutions: choice.candidates.iter().zip(sizes).map(told).collect(), chosen })
 }
 
-/// The proved value, rounded to nearest.
+/// The proved value, rounded to nearest: by two doubles, or else by intervals.
 fn rounded(datum: &Datum, paper: bool) -> Result<Option<f64>> {
+    let by_twins = match least::<Twin>(datum, paper, TWIN_BITS) {
+        Some(Greatest::None) => return Ok(None),
+        Some(Greatest::Value(value)) => value.to_f64(),
+        None => None,
+    };
+    if by_twins.is_some() {
+        return Ok(by_twins);
+    }
     let attempt = |bits| match least::<Interval>(datum, paper, bits)? {
         Greatest::None => Some(None),
         Greatest::Value(value) => value.to_f64().map(Some),

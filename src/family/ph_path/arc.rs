@@ -75,7 +75,7 @@ pub(super) fn size<N: Real>(x: &N) -> Option<N> {
 }
 
 /// Of polynomials as Bernstein coefficients times binomials: those of the product are the plain convolution.
-fn product<N: Real, const A: usize, const B: usize, const C: usize>(a: &[N; A], b: &[N; B]) -> [N; C] {
+pub(super) fn product<N: Real, const A: usize, const B: usize, const C: usize>(a: &[N; A], b: &[N; B]) -> [N; C] {
     std::array::from_fn(|k| {
         let terms = (k.saturating_sub(B - 1)..=k.min(A - 1)).map(|i| a[i].mul(&b[k - i]));
         terms.reduce(|sum, x| sum.add(&x)).unwrap_or_else(|| a[0].clone())
@@ -94,11 +94,16 @@ impl<N: Real> Arc<N> {
         Arc { w, turn }
     }
 
-    /// `σ²` and h as polynomials of degree 8, times binomials.
-    fn sides(&self) -> ([N; 9], [N; 9]) {
+    /// σ as Bernstein coefficients times binomials.
+    pub fn speed(&self) -> [N; 5] {
         let [w0, w1, w2] = &self.w;
         let middle = re(w1, w1).times(2.0).add(&re(w0, w2)).times(2.0);
-        let speed = [re(w0, w0), re(w0, w1).times(4.0), middle, re(w1, w2).times(4.0), re(w2, w2)];
+        [re(w0, w0), re(w0, w1).times(4.0), middle, re(w1, w2).times(4.0), re(w2, w2)]
+    }
+
+    /// `σ²` and h as polynomials of degree 8, times binomials.
+    fn sides(&self) -> ([N; 9], [N; 9]) {
+        let speed = self.speed();
         let [h0, h1, h2] = self.turn.clone();
         let ones = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0].map(|x| N::of(x, self.bits()));
         (product(&speed, &speed), product(&[h0, h1.times(2.0), h2], &ones))
@@ -141,6 +146,12 @@ impl<N: Real> Arc<N> {
         size(&turn.over(&speed.mul(&speed))?)
     }
 
+    /// `σh' - 2hσ'` at t.
+    pub fn slope(&self, t: &N) -> N {
+        let [[speed, rise, _], [turn, bent, _]] = self.jets(t);
+        speed.mul(&bent).sub(&turn.mul(&rise).times(2.0))
+    }
+
     /// An extremum of the curvature near t by Newton's method on `σh' - 2hσ'`: a guess.
     fn polished(&self, t: f64) -> N {
         let mut t = N::of(t, self.bits());
@@ -163,7 +174,25 @@ impl<N: Real> Arc<N> {
 
     /// Whether |κ| stays below v. With `touching`, v is the curvature at the start, where it may be equal: so many orders of their difference
     /// are exactly 0 there.
+    ///
+    /// Doubles are tried first, whatever the precision: for most curvatures they suffice.
     pub fn below(&self, v: &N, touching: usize) -> Bound {
+        let by_doubles = if self.bits() > 53 { self.rough().halved_below(&Ball::enclosing(v), touching) } else { Bound::Open };
+        match by_doubles {
+            Bound::Open => self.halved_below(v, touching),
+            told => told,
+        }
+    }
+
+    /// The same in doubles.
+    pub fn rough(&self) -> Arc<Ball> {
+        Arc {
+            w: [0, 1, 2].map(|i| [0, 1].map(|k| Ball::enclosing(&self.w[i][k]))),
+            turn: [0, 1, 2].map(|i| Ball::enclosing(&self.turn[i])),
+        }
+    }
+
+    fn halved_below(&self, v: &N, touching: usize) -> Bound {
         // No margin needs more halvings.
         let most = if self.bits() <= 53 { 40 } else { 640 };
         let mut waiting = vec![(self.clone(), 0.0, 0)];
@@ -242,8 +271,12 @@ impl<N: Real> Arc<N> {
     ///
     /// `margin` is how much more than the value at the peak is proved, relative.
     pub fn greatest(&self, guess: f64, margin: &N) -> Option<N> {
+        let peak = self.polished(guess);
+        if let Some(value) = self.only_peak(&peak, margin) {
+            return Some(value);
+        }
         let ends = [0.0, 1.0].map(|t| N::of(t, self.bits()));
-        let mut best = self.curvature(&self.polished(guess));
+        let mut best = self.curvature(&peak);
         best = ends.iter().fold(best, |best, t| higher(best, self.curvature(t)));
         // Each round begins where the last was found too low.
         for _ in 0..16 {

@@ -3,7 +3,7 @@
 use super::Kind;
 use crate::error::{Error, Result};
 use crate::num::sines::{SIN_ERROR, cos, sin};
-use crate::num::{Ball, Interval, Real};
+use crate::num::{Ball, Interval, Real, Twin};
 use std::f64::consts::PI;
 
 /// Speeds beyond these are refused, and lengths over the chord nearer to 1 or larger: peaks would be more narrow than doubles show.
@@ -81,6 +81,14 @@ impl Turned for Ball {
         let half = 0.5 * theta.abs();
         let sine = if theta == 0.0 { Ball::of(0.0, bits) } else { Ball::near(sin(half).copysign(theta), SIN_ERROR) };
         [Ball::near(cos(half), SIN_ERROR), sine]
+    }
+}
+
+impl Turned for Twin {
+    fn half_turn(theta: f64, _bits: usize) -> [Twin; 2] {
+        // Halving is exact: angles other than 0 are 1e-9 and more.
+        let (sin, cos) = Twin::sine_cosine(0.5 * theta);
+        [cos, sin]
     }
 }
 

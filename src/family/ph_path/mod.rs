@@ -14,6 +14,7 @@ mod arc;
 mod bound;
 mod curves;
 mod datum;
+mod peak;
 mod range;
 mod shader;
 mod straight;

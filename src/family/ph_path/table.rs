@@ -6,7 +6,7 @@ use super::{Kind, PhPath};
 use crate::error::Result;
 use crate::family::{Code, Kernel, NO_VALUE, Shader, ShaderInputs, Table, chart_of};
 use crate::grid::Grid;
-use crate::num::{Ball, Interval, Real, climb};
+use crate::num::{Ball, Interval, Real, TWIN_BITS, Twin, climb};
 
 /// Precision of doubles.
 const DOUBLE: usize = 53;
@@ -45,17 +45,18 @@ fn exact_scalar(datum: &Datum, which: usize) -> Result<f32> {
 
 /// The same, from doubles where they prove it.
 fn scalar(datum: &Datum, which: usize) -> Result<f32> {
-    match least::<Ball>(datum, which == 1, DOUBLE).and_then(|value| single(&value)) {
-        Some(value) => Ok(value),
-        None => exact_scalar(datum, which),
-    }
+    let by_doubles = || single(&least::<Ball>(datum, which == 1, DOUBLE)?);
+    let by_twins = || single(&least::<Twin>(datum, which == 1, TWIN_BITS)?);
+    by_doubles().or_else(by_twins).map_or_else(|| exact_scalar(datum, which), Ok)
 }
 
 impl Table for PathTable<'_> {
     /// Node by node: how often a curve is halved differs too much for lanes.
     fn filter(&self, start: u64, out: &mut [Code]) {
         for (node, code) in (start..).zip(out) {
-            *code = verdict::<Ball>(&self.datum(node), DOUBLE).unwrap_or(Code::UNDECIDED);
+            let datum = self.datum(node);
+            let code_of_node = verdict::<Ball>(&datum, DOUBLE).or_else(|| verdict::<Twin>(&datum, TWIN_BITS));
+            *code = code_of_node.unwrap_or(Code::UNDECIDED);
         }
     }
 

@@ -160,7 +160,11 @@ impl Cubic<f64> {
     /// About where the cubic reaches `right`: Newton's method, which comes down to it from the least height one term alone would need.
     pub fn guess(&self, right: f64) -> f64 {
         let [c0, c1, c2] = self.c;
-        let mut z = (right / c0).min((right / c1).sqrt()).min((right / c2).cbrt());
+        let mut z = (right / c0).min((right / c1).sqrt());
+        // A cube root costs more than all the rest, and is seldom the least.
+        if right / c2 < z * z * z {
+            z = (right / c2).cbrt();
+        }
         for _ in 0..60 {
             let step = (((c2 * z + c1) * z + c0) * z - right) / ((3.0 * c2 * z + 2.0 * c1) * z + c0);
             z -= step;

@@ -2,7 +2,7 @@
 
 use crate::family::outer::Sines;
 use crate::num::sines::{SIN_ERROR, sin, sin_of_sum};
-use crate::num::{Ball, Interval, Number, Real};
+use crate::num::{Ball, Interval, Number, Real, Twin};
 use std::cell::RefCell;
 use std::f64::consts::PI;
 use std::rc::Rc;
@@ -72,18 +72,32 @@ impl Pair<Interval> {
     /// The pair in intervals; `None` when the precision does not tell that cos Φ is positive.
     pub fn exact(phi0: f64, phi1: f64, bits: usize) -> Option<Pair<Interval>> {
         let half = |phi: f64| Interval::new(phi, bits).scale(0.5).sine_cosine();
-        let ((s0, c0), (s1, c1)) = (half(phi0), half(phi1));
-        let (sin, cos) = (&(&s0 * &c1) + &(&c0 * &s1), &(&c0 * &c1) - &(&s0 * &s1));
-        let (sin0, sin1) = ((&s0 * &c0).scale(2.0), (&s1 * &c1).scale(2.0));
-        let difference = &(&s1 * &c0) - &(&c1 * &s0);
+        Pair::of_halves([half(phi0), half(phi1)], phi0 < phi1)
+    }
+}
+
+impl Pair<Twin> {
+    /// The pair in two doubles each; `None` when they do not tell that cos Φ is positive, or where halving an angle may not be exact.
+    pub fn twins(phi0: f64, phi1: f64) -> Option<Pair<Twin>> {
+        let half = |phi: f64| (phi > 1e-300).then(|| Twin::sine_cosine(0.5 * phi));
+        Pair::of_halves([half(phi0)?, half(phi1)?], phi0 < phi1)
+    }
+}
+
+impl<N: Real> Pair<N> {
+    /// From sine and cosine of half of each angle.
+    fn of_halves([(s0, c0), (s1, c1)]: [(N, N); 2], rising: bool) -> Option<Pair<N>> {
+        let (sin, cos) = (s0.mul(&c1).add(&c0.mul(&s1)), c0.mul(&c1).sub(&s0.mul(&s1)));
+        let (sin0, sin1) = (s0.mul(&c0).times(2.0), s1.mul(&c1).times(2.0));
+        let difference = s1.mul(&c0).sub(&c1.mul(&s0));
         (sin.is_positive() && cos.is_positive()).then_some(())?;
         Some(Pair {
             cos,
             right: right(&sin0, &sin1, &sin)?,
-            skew: difference.scale(30.0).over(&sin)?,
+            skew: difference.times(30.0).over(&sin)?,
             sin,
-            outer: [sin0, sin1, difference.square()],
-            rising: phi0 < phi1,
+            outer: [sin0, sin1, difference.mul(&difference)],
+            rising,
         })
     }
 }

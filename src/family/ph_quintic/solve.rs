@@ -1,7 +1,7 @@
 //! The exact answer for one datum: all solutions, which are spirals, and their measures.
 
 use super::pair::Pair;
-use super::truth::{self, Margin, Measures, Truth, chosen, measure};
+use super::truth::{self, Measured, Measures, Truth, chosen, measure};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
@@ -75,7 +75,8 @@ impl Solutions {
 pub fn solve(datum: &Datum) -> Result<Solutions> {
     let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
     check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
-    if let Some(solutions) = Pair::<Ball>::new(phi0, phi1).and_then(|pair| described(datum, &pair)) {
+    let by_doubles = Pair::<Ball>::new(phi0, phi1).and_then(|pair| described(datum, &pair));
+    if let Some(solutions) = by_doubles.or_else(|| described(datum, &Pair::twins(phi0, phi1)?)) {
         return Ok(solutions);
     }
     let (solutions, _) = climb(datum, "a solution", |bits| described(datum, &*Pair::cached(phi0, phi1, bits)?))?;
@@ -110,11 +111,14 @@ pub fn flags(datum: &Datum) -> Result<u8> {
     if let Some(code) = Pair::<Ball>::new(phi0, phi1).and_then(|pair| truth::verdict(&pair, kappa)) {
         return Ok(code.flags());
     }
+    if let Some(code) = Pair::twins(phi0, phi1).and_then(|pair| truth::verdict(&pair, kappa)) {
+        return Ok(code.flags());
+    }
     climb(datum, "a verdict", |bits| truth::verdict(&*Pair::cached(phi0, phi1, bits)?, kappa)).map(|(code, _)| code.flags())
 }
 
 /// All numbers as accurate as [`solve`] promises, or `None`.
-fn described<N: Real + Margin>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
+fn described<N: Measured>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
     let truth = truth::solve(pair, [datum.kappa0, datum.kappa1])?;
     let best = chosen(pair, &truth.solutions)?;
     let mut all = Vec::new();
@@ -180,8 +184,8 @@ pub(super) fn answer(point: &[f64; 4]) -> Result<Answer> {
 /// The scalars A, B, energy, length, margin (0 to 4) of the chosen spiral of a datum that has one, each rounded to nearest f32 with proof;
 /// beyond the largest single, that.
 pub(super) fn scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> Result<()> {
-    let fast = Pair::<Ball>::new(datum.phi0, datum.phi1).and_then(|pair| rounded(datum, &pair, which));
-    match fast {
+    let by_doubles = Pair::<Ball>::new(datum.phi0, datum.phi1).and_then(|pair| rounded(datum, &pair, which));
+    match by_doubles.or_else(|| rounded(datum, &Pair::twins(datum.phi0, datum.phi1)?, which)) {
         Some(values) => {
             out.copy_from_slice(&values);
             Ok(())
@@ -197,7 +201,7 @@ pub(super) fn exact_scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> 
     Ok(())
 }
 
-fn rounded<N: Real + Margin>(datum: &Datum, pair: &Pair<N>, which: &[usize]) -> Option<Vec<f32>> {
+fn rounded<N: Measured>(datum: &Datum, pair: &Pair<N>, which: &[usize]) -> Option<Vec<f32>> {
     let Truth { solutions, curves, .. } = truth::solve(pair, [datum.kappa0, datum.kappa1])?;
     let best = &solutions[chosen(pair, &solutions)??];
     let measures = measure(pair, &curves?, best)?;

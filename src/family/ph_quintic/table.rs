@@ -53,7 +53,9 @@ impl Rows for PhTable<'_> {
     #[inline(always)]
     fn codes<S: Simd>(&self, _simd: S, pair: &Pair<Ball>, node: &[f64; MAX_AXES], fourth: S::f64s, out: &mut [Code]) {
         for (code, kappa1) in out.iter_mut().zip(fourth.as_slice()) {
-            *code = verdict(pair, [node[2], *kappa1]).unwrap_or(Code::UNDECIDED);
+            let kappa = [node[2], *kappa1];
+            let by_twins = || verdict(&Pair::twins(node[0], node[1])?, kappa);
+            *code = verdict(pair, kappa).or_else(by_twins).unwrap_or(Code::UNDECIDED);
         }
     }
 }

@@ -3,8 +3,8 @@
 use super::Kind;
 use crate::error::{Error, Result};
 use crate::family::hermite::told_angle;
-use crate::num::Interval;
 use crate::num::sines::{cos, sin};
+use crate::num::{Interval, Real, Twin};
 use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::rc::Rc;
@@ -60,20 +60,20 @@ impl Angle {
     }
 }
 
-/// [`Angle`] in intervals.
+/// [`Angle`] in two doubles or in intervals.
 #[derive(Debug)]
-pub(super) struct ExactAngle {
-    pub sin: Interval,
-    pub cos: Interval,
-    pub g: Interval,
-    pub length: Interval,
+pub(super) struct ExactAngle<N> {
+    pub sin: N,
+    pub cos: N,
+    pub g: N,
+    pub length: N,
 }
 
-impl ExactAngle {
+impl ExactAngle<Interval> {
     /// Kept for the next call: neighbouring nodes share their angle.
-    pub fn cached(kind: Kind, theta: f64, bits: usize) -> Option<Rc<ExactAngle>> {
+    pub fn cached(kind: Kind, theta: f64, bits: usize) -> Option<Rc<ExactAngle<Interval>>> {
         type Key = (Kind, u64, usize);
-        thread_local!(static LAST: RefCell<Option<(Key, Rc<ExactAngle>)>> = const { RefCell::new(None) });
+        thread_local!(static LAST: RefCell<Option<(Key, Rc<ExactAngle<Interval>>)>> = const { RefCell::new(None) });
         let key = (kind, theta.to_bits(), bits);
         LAST.with_borrow_mut(|last| match last {
             Some((k, angle)) if *k == key => Some(angle.clone()),
@@ -85,12 +85,24 @@ impl ExactAngle {
         })
     }
 
-    fn new(kind: Kind, theta: f64, bits: usize) -> Option<ExactAngle> {
-        let (sin, cos) = Interval::sin_cos(theta, bits);
+    fn new(kind: Kind, theta: f64, bits: usize) -> Option<ExactAngle<Interval>> {
+        ExactAngle::of(kind, Interval::sin_cos(theta, bits))
+    }
+}
+
+impl ExactAngle<Twin> {
+    /// In two doubles each.
+    pub fn twins(kind: Kind, theta: f64) -> Option<ExactAngle<Twin>> {
+        ExactAngle::of(kind, Twin::sine_cosine(theta))
+    }
+}
+
+impl<N: Real> ExactAngle<N> {
+    fn of(kind: Kind, (sin, cos): (N, N)) -> Option<ExactAngle<N>> {
         let (length, g) = match kind {
             Kind::Cubic => (sin.clone(), cos.clone()),
             // tan(θ/2) = sin θ / (1 + cos θ)
-            Kind::Ph => (sin.over(&cos.plus(1.0))?, cos.plus(1.0).scale(0.5)),
+            Kind::Ph => (sin.over(&cos.plus(1.0))?, cos.plus(1.0).times(0.5)),
         };
         Some(ExactAngle { sin, cos, g, length })
     }

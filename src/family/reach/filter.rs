@@ -101,6 +101,15 @@ pub(super) struct Near<S: Simd> {
     pub error: S::f64s,
 }
 
+impl<S: Simd> Near<S> {
+    /// Times a constant that is off by [`Precision::scale`], with the product's rounding.
+    #[inline(always)]
+    fn scaled(&self, by: f64) -> Near<S> {
+        let value = self.value * by;
+        Near { value, error: value.abs() * P.scale() + self.error * (1.01 * by) + P.floor }
+    }
+}
+
 /// The segment of one case, where there is one.
 pub(super) struct Shape<S: Simd> {
     /// u; its error is relative.
@@ -133,22 +142,20 @@ pub(super) fn sides<S: Simd>(simd: S, angle: &Angle, xi: f64, eta: S::f64s) -> [
 /// The segment with α from `a` and β from `b`.
 #[inline(always)]
 pub(super) fn shape<S: Simd>(simd: S, kind: Kind, angle: &Angle, a: &Near<S>, b: &Near<S>, none: u64) -> Shape<S> {
-    let scaled = |x: &Near<S>, by: f64| {
-        let value = x.value * by;
-        Near { value, error: value.abs() * P.scale() + x.error * (1.01 * by) + P.floor }
-    };
-    let (alpha, beta): (Near<S>, Near<S>) = (scaled(a, angle.to_alpha), scaled(b, angle.to_beta));
-    let splat = |x| S::f64s::splat(simd, x);
-    let usable = alpha.value.simd_gt(splat(1.0 / P.most_alpha)) & alpha.value.simd_lt(splat(P.most_alpha));
-    let usable = bits::<S>(usable & beta.value.abs().simd_lt(splat(P.most_beta))) & !none;
+    let (alpha, beta) = (a.scaled(angle.to_alpha), b.scaled(angle.to_beta));
+    let (least, most) = (S::f64s::splat(simd, 1.0 / P.most_alpha), S::f64s::splat(simd, P.most_alpha));
+    let usable = alpha.value.simd_gt(least) & alpha.value.simd_lt(most);
+    let usable = bits::<S>(usable & beta.value.abs().simd_lt(S::f64s::splat(simd, P.most_beta))) & !none;
     let mut shape = match kind {
         Kind::Cubic => cubic(simd, &alpha, &beta),
         Kind::Ph => ph(simd, angle.g, &alpha, &beta, usable),
     };
     let u = shape.u.value;
-    let in_range = u.simd_gt(splat(P.range_u.0)) & u.simd_lt(splat(P.range_u.1)) & shape.u.error.simd_lt(splat(SMALL));
+    let (low, high) = (S::f64s::splat(simd, P.range_u.0), S::f64s::splat(simd, P.range_u.1));
+    let in_range = u.simd_gt(low) & u.simd_lt(high) & shape.u.error.simd_lt(S::f64s::splat(simd, SMALL));
     shape.found &= usable & bits::<S>(in_range);
-    shape.none = none | shape.none & usable | shape.found & bits::<S>((shape.m.value + shape.m.error).simd_lt(splat(0.0)));
+    let negative = (shape.m.value + shape.m.error).simd_lt(S::f64s::splat(simd, 0.0));
+    shape.none = none | shape.none & usable | shape.found & bits::<S>(negative);
     shape.found &= !shape.none & bits::<S>(shape.m.value.simd_gt(shape.m.error));
     shape
 }
@@ -184,46 +191,62 @@ fn residual<S: Simd>(beta: &Near<S>, m: &Near<S>, u: S::f64s) -> Near<S> {
     Near { value: left.0 - right.0, error: (through_m + beta.error * (u * u * u)) * 1.01 + terms * P.residual() }
 }
 
+/// The equation for u of the PH quintic.
+struct Curve<S: Simd> {
+    g: S::f64s,
+    alpha: Near<S>,
+    beta: Near<S>,
+}
+
+impl<S: Simd> Curve<S> {
+    /// m and G.
+    #[inline(always)]
+    fn at(&self, u: S::f64s) -> (Near<S>, Near<S>) {
+        let m = ph_shape(&self.alpha, self.g, u);
+        (m, residual(&self.beta, &m, u))
+    }
+
+    /// `u G' - 3G`.
+    #[inline(always)]
+    fn slope(&self, m: S::f64s, value: S::f64s, u: S::f64s) -> S::f64s {
+        let m_slope = u * 2.0 * (self.alpha.value * u - self.g * 12.0);
+        let right = self.beta.value * (u * u * u);
+        (m + 3.0) * u * 2.0 - right * 3.0 + (u * 2.0 + m * 6.0 + 3.0) * m_slope - value * 3.0
+    }
+}
+
 /// Newton's method for G/u³ from where `m = LEAST_M`, then a proof: G has certain signs on both sides of a short interval.
 #[inline(always)]
 fn ph<S: Simd>(simd: S, g: f64, alpha: &Near<S>, beta: &Near<S>, wanted: u64) -> Shape<S> {
     const MOST_STEPS: u32 = 16;
     let (zero, g) = (S::f64s::splat(simd, 0.0), S::f64s::splat(simd, g));
-    let at = |u: S::f64s| {
-        let m = ph_shape(alpha, g, u);
-        (m, residual(beta, &m, u))
-    };
+    let curve: Curve<S> = Curve { g, alpha: *alpha, beta: *beta };
     let from = (g * 12.0 + (g * g * 144.0 + alpha.value * (3.0 + LEAST_M)).sqrt()) / alpha.value;
-    let (start, g_start) = at(from);
-    let monotone = |m: &Near<S>| (m.value - m.error).simd_gt(S::f64s::splat(simd, MONOTONE_M));
-    let none = monotone(&start) & (start.value + start.error).simd_lt(zero) & g_start.value.simd_gt(g_start.error);
-    let none = bits::<S>(none);
-    // u G' - 3G
-    let slope = |m: S::f64s, value: S::f64s, u: S::f64s| {
-        let m_slope = u * 2.0 * (alpha.value * u - g * 12.0);
-        let right = beta.value * (u * u * u);
-        (m + 3.0) * u * 2.0 - right * 3.0 + (u * 2.0 + m * 6.0 + 3.0) * m_slope - value * 3.0
-    };
+    let (start, g_start) = curve.at(from);
+    let least = S::f64s::splat(simd, MONOTONE_M);
+    let monotone = (start.value - start.error).simd_gt(least);
+    let none = bits::<S>(monotone & (start.value + start.error).simd_lt(zero) & g_start.value.simd_gt(g_start.error));
     let wanted = wanted & !none;
     let mut u = from;
     for _ in 0..MOST_STEPS {
         if wanted == 0 {
             break;
         }
-        let (m, value) = at(u);
-        let step = u * value.value / slope(m.value, value.value, u);
+        let (m, value) = curve.at(u);
+        let step = u * value.value / curve.slope(m.value, value.value, u);
         u = (u - step).max(from);
         // The next error is about the square of this step.
         if bits::<S>(step.abs().simd_lt(u * 2f64.powi(-28))) & wanted == wanted {
             break;
         }
     }
-    let (m, value) = at(u);
+    let (m, value) = curve.at(u);
     // Any δ would do that the proof accepts.
-    let delta = (value.error * 2.5 / slope(m.value, value.value, u) + 4.0 * P.unit) * u;
+    let delta = (value.error * 2.5 / curve.slope(m.value, value.value, u) + 4.0 * P.unit) * u;
     let (low, high) = (u - delta, u + delta);
-    let ((m_low, g_low), (_, g_high)) = (at(low), at(high));
-    let crossing = monotone(&m_low) & g_low.value.simd_lt(-g_low.error) & g_high.value.simd_gt(g_high.error);
+    let ((m_low, g_low), (_, g_high)) = (curve.at(low), curve.at(high));
+    let monotone = (m_low.value - m_low.error).simd_gt(least);
+    let crossing = monotone & g_low.value.simd_lt(-g_low.error) & g_high.value.simd_gt(g_high.error);
     // Where rounding has turned the slope, δ is no length and proves nothing.
     let found = bits::<S>(crossing & low.simd_gt(zero) & delta.simd_gt(zero));
     let rho = delta / u * 1.01 + 4.0 * P.unit;
@@ -243,25 +266,26 @@ pub(super) struct Planes {
 /// Decides the four levels of one case.
 #[inline(always)]
 pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Shape<S>) -> Planes {
-    let splat = |x| S::f64s::splat(simd, x);
-    let (m, u) = (shape.m.value, shape.u.value);
+    let (m, u, g) = (shape.m.value, shape.u.value, S::f64s::splat(simd, angle.g));
     // m itself must be known well, relative to its size.
     let open = shape.found & bits::<S>(shape.m.error.simd_lt(m * SMALL));
     if open == 0 {
         return Planes { flags: [0; 4], known: shape.none };
     }
-    let all = |sign| coefficients(kind, &Lanes::<S>(m), &Lanes(u), &Lanes(splat(angle.g)), sign).map(|c| c.0);
-    let (value, size) = (all(-1.0), all(1.0));
+    let value = coefficients(kind, &Lanes::<S>(m), &Lanes(u), &Lanes(g), -1.0);
+    let mut error = coefficients(kind, &Lanes::<S>(m), &Lanes(u), &Lanes(g), 1.0);
     // A term has m to the third power at most, u to the second.
     let relative = shape.m.error / m * 3.3 + shape.u.error * 2.2 + P.coefficient();
-    let error = size.map(|s| s * relative);
     let (mut above, mut below) = ([0; 4], [0; 4]);
-    for i in 0..4 {
-        (above[i], below[i]) = (bits::<S>(value[i].simd_gt(error[i])), bits::<S>(value[i].simd_lt(-error[i])));
+    for i in 0..6 {
+        error[i] = Lanes(error[i].0 * relative);
+        if i < 4 {
+            (above[i], below[i]) = (bits::<S>(value[i].0.simd_gt(error[i].0)), bits::<S>(value[i].0.simd_lt(-error[i].0)));
+        }
     }
     let star = least_drawn_m(kind);
-    let drawn = bits::<S>((m - shape.m.error).simd_gt(splat(star * (1.0 + 4.0 * P.unit))));
-    let not_drawn = bits::<S>((m + shape.m.error).simd_lt(splat(star * (1.0 - 4.0 * P.unit))));
+    let drawn = bits::<S>((m - shape.m.error).simd_gt(S::f64s::splat(simd, star * (1.0 + 4.0 * P.unit))));
+    let not_drawn = bits::<S>((m + shape.m.error).simd_lt(S::f64s::splat(simd, star * (1.0 - 4.0 * P.unit))));
     let paper = open & drawn & above[0];
     let theorem = paper | open & above[0] & above[1] & above[2] & above[3];
     let mut exact = theorem;
@@ -270,7 +294,7 @@ pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Shape<
     while unclear != 0 {
         let lane = unclear.trailing_zeros() as usize;
         unclear &= unclear - 1;
-        let at = |c: &[S::f64s; 6], i: usize| c[i].as_slice()[lane];
+        let at = |c: &[Lanes<S>; 6], i: usize| c[i].0.as_slice()[lane];
         match spiral(std::array::from_fn(|i| at(&value, i)), std::array::from_fn(|i| at(&error, i))) {
             Some(true) => exact |= 1 << lane,
             Some(false) => not_exact |= 1 << lane,
@@ -301,10 +325,13 @@ fn spiral(value: [f64; 6], error: [f64; 6]) -> Option<bool> {
 /// The codes of a vector of nodes that share θ and ξ.
 #[inline(always)]
 pub(super) fn classify<S: Simd>(simd: S, kind: Kind, angle: &Angle, xi: f64, eta: S::f64s, out: &mut [Code]) {
-    let cases = sides(simd, angle, xi, eta).map(|(a, b, none)| {
-        let shape = shape(simd, kind, angle, &a, &b, none);
-        levels(simd, kind, angle, &shape)
-    });
+    // No closures around what runs on vectors: they are not always inlined into code for a wider level, and then every operation
+    // becomes a call.
+    let mut cases = [Planes::default(); 2];
+    for (planes, (a, b, none)) in cases.iter_mut().zip(&sides(simd, angle, xi, eta)) {
+        let shape = shape(simd, kind, angle, a, b, *none);
+        *planes = levels(simd, kind, angle, &shape);
+    }
     for (lane, code) in out.iter_mut().enumerate() {
         *code = if (cases[0].known & cases[1].known) >> lane & 1 == 0 {
             Code::UNDECIDED

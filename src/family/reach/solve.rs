@@ -1,12 +1,12 @@
 //! The exact answer for one end point: the segments of both cases and how far each is proved.
 
 use super::angle::{Angle, ExactAngle, check};
-use super::exact::{Shape, judge, judge_shape};
+use super::exact::{Rooted, Shape, judge, judge_shape};
 use super::filter::{Near, shape, sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::error::{Error, Result};
 use crate::family::{Code, NO_VALUE};
-use crate::num::{Interval, climb};
+use crate::num::{Interval, Twin, climb};
 use fearless_simd::{Level as SimdLevel, Simd, SimdBase, dispatch};
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -95,16 +95,19 @@ pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
             return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
         }
     }
-    let datum = [theta, xi, eta];
+    let twins = ExactAngle::twins(kind, theta);
     let case = |case| {
-        let attempt = |bits| {
-            let (flags, shape) = judge(kind, datum, case, bits)?;
-            let Some(shape) = shape else { return Some(None) };
-            let q = shape.q(&*ExactAngle::cached(kind, theta, bits)?)?;
-            Some(Some(Segment { m: shape.m.to_f64()?, q: q.to_f64()?, level: level(flags) }))
+        let found = match twins.as_ref().and_then(|angle| segment(kind, angle, [xi, eta], case, Twin::to_f64)) {
+            Some(found) => found,
+            None => {
+                let attempt = |bits| {
+                    let angle = ExactAngle::cached(kind, theta, bits)?;
+                    segment(kind, &*angle, [xi, eta], case, Interval::to_f64)
+                };
+                climb(datum, "a segment", attempt)?.0
+            }
         };
-        let (segment, _) = climb(&Datum::from(datum), "a segment", attempt)?;
-        match segment {
+        match found {
             Some(s) if !(s.m.is_finite() && s.q.is_finite()) => Err(Error::Domain(format!(
                 "{} leaves the range of doubles for theta = {theta:?}, xi = {xi:?}, eta = {eta:?}; choose less extreme numbers",
                 if s.m.is_finite() { "q" } else { "m" }
@@ -113,6 +116,19 @@ pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
         }
     };
     Ok(Reached { case1: case(0)?, case2: case(1)? })
+}
+
+/// The segment of a case (0 or 1), if there is one, its numbers rounded to nearest; `None` when something is undecided.
+fn segment<N: Rooted>(
+    kind: Kind,
+    angle: &ExactAngle<N>,
+    end: [f64; 2],
+    case: usize,
+    rounded: fn(&N) -> Option<f64>,
+) -> Option<Option<Segment>> {
+    let (flags, shape) = judge(kind, angle, end, case)?;
+    let Some(shape) = shape else { return Some(None) };
+    Some(Some(Segment { m: rounded(&shape.m)?, q: rounded(&shape.q(angle)?)?, level: level(flags) }))
 }
 
 /// What is true of the segment with an angle and a shape, proved for these doubles.
@@ -186,8 +202,9 @@ fn from_intervals(
             Some(value) => value,
             None => {
                 let attempt = |bits| {
-                    let shape = judge(kind, datum, case, bits)?.1?;
-                    let value = if of_q { shape.q(&*ExactAngle::cached(kind, datum[0], bits)?)? } else { shape.m };
+                    let angle = ExactAngle::cached(kind, datum[0], bits)?;
+                    let shape = judge(kind, &*angle, [datum[1], datum[2]], case)?.1?;
+                    let value = if of_q { shape.q(&angle)? } else { shape.m };
                     single(&value)
                 };
                 climb(&Datum::from(datum), "a scalar", attempt)?.0

@@ -1,7 +1,7 @@
 //! The families on a grid.
 
 use super::Kind;
-use super::angle::{Angle, check};
+use super::angle::{Angle, ExactAngle, check};
 use super::exact::judge;
 use super::filter::classify;
 use super::solve::Datum;
@@ -57,7 +57,8 @@ impl Table for ReachTable<'_> {
     fn exact(&self, node: u64) -> Result<(Code, usize)> {
         let datum = self.datum(node);
         climb(&Datum::from(datum), "a verdict", |bits| {
-            let flags = |case| judge(self.kind, datum, case, bits).map(|(flags, _)| flags);
+            let angle = ExactAngle::cached(self.kind, datum[0], bits)?;
+            let flags = |case| judge(self.kind, &*angle, [datum[1], datum[2]], case).map(|(flags, _)| flags);
             Some(Code::new(flags(0)? | flags(1)? << CASE_BITS, 0))
         })
     }

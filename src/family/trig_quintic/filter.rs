@@ -61,12 +61,14 @@ pub(super) fn classify<S: Simd>(simd: S, frame: &Frame<f64>, [ratio, m, p]: [f64
         open = false;
     }
     debug_assert_eq!(known[0] & PRINTED_RATIO != 0, printed_ratio(ratio, m));
-    let splat = |x: f64| Lanes::<S>::splat(simd, x);
-    let forms = open.then(|| {
-        let frame = Frame { y: splat(frame.y), last: splat(frame.last), square: splat(frame.square) };
-        let hodograph = hodograph(&frame, &splat(m), &splat(p), &Lanes(q));
-        [-1.0, 1.0].map(|sign| numerator(&hodograph, &frame.square, sign))
-    });
+    let forms = if open {
+        let number = |x: f64| Lanes::<S>::splat(simd, x);
+        let frame = Frame { y: number(frame.y), last: number(frame.last), square: number(frame.square) };
+        let hodograph = hodograph(&frame, &number(m), &number(p), &Lanes(q));
+        Some([numerator(&hodograph, &frame.square, -1.0), numerator(&hodograph, &frame.square, 1.0)])
+    } else {
+        None
+    };
     for (lane, code) in out.iter_mut().enumerate() {
         let flags = known[lane];
         if flags & END_RISES == 0 {

@@ -10,6 +10,7 @@ mod curve;
 mod exact;
 mod filter;
 mod frame;
+mod guess;
 mod plain;
 mod poly;
 mod shader;

@@ -48,9 +48,25 @@ pub(super) struct Hodograph<N> {
     pub y: [N; 8],
 }
 
+/// What the last three sides add from coefficient 3 on.
+#[inline(always)]
+fn tail<N: Number>([s2, s3, s4]: [&N; 3], [q1, q4, q9]: [&N; 3]) -> [N; 8] {
+    [
+        s2.times(17.0),
+        s2.times(84.0),
+        s2.times(168.0).add(&s3.times(12.0)),
+        s2.times(168.0).add(&s3.times(60.0)),
+        s2.times(68.0).add(&s3.times(120.0)).add(&s4.mul(q1).times(8.0)),
+        s3.times(120.0).add(&s4.mul(q1).times(24.0)),
+        s3.times(48.0).add(&s4.mul(q9)),
+        s4.mul(q4).times(4.0),
+    ]
+}
+
 /// Of the curve with these shape parameters: sums of positive terms in all that follows from the parameters.
 ///
 /// Counting roundings, with those of the sides (s), `4 + p`, `1 - p`, `4 + q`, `1 - q` (one each): at most s + 6.
+#[inline(always)]
 pub(super) fn hodograph<N: Number>(frame: &Frame<N>, m: &N, p: &N, q: &N) -> Hodograph<N> {
     let y = &frame.y;
     let my = m.mul(y);
@@ -58,21 +74,8 @@ pub(super) fn hodograph<N: Number>(frame: &Frame<N>, m: &N, p: &N, q: &N) -> Hod
     let up = [my, y.times(3.0), y.times(0.0).plus(6.0)];
     let [p4, p1, q4, q1] = [p.plus(4.0), p.times(-1.0).plus(1.0), q.plus(4.0), q.times(-1.0).plus(1.0)];
     let q9 = q1.times(16.0).add(&q4.times(4.0));
-    // What the last three sides add from coefficient 3 on.
-    let tail = |[s2, s3, s4]: [&N; 3]| {
-        [
-            s2.times(17.0),
-            s2.times(84.0),
-            s2.times(168.0).add(&s3.times(12.0)),
-            s2.times(168.0).add(&s3.times(60.0)),
-            s2.times(68.0).add(&s3.times(120.0)).add(&s4.mul(&q1).times(8.0)),
-            s3.times(120.0).add(&s4.mul(&q1).times(24.0)),
-            s3.times(48.0).add(&s4.mul(&q9)),
-            s4.mul(&q4).times(4.0),
-        ]
-    };
     let [s0, s1, s2, s3, s4] = &sides;
-    let [a, b, c, d, e, f, g, h] = tail([s2, s3, s4]);
+    let [a, b, c, d, e, f, g, h] = tail([s2, s3, s4], [&q1, &q4, &q9]);
     let x = [
         s0.mul(&p4).times(0.125),
         s0.mul(&p1.add(&p4.times(0.25))).add(&s1.times(3.0)),
@@ -86,37 +89,71 @@ pub(super) fn hodograph<N: Number>(frame: &Frame<N>, m: &N, p: &N, q: &N) -> Hod
         g,
         h,
     ];
-    Hodograph { x, y: tail([&up[0], &up[1], &up[2]]) }
+    Hodograph { x, y: tail([&up[0], &up[1], &up[2]], [&q1, &q4, &q9]) }
 }
+
+/// One more term of a sum.
+#[inline(always)]
+fn add<N: Number>(sum: &mut Option<N>, term: N) {
+    *sum = Some(match sum.take() {
+        Some(sum) => sum.add(&term),
+        None => term,
+    });
+}
+
+// What follows runs on vectors: loops, since a closure is not always inlined into code for a wider level, and then every operation
+// becomes a call.
 
 /// `X2 .. X18`: `Xk = Σ (j - i) Ai × Aj` over `i < j`, `i + j = k + 1`. With `sign` 1 instead of -1 the sums of the
 /// absolute values of their terms.
-fn turning<N: Number>(a: &Hodograph<N>, sign: f64) -> [N; 17] {
-    from_fn(|k| {
+#[inline(always)]
+fn turning<N: Number>(a: &Hodograph<N>, zero: &N, sign: f64) -> [N; 17] {
+    let mut all = from_fn(|_| zero.clone());
+    for (k, place) in all.iter_mut().enumerate() {
         let s = k + 3;
-        let term = |i: usize| {
+        let mut sum = None;
+        for i in s.saturating_sub(10)..s.div_ceil(2) {
             let j = s - i;
-            let forward = a.x[i].mul(&a.y[j - LEVEL]);
-            let cross = if i < LEVEL { forward } else { forward.add(&a.x[j].mul(&a.y[i - LEVEL]).times(sign)) };
-            cross.times((j - i) as f64)
-        };
-        // i < j <= 10 and j >= LEVEL, so that there is something upward.
-        sum((s.saturating_sub(10)..s.div_ceil(2)).filter(|i| s - i >= LEVEL).map(term)).unwrap_or_else(|| a.x[0].times(0.0))
-    })
+            if j >= LEVEL {
+                let mut cross = a.x[i].mul(&a.y[j - LEVEL]);
+                if i >= LEVEL {
+                    cross = cross.add(&a.x[j].mul(&a.y[i - LEVEL]).times(sign));
+                }
+                add(&mut sum, cross.times((j - i) as f64));
+            }
+        }
+        if let Some(sum) = sum {
+            *place = sum;
+        }
+    }
+    all
+}
+
+/// Coefficient k of the square of a form.
+#[inline(always)]
+fn square_of<N: Number>(v: &[N], k: usize) -> Option<N> {
+    let mut sum = None;
+    for i in k.saturating_sub(v.len() - 1)..=k / 2 {
+        add(&mut sum, v[i].mul(&v[k - i]).times(if 2 * i == k { 1.0 } else { 2.0 }));
+    }
+    sum
 }
 
 /// `D0 .. D20`: sums of positive terms.
-fn speed<N: Number>(a: &Hodograph<N>, square: &N) -> [N; 21] {
-    let convolve = |v: &[N], k: usize| {
-        let n = v.len() - 1;
-        let pairs = |i: usize| v[i].mul(&v[k - i]).times(if 2 * i == k { 1.0 } else { 2.0 });
-        sum((k.saturating_sub(n)..=k / 2).map(pairs))
-    };
-    from_fn(|k| {
-        let forward = convolve(&a.x, k).unwrap_or_else(|| a.x[0].times(0.0));
-        let upward = k.checked_sub(2 * LEVEL).filter(|k| *k <= 14).and_then(|k| convolve(&a.y, k));
-        upward.map_or(forward.clone(), |upward| forward.add(&upward.mul(square)))
-    })
+#[inline(always)]
+fn speed<N: Number>(a: &Hodograph<N>, zero: &N, square: &N) -> [N; 21] {
+    let mut all = from_fn(|_| zero.clone());
+    for (k, place) in all.iter_mut().enumerate() {
+        if let Some(forward) = square_of(&a.x, k) {
+            *place = forward;
+        }
+        if (2 * LEVEL..=2 * LEVEL + 14).contains(&k)
+            && let Some(upward) = square_of(&a.y, k - 2 * LEVEL)
+        {
+            *place = place.add(&upward.mul(square));
+        }
+    }
+    all
 }
 
 /// The coefficients of the numerator, or, with `sign` 1 instead of -1, the sums of the absolute values of their terms.
@@ -124,27 +161,33 @@ fn speed<N: Number>(a: &Hodograph<N>, square: &N) -> [N; 21] {
 /// Counting roundings, with h those of the hodograph and t those of the square: products of two have 2h + 1, X three more for
 /// difference, factor and up to five terms (2h + 8 in all), D with the square 2h + t + 3 and up to 8 terms (2h + t + 11), the
 /// sums below at most 21 terms, a factor and a product (24), and four terms at last: 4h + t + 48.
+#[inline(always)]
 pub(super) fn numerator<N: Number>(a: &Hodograph<N>, square: &N, sign: f64) -> [N; K] {
-    let (turning, speed) = (turning(a, sign), speed(a, square));
-    // Σ Xi Dj and Σ (2i - 3j) Xi Dj over i + j = s + 2.
-    let both: [(N, N); 37] = from_fn(|s| {
-        let range = s.saturating_sub(20)..=s.min(16);
-        let products = range.map(|i| (turning[i].mul(&speed[s - i]), 2.0 * (i + 2) as f64 - 3.0 * (s - i) as f64));
-        let weighed = |factor: f64| if sign > 0.0 { factor.abs() } else { factor };
-        let pairs = products.map(|(product, factor)| (product.clone(), product.times(weighed(factor))));
-        pairs.reduce(|(a, b), (c, d)| (a.add(&c), b.add(&d))).unwrap_or_else(|| (square.times(0.0), square.times(0.0)))
-    });
-    // V = (1, 2, 2): index s - 2 of `both` is the sum s; the coefficient of τ^(i+1) takes the sums i+2, i+1 and i.
-    from_fn(|i| {
-        let first = both.get(i).map(|(_, b)| b.clone());
-        let second = i.checked_sub(1).and_then(|s| both.get(s)).map(|(a, b)| b.times(2.0).add(&a.times(24.0)));
-        let third = i.checked_sub(2).and_then(|s| both.get(s)).map(|(a, b)| b.times(2.0).add(&a.times(48.0)));
-        sum([first, second, third].into_iter().flatten()).unwrap_or_else(|| square.times(0.0))
-    })
-}
-
-fn sum<N: Number>(terms: impl Iterator<Item = N>) -> Option<N> {
-    terms.reduce(|a, b| a.add(&b))
+    let zero = square.times(0.0);
+    let (turning, speed) = (turning(a, &zero, sign), speed(a, &zero, square));
+    let mut all: [Option<N>; K] = [const { None }; K];
+    for s in 0..37usize {
+        // Σ Xi Dj and Σ (2i - 3j) Xi Dj over i + j = s + 2.
+        let (mut plain, mut weighed) = (None, None);
+        for i in s.saturating_sub(20)..=s.min(16) {
+            let product = turning[i].mul(&speed[s - i]);
+            let factor = 2.0 * (i + 2) as f64 - 3.0 * (s - i) as f64;
+            add(&mut weighed, product.times(if sign > 0.0 { factor.abs() } else { factor }));
+            add(&mut plain, product);
+        }
+        // V = (1, 2, 2): the coefficient of τ^(i+1) takes the sums s = i, i-1 and i-2.
+        if let (Some(plain), Some(weighed)) = (plain, weighed) {
+            let double = weighed.times(2.0);
+            if s + 1 < K {
+                add(&mut all[s + 1], double.add(&plain.times(24.0)));
+            }
+            if s + 2 < K {
+                add(&mut all[s + 2], double.add(&plain.times(48.0)));
+            }
+            add(&mut all[s], weighed);
+        }
+    }
+    all.map(|c| c.unwrap_or_else(|| zero.clone()))
 }
 
 /// `L / C(37, i)`, L the least common multiple of these binomials (lcm(1..38)/38): whole numbers, so that Bernstein

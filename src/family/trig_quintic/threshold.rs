@@ -9,6 +9,7 @@
 
 use super::exact::{HALVINGS, Shape, bernstein};
 use super::filter::{ERROR, UNIT, decide, is_ordinary};
+use super::guess::{DEGREE, LEAST, MOST, guess};
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
@@ -16,12 +17,6 @@ use crate::num::bernstein::{Certain, positive};
 use crate::num::{Interval, Number, climb};
 use std::array::from_fn;
 
-/// Ratios up to this are looked at.
-pub(super) const MOST: f32 = 64.0;
-/// And down to this.
-pub(super) const LEAST: f32 = 1.0 / 64.0;
-/// Degree of f in the ratio.
-const DEGREE: usize = 6;
 /// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute terms: the
 /// coefficients, for which products of polynomials add up to 7 terms on three levels; powers (6), weights (10), a product and a
 /// sum of 7.
@@ -36,10 +31,12 @@ const ROUNDS: u32 = 24;
 /// # Errors
 /// [`crate::Error::Undecided`] at the precision cap.
 pub(super) fn least_ratio(shape: &Shape) -> Result<f32> {
-    match fast(shape).and_then(|sweep| sweep.search(None)) {
-        Some(value) => Ok(value),
-        None => exact_least_ratio(shape),
-    }
+    let found = fast(shape).and_then(|sweep| {
+        let hint = guess(&sweep.c);
+        // The guess is nearly always right; else every ratio between may be tried.
+        hint.and_then(|hint| sweep.search(Some(hint))).or_else(|| sweep.search(None))
+    });
+    found.map_or_else(|| exact_least_ratio(shape), Ok)
 }
 
 /// The same by intervals alone.
@@ -104,12 +101,16 @@ impl<N: Number> Number for Power<N> {
     }
     fn mul(&self, other: &Self) -> Self {
         let (from, to) = ((self.from + other.from).min(DEGREE + 1), (self.to + other.to).min(DEGREE + 1));
-        let at = |k: usize| {
-            let terms = self.from.max(k.saturating_sub(other.to))..=self.to.min(k.saturating_sub(other.from));
-            let products = terms.filter(|_| k >= from).map(|i| self.c[i].mul(&other.c[k - i]));
-            products.reduce(|a, b| a.add(&b)).unwrap_or_else(|| self.c[0].times(0.0))
-        };
-        Power { c: from_fn(at), from, to }
+        let zero = self.c[0].times(0.0);
+        let mut c: [N; DEGREE + 2] = from_fn(|_| zero.clone());
+        for i in self.from..=self.to {
+            for j in other.from..=other.to.min(DEGREE + 1 - i) {
+                let product = self.c[i].mul(&other.c[j]);
+                // The first of a place is the place's.
+                c[i + j] = if i == self.from || j == other.to { product } else { c[i + j].add(&product) };
+            }
+        }
+        Power { c, from, to }
     }
     fn times(&self, constant: f64) -> Self {
         let at = |i| if (self.from..=self.to).contains(&i) { self.c[i].times(constant) } else { self.c[i].clone() };

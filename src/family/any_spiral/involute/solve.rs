@@ -7,6 +7,7 @@ use super::track::Track;
 use super::turns::{Split, range};
 use super::{Chord, Outcome, Spiral, WhyNone};
 use crate::error::{Error, Result};
+use crate::num::bernstein::Certain;
 use crate::num::{Interval, climb};
 use serde::Serialize;
 use std::cmp::Ordering::{Equal, Greater, Less};
@@ -78,11 +79,24 @@ pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<(Spiral, Option<Wo
     let half_turns = turns[0] + turns[1] + cuts as u32;
     let total = |bits: usize| total(&datum, half_turns, bits);
     // Never 0 but where both parts are: π is irrational.
-    let side = if half_turns == 0 && datum.alpha == -datum.beta { Equal } else { climb(&datum, "omega", |b| total(b).sign())?.0 };
-    let sign = climb(&datum, "the sign of Q", |bits| datum.q(bits).sign())?.0;
-    let (q, _) = climb(&datum, "Q", |bits| datum.q(bits).to_f64())?;
+    let plain = datum.alpha + datum.beta;
+    let side = match half_turns {
+        // A rounded sum has the sign of the sum.
+        0 => plain.partial_cmp(&0.0).unwrap_or(Equal),
+        _ => climb(&datum, "omega", |b| total(b).sign())?.0,
+    };
+    let twin = datum.q_of_twins();
+    let sign = match twin.and_then(|q| q.certain_sign(0.0)) {
+        Some(sign) => sign,
+        None => climb(&datum, "the sign of Q", |bits| datum.q(bits).sign())?.0,
+    };
+    let q = match twin.and_then(|q| q.to_f64()) {
+        Some(q) => q,
+        None => climb(&datum, "Q", |bits| datum.q(bits).to_f64())?.0,
+    };
     let mirror = if rising { 1.0 } else { -1.0 };
-    let omega = mirror * total(128).approx();
+    // Without half turns a rounded sum, halved.
+    let omega = mirror * if half_turns == 0 { 0.5 * plain + 0.0 } else { total(128).approx() };
     let answer = |outcome| Spiral { chord: *chord, turns, q, omega, outcome };
     let why = match (side, sign) {
         _ if chord.k1 == chord.k2 => WhyNone::SameCurvature,
