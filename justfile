@@ -6,7 +6,7 @@ export NODEVICE_SELECT := "1"
 swiftshader := env("XDG_CACHE_HOME", env("HOME", "") / ".cache") / "spiral-atlas/swiftshader/icd.json"
 
 # Every check and test, as continuous integration runs them
-ci: setup lint test examples python fuzz swiftshader
+ci: setup lint test examples python capi opendrive fuzz swiftshader
 
 # Installs what the tests need
 setup:
@@ -17,7 +17,7 @@ lint:
     cargo fmt --all --check
     cargo clippy --locked --release --all-targets -- -D warnings
     cargo clippy --locked --release --no-default-features -- -D warnings
-    cargo clippy --locked --release --package spiral-atlas-python -- -D warnings
+    cargo clippy --locked --release --package spiral-atlas-python --package spiral-atlas-capi -- -D warnings
     RUSTDOCFLAGS="-D warnings" cargo doc --locked --release --no-deps
 
 # All tests, or those whose name contains a text
@@ -31,6 +31,14 @@ examples:
 # The Python package: built, installed into a fresh environment, tested
 python:
     tests/python
+
+# The C library: installed beside itself, tested with two compilers and sanitizers
+capi:
+    tests/capi
+
+# Roads, judged by the ASAM quality checker and SUMO
+opendrive:
+    tests/opendrive
 
 # The coverage-guided fuzzers of the readers, for some seconds each
 fuzz seconds="15":

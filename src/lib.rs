@@ -111,7 +111,8 @@
 //! | feature | adds |
 //! | --- | --- |
 //! | `gpu` | the evaluator on GPUs, by wgpu |
-//! | `cli` | the program, with `recipe` and pictures |
+//! | `cli` | the program, with `recipe`, `export` and pictures |
+//! | `export` | paths as files of other programs: OpenDRIVE |
 //! | `recipe` | the reader of recipes alone |
 
 pub mod atlas;
@@ -119,6 +120,8 @@ pub mod cells;
 pub mod curve;
 pub mod error;
 pub mod eval;
+#[cfg(feature = "export")]
+pub mod export;
 pub mod family;
 // For the program and the tests of this package alone: no part of what the library promises.
 #[doc(hidden)]

@@ -9,6 +9,7 @@ mod cells;
 mod curve;
 mod datum;
 mod draw;
+mod export;
 mod generate;
 mod info;
 mod join;
@@ -55,6 +56,7 @@ enum Command {
     Curve(Box<curve::Args>),
     Join(Box<join::Args>),
     Path(path::Args),
+    Export(export::Args),
     /// Print shell completions.
     #[command(after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]
     Completions {
@@ -88,6 +90,7 @@ pub fn main() -> ExitCode {
         Command::Curve(args) => curve::run(&args),
         Command::Join(args) => join::run(&args),
         Command::Path(args) => path::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::Completions { shell } => completions(shell),
     };
     match done {

@@ -4,6 +4,7 @@
 
 mod answer;
 pub mod any_spiral;
+mod batch;
 pub mod cubic;
 mod hermite;
 mod kernel;
@@ -17,6 +18,7 @@ mod rows;
 pub mod trig_quintic;
 
 pub use answer::{Answer, Value, Values};
+pub use batch::{RowError, verdicts};
 pub use kernel::{Kernel, Shader, ShaderInputs};
 pub use region::{Facts, MOST_SIDES, Region};
 

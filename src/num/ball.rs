@@ -1,7 +1,7 @@
 //! Doubles that know how far they may be off: what the f64 step of a family computes with where counting roundings by hand would not pay.
 
 use super::bernstein::Certain;
-use super::{Number, Real};
+use super::{Interval, Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
 
 /// Unit roundoff.
@@ -24,6 +24,22 @@ impl Ball {
     /// A number known to `units` of 2^-53, relative.
     pub fn near(value: f64, units: f64) -> Ball {
         Ball { value, error: value.abs() * (units * UNIT * GROW) + TINY }
+    }
+
+    /// A ball around an interval; it holds all numbers where doubles do not reach.
+    pub fn around(x: &Interval) -> Ball {
+        let value = x.approx();
+        if !value.is_finite() {
+            return Ball { value: 0.0, error: f64::INFINITY };
+        }
+        // To the nearest double, and at least half a unit for what that rounds away.
+        Ball { value, error: x.plus(-value).size().upper().approx() * GROW + TINY }
+    }
+
+    /// The interval from its smallest to its largest number; `None` when those are no doubles.
+    pub fn interval(&self, bits: usize) -> Option<Interval> {
+        let number = |x: f64| x.is_finite().then(|| Interval::new(x, bits));
+        Some(&number(self.value)? + &number(self.error)?.size())
     }
 
     /// From the smallest to the largest of its numbers, a little widened.

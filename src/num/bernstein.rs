@@ -1,6 +1,7 @@
 //! Signs of polynomials and least values of quintics in Bernstein form on [0, 1], with proof.
 
 use super::{Interval, Number};
+use crate::steps::step;
 use std::cmp::Ordering;
 
 /// Most halvings of intervals: deeper pieces are ties for every purpose, and the recursion stays within a thread's stack.
@@ -17,6 +18,11 @@ pub trait Certain: Number {
     #[inline(always)]
     fn grain(&self) -> f64 {
         0.0
+    }
+    /// Coefficients of the same sign everywhere on (0, 1), for which halving parts what is to be told apart; `None` where it does already.
+    #[inline(always)]
+    fn balanced<const K: usize>(_c: &[Self; K]) -> Option<[Self; K]> {
+        None
     }
 }
 
@@ -41,6 +47,37 @@ impl Certain for Interval {
     /// Intervals carry their own error; `error` must be 0.
     fn certain_sign(&self, _error: f64) -> Option<Ordering> {
         self.sign()
+    }
+    /// In `x = t/(1 - t)` the coefficients are those of powers of x, but for binomials, and `x = 2^k y` multiplies them by powers of
+    /// `2^k`. Newton's polygon, the hull above their logarithms, has a side for each size that x may have at a root. The middle
+    /// of all sizes where signs differ becomes 1. So the halvings are as many as the roots' distances ask for, relative to their
+    /// sizes, and do not grow with the logarithms of these.
+    fn balanced<const K: usize>(c: &[Interval; K]) -> Option<[Interval; K]> {
+        step();
+        let points = c.iter().enumerate().filter_map(|(i, c)| Some((i, c.magnitude()?)));
+        let mut hull: Vec<(usize, isize)> = Vec::with_capacity(K);
+        for point in points {
+            let rise = |a: (usize, isize), b: (usize, isize)| (b.1 - a.1, (b.0 - a.0) as isize);
+            while let [.., before, last] = hull[..] {
+                let ((up, along), (on, further)) = (rise(before, last), rise(last, point));
+                if up * further > on * along {
+                    break;
+                }
+                hull.pop();
+            }
+            hull.push(point);
+        }
+        let mixed = |from: usize, to: usize| {
+            let first = c[from].sign();
+            first.is_none() || c[from..=to].iter().any(|c| c.sign() != first)
+        };
+        let sides = hull.windows(2).filter(|side| mixed(side[0].0, side[1].0));
+        let sizes = sides.map(|side| (side[0].1 - side[1].1).div_euclid((side[1].0 - side[0].0) as isize));
+        let (least, most) = sizes.fold((isize::MAX, isize::MIN), |(least, most), k| (least.min(k), most.max(k)));
+        let k = if least > most { 0 } else { least.midpoint(most) };
+        // Next to the middle halving does as well.
+        let power = |i: usize| Interval::power_of_two(k * i as isize, c[i].bits());
+        (k.abs() > 1).then(|| std::array::from_fn(|i| &c[i] * &power(i)))
     }
 }
 
@@ -92,7 +129,8 @@ fn positive_piece<N: Certain, const K: usize>(c: &[N; K], error: f64, unit: f64,
     if depth == 0 || c.iter().all(|v| v.certain_sign(error).is_none()) {
         return None;
     }
-    let (left, right) = halve(c);
+    let balanced = N::balanced(c);
+    let (left, right) = halve(balanced.as_ref().unwrap_or(c));
     let error = error + unit * largest(c);
     match positive_piece(&left, error, unit, depth - 1) {
         Some(false) => Some(false),
@@ -145,41 +183,42 @@ pub fn least_error(c: &Quintic<f64>, error: f64) -> f64 {
     error + 340.0 * (0.5 * f64::EPSILON) * largest
 }
 
-/// The least value on [0, 1] of a quintic with interval coefficients, as an interval; `None` at too low a precision.
+/// The least value on [0, 1] of a quintic with interval coefficients, as an interval.
 ///
-/// `guess` is where the least value is thought to be taken; Newton's method sharpens it to `t`. On a piece around `t` where
-/// second differences prove the quintic convex, it stays above its tangent, hence above `c(t) - |c'(t)|`; elsewhere
-/// [`positive`] proves it higher. A guess at an end is proved by [`positive`] alone, up to 2^-(bits/2) of its size.
-pub fn least_interval(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
+/// Branch and bound by halving, as [`least`]: a piece is dropped when its lowest coefficient is not below the best value found by more than
+/// 2^-(bits/2) of the largest coefficient and twice the width of the widest, or after as many halvings as there are bits.
+///
+/// # Accuracy
+/// Near a least value inside, the lowest coefficient of a piece is below it by the square of the piece's width, so that some bits/4 halvings
+/// suffice. A feature of width w asks for log2 1/w more.
+pub fn least_interval(c: &Quintic<Interval>) -> Interval {
     let bits = c[0].bits();
-    let end = if guess < 0.5 { &c[0] } else { &c[5] };
-    let Some(t) = stationary(c, guess) else {
-        let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.size().upper());
-        let slack = &size * &Interval::power_of_two(-(bits as isize) / 2, bits);
-        let floor = &end.lower() - &slack;
-        return above(c, &floor)?.then(|| floor.union(end));
-    };
-    let [value, slope, _] = at(c, &t);
-    let floor = &value.lower() - &slope.size().upper();
-    let mut reach = 0.0625;
-    while reach > 1e-7 {
-        let (from, to) = (t.plus(-reach), t.plus(reach));
-        let inner = from.sign() == Some(Ordering::Greater);
-        let outer = to.plus(-1.0).sign() == Some(Ordering::Less);
-        let (left, rest) = if inner { split(c, &from) } else { (c.clone(), c.clone()) };
-        let (_, right) = if outer { split(c, &to) } else { (c.clone(), c.clone()) };
-        let width =
-            &(if outer { to } else { Interval::new(1.0, bits) }) - &(if inner { from.clone() } else { Interval::new(0.0, bits) });
-        let scale = if inner { width.over(&(-&from).plus(1.0))? } else { width };
-        let middle = if outer { split(&rest, &scale).0 } else { rest };
-        let convex = middle.windows(3).all(|w| (&(&w[2] - &w[1]) - &(&w[1] - &w[0])).sign() == Some(Ordering::Greater));
-        if convex {
-            let sides = (!inner || above(&left, &floor)?) && (!outer || above(&right, &floor)?);
-            return sides.then(|| floor.union(&value));
+    let less = |a: &Interval, b: &Interval| a.compare(b) == Some(Ordering::Less);
+    let min = |a: Interval, b: Interval| if less(&b, &a) { b } else { a };
+    let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.size().upper());
+    // Halving widens no coefficient but by roundings, which are far below the first term.
+    let width = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &(&v.upper() - &v.lower()));
+    let tolerance = &(&size * &Interval::power_of_two(-(bits as isize) / 2, bits)) + &width.scale(2.0);
+    let lowest = |c: &Quintic<Interval>| c[1..].iter().fold(c[0].lower(), |low, v| min(low, v.lower()));
+    let mut ceiling = min(c[0].upper(), c[5].upper());
+    let mut floor = ceiling.clone();
+    let mut waiting = vec![(lowest(c), c.clone(), 0)];
+    while let Some((low, piece, depth)) = waiting.pop() {
+        step();
+        if depth == bits || !less(&low, &(&ceiling - &tolerance)) {
+            floor = min(floor, low);
+            continue;
         }
-        reach *= 0.25;
+        let (left, right) = halve(&piece);
+        ceiling = min(ceiling, right[0].upper());
+        let mut halves = [left, right].map(|half| (lowest(&half), half, depth + 1));
+        // The lower one is looked at first.
+        if less(&halves[0].0, &halves[1].0) {
+            halves.reverse();
+        }
+        waiting.extend(halves);
     }
-    None
+    floor.union(&ceiling)
 }
 
 /// The margin of a quintic: its least value on [0, 1] over its largest coefficient, and how far that may be off, for coefficients that
@@ -209,67 +248,13 @@ pub fn exact_margin(c: &Quintic<Interval>) -> Option<Interval> {
     for c in &mut scaled {
         *c = c.over(&largest)?;
     }
-    let (_, guess) = least(&scaled.clone().map(|c| c.approx()));
-    least_interval(&scaled, guess)
-}
-
-/// Whether the quintic stays above `floor` on [0, 1].
-fn above(c: &Quintic<Interval>, floor: &Interval) -> Option<bool> {
-    positive(&c.clone().map(|v| &v - floor), 0.0, 0.0, MOST_HALVINGS)
-}
-
-/// Newton's method for a zero of the derivative, strictly inside; `None` when it leaves [0, 1] or the quintic does not bend upwards.
-fn stationary(c: &Quintic<Interval>, guess: f64) -> Option<Interval> {
-    let bits = c[0].bits();
-    if guess <= 0.0 || guess >= 1.0 {
-        return None;
-    }
-    let mut t = Interval::new(guess, bits);
-    for _ in 0..bits.ilog2() {
-        let [_, slope, bend] = at(c, &t);
-        if bend.sign() != Some(Ordering::Greater) {
-            return None;
-        }
-        t = (&t - &slope.over(&bend)?).middle();
-        let inside = t.sign() == Some(Ordering::Greater) && t.plus(-1.0).sign() == Some(Ordering::Less);
-        if !inside {
-            return None;
-        }
-    }
-    Some(t)
-}
-
-/// Splits at `t`: the coefficients on `[0, t]` and on `[t, 1]`.
-fn split(c: &Quintic<Interval>, t: &Interval) -> (Quintic<Interval>, Quintic<Interval>) {
-    let (mut left, mut right) = (c.clone(), c.clone());
-    for step in 1..6 {
-        left[step - 1] = right[0].clone();
-        for i in 0..6 - step {
-            right[i] = &right[i] + &(t * &(&right[i + 1] - &right[i]));
-        }
-    }
-    left[5] = right[0].clone();
-    (left, right)
-}
-
-/// Value, first and second derivative at `t` (de Casteljau).
-fn at(c: &Quintic<Interval>, t: &Interval) -> [Interval; 3] {
-    let mut row: Vec<Interval> = c.to_vec();
-    let (mut slope, mut bend) = (row[0].clone(), row[0].clone());
-    while row.len() > 1 {
-        match row.len() {
-            3 => bend = (&(&row[2] - &row[1]) - &(&row[1] - &row[0])).scale(20.0),
-            2 => slope = (&row[1] - &row[0]).scale(5.0),
-            _ => {}
-        }
-        row = row.windows(2).map(|w| &w[0] + &(t * &(&w[1] - &w[0]))).collect();
-    }
-    [row[0].clone(), slope, bend]
+    Some(least_interval(&scaled))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::steps::counted;
 
     fn value(c: &Quintic<f64>, t: f64) -> f64 {
         let mut row = c.to_vec();
@@ -313,14 +298,73 @@ mod tests {
         }
     }
 
+    /// `((v - su)² + height s²u²)(u + v)³` has its dip at v/u = s, or at 1/s with the ends exchanged.
+    #[test]
+    fn halvings_do_not_grow_with_the_distance_of_scales() {
+        for exponent in [0, 3, 40, 900, 5000] {
+            for (height, verdict) in [(1e-6, true), (-1e-6, false)] {
+                let bits = 256;
+                let s = Interval::power_of_two(-exponent, bits);
+                let dip = [s.square().scale(1.0 + height), s.scale(-2.0), Interval::new(1.0, bits)];
+                let mut form: Quintic<Interval> = std::array::from_fn(|_| Interval::new(0.0, bits));
+                for (i, d) in dip.iter().enumerate() {
+                    for (j, binomial) in [1.0, 3.0, 3.0, 1.0].into_iter().enumerate() {
+                        form[i + j] = &form[i + j] + &d.scale(binomial);
+                    }
+                }
+                let binomials = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0].map(|x| Interval::new(x, bits));
+                let c: Quintic<Interval> = std::array::from_fn(|i| form[i].over(&binomials[i]).expect("not 0"));
+                let mut back = c.clone();
+                back.reverse();
+                for c in [c, back] {
+                    assert_eq!(positive(&c, 0.0, 0.0, 16), Some(verdict), "2^-{exponent}, {height}");
+                }
+            }
+        }
+    }
+
+    /// Its least value is less than that at an end by what no double next to the end's value can tell.
+    #[test]
+    fn a_least_value_just_inside_an_end_is_found() {
+        for offset in [1e-7, 1e-9, 1e-18, 1e-40] {
+            let bits = 512;
+            let number = |x: f64| Interval::new(x, bits);
+            let z = number(offset);
+            // (t - z)², raised to degree 5.
+            let b = [z.square(), &z.square() - &z, z.plus(-1.0).square()];
+            let raise = |i: f64| {
+                let sum = &b[0].scale((5.0 - i) * (4.0 - i)) + &b[1].scale(2.0 * i * (5.0 - i));
+                (&sum + &b[2].scale(i * (i - 1.0))).over(&number(20.0)).expect("20 is not 0")
+            };
+            let c = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(raise);
+            let mut back = c.clone();
+            back.reverse();
+            for c in [c, back] {
+                let (steps, least) = counted(|| least_interval(&c));
+                assert!(steps < 600, "{offset}: {steps} steps");
+                assert!(least.sign() != Some(Ordering::Greater) && least.size().upper().approx() < 1e-60, "{offset}: {least:?}");
+            }
+        }
+    }
+
+    /// No halving tells numbers apart that their intervals do not.
+    #[test]
+    fn wide_coefficients_are_not_halved_for_ever() {
+        for z in [0.0, 0.3, 1.0] {
+            let blurred = |v: f64| Interval::new(v - 1e-9, 128).union(&Interval::new(v + 1e-9, 128));
+            let (steps, least) = counted(|| least_interval(&parabola(z, 0.25).map(blurred)));
+            assert!(steps < 200 && (least.approx() - 0.25).abs() < 1e-7, "{z}: {steps} steps, {least:?}");
+        }
+    }
+
     #[test]
     fn least_values_agree_in_doubles_and_intervals() {
         for z in [0.0, 0.1, 0.5, 0.7654321, 1.0] {
             for height in [1.0, 1e-6, 0.0, -0.25] {
                 let c = parabola(z, height);
-                let (least, t) = least(&c);
+                let (least, _) = least(&c);
                 assert!((least - height).abs() <= least_error(&c, 1e-15), "{z} {height}: {least}");
-                let exact = least_interval(&c.map(|v| Interval::new(v, 192)), t).expect("enough bits");
+                let exact = least_interval(&c.map(|v| Interval::new(v, 192)));
                 assert!((exact.approx() - least).abs() <= least_error(&c, 0.0), "{z} {height}");
             }
         }

@@ -15,7 +15,7 @@ pub use form::{Form, Quadratic};
 pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
 pub use words::told;
-pub use ziv::climb;
+pub use ziv::{FIRST_BITS, climb};
 
 /// `lo (hi / lo)^(i / (count - 1))`, the ends exact; the same doubles on every machine.
 pub(crate) fn log_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {

@@ -12,6 +12,8 @@
 //! - `path/separation.rs` bounds by speeds and by accelerations. By speeds alone, two vehicles in step need `1/tolerance` stretches; with both, its square root.
 //!   Errors of a point are those of its arc length, since a chord is no longer than its arc. Time is cut where one starts or arrives: on a stretch each
 //!   stands or moves.
+//! - `path/way.rs` knows where a vehicle is after a length. The quadrature for kinds without a formula is cut into cells by a proved bound, not until two
+//!   values agree, so its error is proved too.
 //! - `path/tridiagonal.rs` is our own 60 lines: the linear algebra crates bring dense matrices and no complex banded solver; a closed loop is a change of rank one.
 //! - `path/plan/`: obstacles are their sides in an R-tree (`rstar`), and sight is a distance from them; no polygon is grown, united or clipped. So touching and
 //!   overlapping obstacles are no special case, and nothing is degenerate where a path runs along a wall.
@@ -35,6 +37,7 @@ mod queue;
 mod separation;
 mod spline;
 mod tridiagonal;
+mod way;
 
 pub use corner::Turn;
 pub use course::{Course, OffsetCurve, Spot, Summary};

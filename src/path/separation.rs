@@ -1,20 +1,24 @@
 //! How near two vehicles come that travel along their paths at constant speeds: proved, not sampled.
 //!
-//! On a stretch of time with half-width h around a moment with the separation `r` and the relative velocity `v`, the separation stays above
-//! both `|r| - L h`, `L = V1 + V2`, and `min |r + vτ| - K h²/2`, `K = V1² κ1 + V2² κ2` with bounds of the curvatures. Stretches are halved,
-//! the one with the least bound first, until the least separation is enclosed and the verdict certain. Where both move in step the
-//! second bound needs far fewer stretches than the first.
+//! On a stretch of time with half-width h around a moment with the separation `r` and the relative velocity `v`, the
+//! separation stays above both `|r| - L h`, `L = V1 + V2`, and `min |r + vτ| - K h²/2`, `K = V1² κ1 + V2² κ2` with
+//! bounds of the curvatures. Stretches are halved, the one with the least bound first, until the least separation is
+//! enclosed and the verdict certain. Where both move in step the second bound needs far fewer stretches than the first.
 
 use super::queue::Queue;
-use super::{ROUNDINGS, check_joined, complex, distance, finite, mismatch};
-use crate::curve::PhQuintic;
+use super::way::{Reached, Way};
+use super::{Course, ROUNDINGS, distance, finite};
 use crate::error::{Error, Result};
+use crate::steps::step;
+use crate::transition::Piece;
 
 /// Stretches at most.
-const STRETCHES: usize = 400_000;
+const STRETCHES: usize = 100_000;
+/// Times, and lengths covered in them, are at most this.
+const LARGEST: f64 = 1e140;
 /// Stretches at first.
 const FIRST: usize = 64;
-/// Directions that differ by no more where spans join are a matter of rounding.
+/// Directions that differ by no more where pieces join are a matter of rounding.
 const SMOOTH: f64 = 1e-6;
 /// The least separation is enclosed to this share of the greatest length and coordinate, or as rounding allows.
 const TOLERANCE: f64 = 1e-10;
@@ -22,76 +26,96 @@ const TOLERANCE: f64 = 1e-10;
 /// A vehicle on its way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    spans: Vec<PhQuintic>,
-    /// Lengths up to the start of each span, and of all.
+    course: Course,
+    ways: Vec<Way>,
+    /// Lengths up to the start of each piece, and of all.
     lengths: Vec<f64>,
     speed: f64,
     start_time: f64,
-    /// Bound of its acceleration.
-    acceleration: f64,
-    /// Bound of what its direction changes by where spans join, all together.
+    /// Bound of its curvature; infinite for a path with corners.
+    curvature: f64,
+    /// Bound of what its direction changes by where pieces join, all together, and of the errors of directions.
     kinks: f64,
     /// Its length or its largest coordinate.
     extent: f64,
     /// Bound of its coordinates, lengths and legs.
     size: f64,
-    /// How far the end of a span is from where its pre-image leads.
+    /// Bound of what points, lengths and the gaps between pieces are off by.
     mismatch: f64,
 }
 
-/// The difference of the directions that two values of w give, the squares of their unit vectors.
-fn kink(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (a, b) = (complex(a), complex(b));
-    2.0 * ((a.conj() * b).im / a.norm() / b.norm()).abs() + ROUNDINGS
-}
-
-/// Where a vehicle is: point, velocity, bounds of their errors, and of speed and acceleration from standing or moving as then.
+/// Where a vehicle is: point, direction, bounds of their errors, and speed and curvature from standing or moving as
+/// then.
 struct State {
     point: [f64; 2],
-    velocity: [f64; 2],
+    tangent: [f64; 2],
     off: f64,
-    velocity_off: f64,
+    tangent_off: f64,
     speed: f64,
-    acceleration: f64,
+    curvature: f64,
 }
 
 impl Motion {
-    /// Along spans that join exactly, at a constant speed, from a time on.
+    /// Along pieces that join, at a constant speed, from a time on.
     ///
     /// # Errors
-    /// [`Error::Domain`] without a span, for a gap between spans, a path of no length, a speed not above 0, or a number not finite.
-    pub fn new(spans: Vec<PhQuintic>, speed: f64, start_time: f64) -> Result<Motion> {
+    /// [`Error::Domain`] without a piece, for an involute, for pieces that [`Course::new`] refuses, a path of no
+    /// length, a speed not above 0, or a number not finite.
+    pub fn new<P: Into<Piece>>(pieces: impl IntoIterator<Item = P>, speed: f64, start_time: f64) -> Result<Motion> {
         let fail = |what: String| Err(Error::Domain(format!("motion: {what}")));
         finite("motion", "speed", &[speed])?;
         finite("motion", "start_time", &[start_time])?;
         if speed <= 0.0 {
             return fail(format!("`speed` is {speed:?}; it must be above 0"));
         }
-        check_joined("motion", &spans)?;
+        let course = Course::new(pieces.into_iter().map(Into::into).collect())?;
+        let way = |(i, piece)| Way::new(piece).map_err(|e| Error::Domain(format!("pieces[{i}] {e}")));
+        let ways = course.pieces().iter().enumerate().map(way).collect::<Result<Vec<Way>>>()?;
         let mut lengths = vec![0.0];
-        for span in &spans {
-            lengths.push(lengths[lengths.len() - 1] + span.length());
+        for way in &ways {
+            lengths.push(lengths[lengths.len() - 1] + way.length);
         }
         let length = lengths[lengths.len() - 1];
         if !(length > 0.0 && length.is_finite()) {
             return fail(format!("its path is {length:?} long; it must have a length"));
         }
-        let kinks: f64 = spans.windows(2).map(|w| kink(w[0].preimage[2], w[1].preimage[0])).sum();
+        let most = |of: fn(&Way) -> f64| ways.iter().map(of).fold(0.0, f64::max);
+        let direction_off = most(|way| way.direction_off);
+        // The difference of unit tangents, each of which may be off by what the place is.
+        let kink = |w: &[Way]| {
+            let [end, start] = [w[0].after(w[0].length), w[1].after(0.0)];
+            let off = |way: &Way, at: &Reached| way.curvature * (at.missed + ROUNDINGS * way.sizes[1]);
+            distance(end.tangent, start.tangent) + ROUNDINGS + off(&w[0], &end) + off(&w[1], &start)
+        };
+        let kinks = ways.windows(2).map(kink).sum::<f64>();
         // A corner has no curvature; the bound by speeds alone still holds there.
         let smooth = kinks <= SMOOTH;
-        let curvature = spans.iter().map(|s| s.curvature_bound(5)).fold(0.0, f64::max);
-        let acceleration = if smooth { speed * speed * curvature } else { f64::INFINITY };
-        let far = spans.iter().flat_map(|s| s.control_points()).flatten().fold(0.0f64, |far, x| far.max(x.abs()));
-        // Coefficients of lengths are at most the sum of |w|², and so are legs.
-        let sizes = |s: &PhQuintic| s.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
-        let size = far + length + spans.iter().map(sizes).fold(0.0, f64::max);
-        let mismatch = spans.iter().map(mismatch).fold(0.0, f64::max);
-        Ok(Motion { spans, lengths, speed, start_time, acceleration, kinks, extent: far.max(length), size, mismatch })
+        let curvature = if smooth { most(|way| way.curvature) } else { f64::INFINITY };
+        let far = most(|way| way.sizes[0]);
+        let gaps: f64 = course.pieces().windows(2).map(|w| distance(w[0].end(), w[1].start())).sum();
+        // Points may jump where pieces join, and once more within a piece.
+        let mismatch = gaps + ways.iter().map(|way| 2.0 * way.mismatch + way.length_off).sum::<f64>();
+        // Each kink lies between two directions.
+        let kinks = kinks + 2.0 * ways.len() as f64 * direction_off;
+        let size = far + length + most(|way| way.sizes[1]);
+        let extent = far.max(length);
+        let motion = Motion { course, ways, lengths, speed, start_time, curvature, kinks, extent, size, mismatch };
+        let [start, end] = motion.times();
+        let told = speed * (start.abs() + end.abs());
+        // Written so that NaN is refused.
+        let fits = start < end && start.abs().max(end.abs()).max(told) <= LARGEST;
+        if !fits {
+            return fail(format!(
+                "its path of length {length:?} takes from time {start:?} to {end:?} at the `speed` {speed:?}; these must differ, and be at most \
+                 {LARGEST:e}, as must be what it would cover in them: change the unit of time"
+            ));
+        }
+        Ok(motion)
     }
 
     /// Length of the path.
     pub fn length(&self) -> f64 {
-        self.lengths[self.spans.len()]
+        self.lengths[self.ways.len()]
     }
 
     /// When it starts and arrives.
@@ -100,8 +124,8 @@ impl Motion {
     }
 
     /// Its path.
-    pub fn spans(&self) -> &[PhQuintic] {
-        &self.spans
+    pub fn course(&self) -> &Course {
+        &self.course
     }
 
     /// Where it is at a time: at the start before it starts, at the end once it has arrived.
@@ -113,28 +137,26 @@ impl Motion {
         let [start, end] = self.times();
         let under_way = time.clamp(start, end);
         let travelled = (self.speed * (time - self.start_time)).clamp(0.0, self.length());
-        let i = self.lengths.partition_point(|s| *s <= travelled).clamp(1, self.spans.len()) - 1;
-        let (span, local) = (&self.spans[i], travelled - self.lengths[i]);
-        let t = span.parameter_at(local);
-        // Along the path by what the parameter misses, and the roundings of lengths, times and points. Spans are summed up one by one.
-        let missed = (span.length_to(t) - local.min(span.length())).abs();
+        let i = self.lengths.partition_point(|s| *s <= travelled).clamp(1, self.ways.len()) - 1;
+        let Reached { point, tangent, missed } = self.ways[i].after(travelled - self.lengths[i]);
+        // Along the path by what the length misses, and the roundings of lengths, times and points. Pieces are summed
+        // up one by one.
         let off = missed
             + self.mismatch
             + ROUNDINGS * self.size
             + f64::EPSILON
-                * (self.spans.len() as f64 * self.length() + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
+                * (self.ways.len() as f64 * self.length() + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
         if time <= start || time >= end {
-            return State { point: span.point(t), velocity: [0.0; 2], off, velocity_off: 0.0, speed: 0.0, acceleration: 0.0 };
+            return State { point, tangent: [0.0; 2], off, tangent_off: 0.0, speed: 0.0, curvature: 0.0 };
         }
-        let tangent = span.tangent(t);
         let tangent = if tangent[0].is_finite() && tangent[1].is_finite() { tangent } else { [1.0, 0.0] };
         State {
-            point: span.point(t),
-            velocity: tangent.map(|x| x * self.speed),
+            point,
+            tangent,
             off,
-            velocity_off: self.acceleration / self.speed * off + (self.kinks + ROUNDINGS) * self.speed,
+            tangent_off: self.curvature * off + self.kinks + ROUNDINGS,
             speed: self.speed,
-            acceleration: self.acceleration,
+            curvature: self.curvature,
         }
     }
 }
@@ -178,8 +200,9 @@ pub struct Separation {
 /// At all times: before its start time a vehicle stands at its start, and once it has arrived at its end.
 ///
 /// # Accuracy
-/// [`Verdict::Kept`] and [`Verdict::Violated`] are proved for the curves given, roundings included. The least separation is enclosed to 1e-10 of the
-/// size of the scene (lengths and coordinates) where 400,000 stretches suffice; the enclosure holds in any case.
+/// [`Verdict::Kept`] and [`Verdict::Violated`] are proved for the curves given, roundings included. The least
+/// separation is enclosed to 1e-10 of the size of the scene (lengths and coordinates) where 100,000 stretches suffice;
+/// the enclosure holds in any case.
 ///
 /// # Errors
 /// [`Error::Domain`] for a minimum distance that is negative or not finite.
@@ -202,6 +225,7 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
     let tolerance = TOLERANCE * a.extent.max(b.extent);
     let mut at_least = 0.0;
     for _ in 0..STRETCHES {
+        step();
         let Some((bound, [from, to])) = search.waiting.pop() else { break };
         at_least = bound;
         let at_most = search.best.0;
@@ -258,19 +282,70 @@ impl Search<'_> {
         let [a, b] = self.look(middle);
         let off = a.off + b.off;
         let r = [a.point[0] - b.point[0], a.point[1] - b.point[1]];
-        let v = [a.velocity[0] - b.velocity[0], a.velocity[1] - b.velocity[1]];
-        let by_speed = distance(a.point, b.point) - (a.speed + b.speed) * half;
-        let bend = 0.5 * (a.acceleration + b.acceleration) * half * half;
-        let by_curvature = nearest(r, v, half) - bend - (a.velocity_off + b.velocity_off) * half;
+        // What they cover until the end of the stretch.
+        let (along_a, along_b) = (a.speed * half, b.speed * half);
+        let v = [0, 1].map(|i| a.tangent[i] * along_a - b.tangent[i] * along_b);
+        let by_speed = r[0].hypot(r[1]) - (along_a + along_b);
+        // No squares of a speed or a time: they may leave the range of doubles.
+        let bend = |s: &State, along: f64| (0.5 * (s.curvature * along) + s.tangent_off) * along;
+        let by_curvature = nearest(r, v) - bend(&a, along_a) - bend(&b, along_b);
         let bound = if by_curvature > by_speed { by_curvature } else { by_speed };
         // Distances and bounds themselves round, by less than the roundings in `off`.
         self.waiting.push((bound - 2.0 * off).max(0.0), [from, to]);
     }
 }
 
-/// The least `|r + vτ|` for `|τ| <= half`.
-fn nearest(r: [f64; 2], v: [f64; 2], half: f64) -> f64 {
-    let square = v[0] * v[0] + v[1] * v[1];
-    let tau = if square > 0.0 { (-(r[0] * v[0] + r[1] * v[1]) / square).clamp(-half, half) } else { 0.0 };
-    (r[0] + v[0] * tau).hypot(r[1] + v[1] * tau)
+/// The least `|r + vτ|` for `|τ| <= 1`.
+fn nearest(r: [f64; 2], v: [f64; 2]) -> f64 {
+    let far = v[0].hypot(v[1]);
+    if far == 0.0 {
+        return r[0].hypot(r[1]);
+    }
+    let unit = v.map(|x| x / far);
+    let along = (-(r[0] * unit[0] + r[1] * unit[1])).clamp(-far, far);
+    (r[0] + unit[0] * along).hypot(r[1] + unit[1] * along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::{CubicBezier, PhQuintic};
+    use crate::steps::counted;
+    use crate::transition::{Arc, Cubic, Line};
+
+    fn cubic(p: [[f64; 2]; 4]) -> Piece {
+        let legs = std::array::from_fn(|i| [0, 1].map(|k| p[i + 1][k] - p[i][k]));
+        Piece::Cubic(Cubic { points: CubicBezier { p }, legs })
+    }
+
+    /// Curves that coincide, touch, move in step or stand still, and a path of 20,000 pieces: a bounded number of stretches, and of steps of
+    /// Newton's method in each of its two moments.
+    #[test]
+    fn every_question_ends() {
+        let shape = |up: f64| cubic([[0.0, up], [1.0, up], [2.0, 1.0 + up], [3.0, 1.0 + up]]);
+        let arc = |length: f64| Piece::Arc(Arc { start: [0.0; 2], start_direction: 0.0, curvature: 1.0, length });
+        let line = |from: f64, to: f64| Piece::Line(Line { start: [from, 0.0], end: [to, 0.0] });
+        let still = cubic([[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [1.0, 0.0]]);
+        let many: Vec<Piece> = (0..20_000).map(|i| line(f64::from(i), f64::from(i + 1))).collect();
+        let quintic: Piece = PhQuintic::new([0.0; 2], [[1.0, 0.0], [0.0, 0.0], [0.0, 1.0]]).into();
+        let pairs = [
+            (vec![shape(0.0)], vec![shape(0.0)]),
+            (vec![shape(0.0)], vec![shape(1e-9)]),
+            (vec![shape(0.0)], vec![shape(0.1)]),
+            (vec![arc(1e6)], vec![arc(1e9)]),
+            (vec![arc(3.0)], vec![line(-1.0, 1.0)]),
+            (vec![still], vec![line(0.5, 2.0)]),
+            (vec![quintic], vec![shape(0.0)]),
+            (many.clone(), vec![line(2e4, 0.0)]),
+            (many.clone(), many),
+        ];
+        for (one, two) in pairs {
+            let [a, b] = [&one, &two].map(|pieces| Motion::new(pieces.iter().cloned(), 1.0, 0.0).unwrap());
+            for minimum in [0.0, 1e-300, 1e-9, 0.1, 1e300] {
+                let (steps, found) = counted(|| separation(&a, &b, minimum).unwrap());
+                assert!(steps <= 13 * STRETCHES + 10_000, "{steps} {minimum:e} {found:?}");
+                assert!(found.closest.at_least <= found.closest.at_most, "{found:?}");
+            }
+        }
+    }
 }

@@ -90,10 +90,17 @@ pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
 fn check(figure: &CurveFigure) -> Result<()> {
     let fail = |what: String| Err(Error::Domain(format!("curve figure: {what}")));
     let finite = |points: &[Point]| points.iter().flatten().all(|v| v.is_finite());
-    let lists = [("curve", &figure.curve), ("curvature", &figure.curvature.points), ("derivative", &figure.derivative.points)];
+    let lists = [
+        ("curve", &figure.curve),
+        ("curvature", &figure.curvature.points),
+        ("derivative of the curvature", &figure.derivative.points),
+    ];
     for (name, points) in lists {
-        if points.len() < 2 || !finite(points) {
-            return fail(format!("`{name}` has {} points; it must have at least 2, all finite", points.len()));
+        if points.len() < 2 {
+            return fail(format!("`{name}` has {} points; it must have at least 2", points.len()));
+        }
+        if !finite(points) {
+            return fail(format!("the {name} leaves the range of doubles somewhere, so it cannot be drawn"));
         }
     }
     for graph in [&figure.curvature, &figure.derivative] {

@@ -2,8 +2,8 @@
 
 use super::placement::Ends;
 use crate::curve::vector::{Vector, add, turn};
-use crate::error::Result;
-use crate::family::any_spiral::{Spiral, involute};
+use crate::error::{Error, Result};
+use crate::family::any_spiral::{GREATEST, Spiral, involute};
 use serde::Serialize;
 
 /// [`involute`] for ends anywhere in the plane, with what places the result there.
@@ -12,6 +12,13 @@ use serde::Serialize;
 /// Those of [`involute`], and [`crate::Error::Domain`] for coincident ends or lengths outside the range of doubles.
 pub fn involute_between(ends: &Ends, turns: [u32; 2]) -> Result<(Spiral, Frame)> {
     let (chord, half_chord) = ends.chord()?;
+    for (which, k) in [("start", chord.k1), ("end", chord.k2)] {
+        if k.abs() > GREATEST {
+            return Err(Error::Domain(format!(
+                "the {which} curvature times half the chord is {k:?}; for an involute it must be at most {GREATEST:?} in magnitude"
+            )));
+        }
+    }
     Ok((involute(&chord, turns)?, Frame { start: ends.start, end: ends.end, half_chord }))
 }
 

@@ -23,6 +23,7 @@
 
 mod cubic;
 mod figure;
+mod fit;
 mod involute;
 pub mod join;
 mod none;
@@ -39,6 +40,7 @@ mod words;
 
 pub use cubic::{Answer, Outcome, Solution, spiral};
 pub use figure::{EndCircle, Figure, Sample};
+pub use fit::{Fit, fit};
 pub use involute::{Frame, involute_between};
 pub use none::{Bound, Need, NoSpiral};
 pub use ph_quintic::{PhAnswer, PhOutcome, PhSolution, ph_spiral};

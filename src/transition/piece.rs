@@ -64,6 +64,12 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// The kind of a name.
+    pub fn by_name(name: &str) -> Option<Kind> {
+        use Kind::*;
+        [Cubic, PhQuintic, TrigQuintic, Involute, Line, Arc].into_iter().find(|kind| kind.name() == name)
+    }
+
     /// Its name, as in JSON.
     pub fn name(self) -> &'static str {
         match self {
@@ -162,6 +168,25 @@ pub struct Arc {
     pub length: f64,
 }
 
+impl Cubic {
+    /// Point and derivatives at t.
+    pub fn jet(&self, t: f64) -> Jet {
+        Jet { point: self.points.point(t), ..of_legs(&self.legs, t) }
+    }
+}
+
+impl From<PhQuintic> for Piece {
+    fn from(curve: PhQuintic) -> Piece {
+        Piece::PhQuintic(curve)
+    }
+}
+
+impl From<Line> for Piece {
+    fn from(line: Line) -> Piece {
+        Piece::Line(line)
+    }
+}
+
 impl Arc {
     /// The vector from the start after a length, and the direction there: by the chord, which needs no centre.
     fn after(&self, s: f64) -> (Vector, f64) {
@@ -247,10 +272,7 @@ impl Piece {
     /// What is known at a parameter of [`Piece::range`]. Points at the ends are exact.
     pub fn at(&self, t: f64) -> At {
         match self {
-            Piece::Cubic(Cubic { points, legs }) => {
-                let jet = of_legs(legs, t);
-                at(&Jet { point: points.point(t), ..jet })
-            }
+            Piece::Cubic(cubic) => at(&cubic.jet(t)),
             Piece::PhQuintic(curve) => {
                 let [x, y] = curve.tangent(t);
                 At { point: curve.point(t), heading: y.atan2(x), curvature: curve.curvature(t), speed: curve.speed(t) }

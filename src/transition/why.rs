@@ -184,7 +184,7 @@ impl fmt::Display for Why {
             }
             Why::Straight { which } => write!(
                 f,
-                "the {which} curvature is 0, and the curves of this family bend at both ends; a small curvature may come as close as you like"
+                "the {which} curvature is 0, and the curves of this family bend at both ends, in the direction in which they turn"
             ),
             Why::Inflection { which, curvature, turn } => write!(
                 f,

@@ -8,6 +8,7 @@ mod answers;
 mod cells;
 mod curve_output;
 mod curves;
+mod export;
 mod failures;
 mod files;
 #[cfg(feature = "gpu")]

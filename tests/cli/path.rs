@@ -211,10 +211,14 @@ fn every_kind_of_piece_is_measured() {
     let sample = piped(&["measure", "-", "--samples", "2"], still).json()["paths"][0]["samples"][0].clone();
     assert_eq!(sample, json!({"station": 0.0, "x": 0.0, "y": 0.0, "heading": null, "curvature": null}));
     assert!(piped(&["measure", "-", "--samples", "2", "--csv"], still).out.contains("\n0,0.0,0.0,0.0,,\n"));
-    // Separation has proofs for some kinds alone.
+    // Separation has proofs for all kinds but one.
     let said = piped(&["separation", "-", "--minimum", "0.1"], KINDS);
-    let parts = ["paths[0]: pieces[0] is of the kind `cubic`", "`ph-quintic` and `line`", "path spline"];
+    let parts = ["paths[3]: pieces[0] is of the kind `involute`", "takes all other kinds", "path spline"];
     assert!(said.code == Some(2) && parts.iter().all(|part| said.err.contains(part)), "{}", said.err);
+    let mut others = given.clone();
+    others["paths"].as_array_mut().unwrap().remove(3);
+    let said = piped(&["separation", "-", "--minimum", "0.1"], &others.to_string());
+    assert!(said.code == Some(1) && said.json()["pairs"].as_array().unwrap().len() == 6, "{}", said.out);
     let lines = r#"{"paths": [{"pieces": [{"kind": "line", "start": [0, 0], "end": [3, 4]}]},
         {"pieces": [{"kind": "line", "start": [0, 1], "end": [3, 5]}]}]}"#;
     let said = piped(&["separation", "-", "--minimum", "0.999"], lines);

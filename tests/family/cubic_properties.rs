@@ -201,3 +201,17 @@ fn a_reversed_spiral_is_noticed() {
     let (falls, rises) = Legs([[e, -f], [c, -d], [a, -b]]).falls_and_rises(error, 1_000);
     assert!(falls > 900 && rises == 0, "mirrored and reversed: {falls} falls, {rises} rises");
 }
+
+/// At a small first angle and an obtuse second one the spiral polynomial is least within that angle of an end.
+#[test]
+fn margins_least_just_inside_an_end_are_decided() {
+    for phi0 in [1e-6, 1e-8, 1e-10, 1e-30, 1e-100] {
+        for (phi1, kappa0, kappa1) in [(2.0, 1e-4, 0.7), (1.58, 0.1, 0.7), (2.5, 1e-3, 3.0)] {
+            let datum = Datum { phi0, phi1, kappa0: kappa0 * phi0, kappa1 };
+            let found = solve(&datum).unwrap_or_else(|error| panic!("{error}"));
+            for root in found.roots() {
+                assert!(!root.spiral && root.margin < 0.0, "{datum:?}: {root:?}");
+            }
+        }
+    }
+}

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room of `src/` with the rooms that it may import.
-const ROOMS: [(&str, &[&str]); 16] = [
+const ROOMS: [(&str, &[&str]); 17] = [
     ("error", &[]),
     ("steps", &[]),
     ("files", &["error"]),
@@ -23,10 +23,12 @@ const ROOMS: [(&str, &[&str]); 16] = [
     ("cells", &["atlas", "family", "grid", "files", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
     ("path", &["transition", "family", "curve", "num", "steps", "error"]),
+    ("export", &["path", "transition", "curve", "error"]),
     ("picture", &["cells", "atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
     (
         "cli",
         &[
+            "export",
             "picture",
             "path",
             "transition",

@@ -2,7 +2,7 @@
 
 use super::*;
 use spiral_atlas::curve::{EqualLength, equal_length};
-use spiral_atlas::path::{Motion, Separation, Verdict, separation, separations, spline};
+use spiral_atlas::path::{Closest, Motion, Separation, Verdict, separation, separations, spline};
 
 fn line(from: [f64; 2], to: [f64; 2]) -> Vec<PhQuintic> {
     spline(&[from, to], false).unwrap().spans
@@ -49,19 +49,24 @@ fn published_closest_approaches() {
     }
 }
 
-/// Where a curve is after a length, by a fine polygon on its Bézier form.
-struct Polygon(Vec<(f64, [f64; 2])>);
+/// Where a curve is after a length, by a fine polygon.
+pub struct Polygon(Vec<(f64, [f64; 2])>);
+
+/// Points of a part of a path in between, both ends included.
+const FINE: i32 = 4000;
 
 impl Polygon {
+    /// On the Bézier form.
     fn new(spans: &[PhQuintic]) -> Polygon {
+        Polygon::through(spans.iter().flat_map(|span| (0..=FINE).map(|i| bezier(span, f64::from(i) / f64::from(FINE)).point)))
+    }
+
+    pub fn through(points: impl IntoIterator<Item = [f64; 2]>) -> Polygon {
         let (mut all, mut length) = (vec![], 0.0);
-        for span in spans {
-            for i in 0..=4000 {
-                let p = bezier(span, f64::from(i) / 4000.0).point;
-                let last = all.last().map_or(p, |(_, p): &(f64, [f64; 2])| *p);
-                length += (p[0] - last[0]).hypot(p[1] - last[1]);
-                all.push((length, p));
-            }
+        for p in points {
+            let last = all.last().map_or(p, |(_, p): &(f64, [f64; 2])| *p);
+            length += (p[0] - last[0]).hypot(p[1] - last[1]);
+            all.push((length, p));
         }
         Polygon(all)
     }
@@ -72,6 +77,25 @@ impl Polygon {
         let share = if s1 > s0 { ((s - s0) / (s1 - s0)).clamp(0.0, 1.0) } else { 0.0 };
         [p0[0] + share * (p1[0] - p0[0]), p0[1] + share * (p1[1] - p0[1])]
     }
+}
+
+/// The closest approach, which samples confirm; one starts at time 0.
+pub fn sampled([a, b]: [&Motion; 2], [p, q]: [&Polygon; 2], [v1, v2, t2]: [f64; 3]) -> Closest {
+    // Before its start and after its arrival a polygon stays at its ends.
+    let events = [a.times(), b.times()].concat();
+    let (from, to) = (events[0].min(events[2]), events[1].max(events[3]));
+    let gap = |t: f64| {
+        let (p, q) = (p.at(v1 * t), q.at(v2 * (t - t2)));
+        (p[0] - q[0]).hypot(p[1] - q[1])
+    };
+    let n = 20_000;
+    let least = (0..=n).map(|k| gap(from + (to - from) * f64::from(k) / f64::from(n))).fold(f64::INFINITY, f64::min);
+    let found = separation(a, b, 0.0).unwrap();
+    let closest = found.closest;
+    // Samples lie `2 (to - from) / n` apart at worst; the polygon is short by 1e-6 or so.
+    assert!(closest.at_least <= least + 2e-5 && least <= closest.at_most + 1e-3, "{least} {closest:?}");
+    assert!(closest.at_most - closest.at_least <= 1e-8 && (gap(closest.time) - closest.at_most).abs() < 2e-5, "{closest:?}");
+    closest
 }
 
 #[test]
@@ -86,21 +110,8 @@ fn random_motions_agree_with_dense_sampling() {
         let (one, two) = (spans(), spans());
         let (v1, v2, t2) = (1.0 + 0.5 * noise.next(), 1.0 + 0.5 * noise.next(), 0.1 * noise.next());
         let (a, b) = (Motion::new(one.clone(), v1, 0.0).unwrap(), Motion::new(two.clone(), v2, t2).unwrap());
-        let (p, q) = (Polygon::new(&one), Polygon::new(&two));
-        // Before its start and after its arrival a polygon stays at its ends.
+        let closest = sampled([&a, &b], [&Polygon::new(&one), &Polygon::new(&two)], [v1, v2, t2]);
         let events = [a.times(), b.times()].concat();
-        let (from, to) = (events[0].min(events[2]), events[1].max(events[3]));
-        let gap = |t: f64| {
-            let (p, q) = (p.at(v1 * t), q.at(v2 * (t - t2)));
-            (p[0] - q[0]).hypot(p[1] - q[1])
-        };
-        let n = 20_000;
-        let least = (0..=n).map(|k| gap(from + (to - from) * f64::from(k) / f64::from(n))).fold(f64::INFINITY, f64::min);
-        let found = separation(&a, &b, 0.0).unwrap();
-        let closest = found.closest;
-        // Samples lie `2 (to - from) / n` apart at worst; the polygon is short by 1e-6 or so.
-        assert!(closest.at_least <= least + 2e-5 && least <= closest.at_most + 1e-3, "{least} {closest:?}");
-        assert!(closest.at_most - closest.at_least <= 1e-8 && (gap(closest.time) - closest.at_most).abs() < 2e-5, "{closest:?}");
         ends += usize::from(events.contains(&closest.time));
     }
     assert!(ends > 2 && ends < 35);
@@ -207,9 +218,13 @@ fn motions_that_make_no_sense_are_named() {
     says(fine(), -1.0, 0.0, &["`speed` is -1.0"]);
     says(fine(), f64::NAN, 0.0, &["`speed`", "NaN"]);
     says(fine(), 1.0, f64::INFINITY, &["`start_time`", "inf"]);
-    says(vec![], 1.0, 0.0, &["0.0 long"]);
-    says(vec![PhQuintic::new([0.0, 0.0], [[0.0; 2]; 3])], 1.0, 0.0, &["0.0 long"]);
-    says([fine(), line([1.0, 1e-9], [2.0, 0.0])].concat(), 1.0, 0.0, &["span 0 ends at [1.0, 0.0]", "[1.0, 1e-9]"]);
+    says(vec![], 1.0, 0.0, &["`pieces` is empty"]);
+    says(vec![PhQuintic::new([0.0, 0.0], [[0.0; 2]; 3])], 1.0, 0.0, &["pieces[0] is 0.0 long", "change the unit of length"]);
+    says([fine(), line([1.0, 1e-9], [2.0, 0.0])].concat(), 1.0, 0.0, &["pieces[0] ends at [1.0, 0.0]", "[1.0, 1e-9]"]);
+    // It is never under way, or no number says when it arrives.
+    says(fine(), 1.0, 1e200, &["from time 1e200 to 1e200", "change the unit of time"]);
+    says(fine(), 1e-200, 0.0, &["to 1e200", "`speed` 1e-200"]);
+    says(fine(), 1e-320, 0.0, &["to inf"]);
     let a = Motion::new(fine(), 1.0, 0.0).unwrap();
     assert!(separation(&a, &a, -1.0).unwrap_err().to_string().contains("`minimum` is -1.0"));
     assert!(separation(&a, &a, f64::NAN).is_err());

@@ -1,7 +1,7 @@
 //! Atlas files as objects with NumPy arrays over the mapped memory.
 
 use crate::error::raise;
-use numpy::ndarray::{ArrayView, IxDyn};
+use numpy::ndarray::{ArrayView, CowArray, Ix2, IxDyn};
 use numpy::{AllowTypeChange, Element, IntoPyArray, PyArray, PyArrayLike2};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -33,6 +33,11 @@ fn view<'py, T: Element>(owner: &Bound<'py, Atlas>, shape: &[usize], values: &[T
     let array = unsafe { PyArray::borrow_from_array(&array, owner.clone().into_any()) }.into_any();
     array.call_method("setflags", (), Some(&[("write", false)].into_py_dict(owner.py())?))?;
     Ok(array)
+}
+
+/// Rows as slices, of an array as it lies in memory (`as_standard_layout` copies one that has strides).
+pub fn rows<'a>(points: &'a CowArray<'_, f64, Ix2>, axes: usize) -> impl Iterator<Item = &'a [f64]> {
+    points.as_slice().unwrap_or_default().chunks_exact(axes)
 }
 
 impl Atlas {
@@ -151,16 +156,18 @@ impl Atlas {
             let what = format!("the points have {} columns; the atlas has {axes} axes", points.ncols());
             return Err(PyValueError::new_err(what));
         }
+        let points = points.as_standard_layout();
         let (nodes, flags, solutions) = py.detach(|| {
-            let rows = points.nrows();
-            let (mut nodes, mut flags, mut solutions) = (vec![-1i64; rows], vec![0u8; rows], vec![0u8; rows]);
-            // A row may have strides.
-            let mut point = vec![0.0; axes];
-            for (i, row) in points.outer_iter().enumerate() {
-                point.iter_mut().zip(row).for_each(|(p, x)| *p = *x);
-                if let Some((node, entry)) = self.0.nearest(&point) {
-                    (nodes[i], flags[i], solutions[i]) = (node as i64, entry.flags, entry.solutions);
-                }
+            let n = points.nrows();
+            let (mut nodes, mut flags, mut solutions) = (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
+            for point in rows(&points, axes) {
+                let (node, flag, count) = match self.0.nearest(point) {
+                    Some((node, entry)) => (node as i64, entry.flags, entry.solutions),
+                    None => (-1, 0, 0),
+                };
+                nodes.push(node);
+                flags.push(flag);
+                solutions.push(count);
             }
             (nodes, flags, solutions)
         });

@@ -1,5 +1,6 @@
 //! Certified cells: verdicts at every point of a box.
 
+use crate::atlas::rows;
 use crate::error::{raise, raise_row};
 use numpy::ndarray::ArrayView2;
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike2};
@@ -86,14 +87,8 @@ impl Cells {
         let points = points.as_array();
         let axes = self.columns(&points)?;
         let (inside, outside): (Vec<u8>, Vec<u8>) = py.detach(|| {
-            // A row may have strides.
-            let mut point = vec![0.0; axes];
-            let mut known = |row: numpy::ndarray::ArrayView1<'_, f64>| {
-                point.iter_mut().zip(row).for_each(|(p, x)| *p = *x);
-                let known = self.0.lookup(&point).unwrap_or_default();
-                (known.inside, known.outside)
-            };
-            points.outer_iter().map(&mut known).unzip()
+            let known = |point| self.0.lookup(point).unwrap_or_default();
+            rows(&points.as_standard_layout(), axes).map(known).map(|known| (known.inside, known.outside)).unzip()
         });
         Ok((inside.into_pyarray(py), outside.into_pyarray(py)))
     }
@@ -115,12 +110,8 @@ impl Cells {
         let points = points.as_array();
         let axes = self.columns(&points)?;
         let held: Result<Vec<u8>, _> = py.detach(|| {
-            let mut point = vec![0.0; axes];
-            let mut held = |(i, row): (usize, numpy::ndarray::ArrayView1<'_, f64>)| {
-                point.iter_mut().zip(row).for_each(|(p, x)| *p = *x);
-                self.0.verdict(&point, flags).map_err(|e| (i, e))
-            };
-            points.outer_iter().enumerate().map(&mut held).collect()
+            let truth = |(i, point)| self.0.verdict(point, flags).map_err(|e| (i, e));
+            rows(&points.as_standard_layout(), axes).enumerate().map(truth).collect()
         });
         held.map(|held| held.into_pyarray(py)).map_err(|(row, error)| raise_row(py, row, error))
     }

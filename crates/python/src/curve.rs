@@ -5,10 +5,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyImportError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use spiral_atlas::family::any_spiral::InvoluteOutcome;
-use spiral_atlas::transition::{
-    Ends, InvoluteBetween, Outcome, PhOutcome, Piece, Station, direction_of, involute_between, ph_spiral, spiral, stations,
-};
+use spiral_atlas::transition::{self, Ends, Kind, Piece, Station, direction_of, stations};
 
 /// A curve between two points, in your own unit of length. Made by `fit` and `Curve.from_dict`.
 #[pyclass(frozen, eq, module = "spiral_atlas")]
@@ -211,54 +208,13 @@ pub fn fit(
 ) -> PyResult<Fit> {
     let (start_direction, end_direction) = (start_direction.angle()?, end_direction.angle()?);
     let ends = Ends { start, end, start_direction, end_direction, start_curvature, end_curvature };
-    let longest = longest.unwrap_or(f64::INFINITY);
-    if longest.is_nan() || longest <= 0.0 {
-        return Err(PyValueError::new_err(format!("longest is {longest}; it must be above 0")));
-    }
-    let (pieces, spirals, chosen) = py.detach(|| find(&ends, family, longest))?;
-    let solutions: Vec<Py<Curve>> = pieces.into_iter().map(|p| Py::new(py, Curve(p))).collect::<PyResult<_>>()?;
-    let (curve, reason) = match chosen {
+    let kind = Kind::by_name(family)
+        .ok_or_else(|| PyValueError::new_err(format!("the family is `{family}`; it must be cubic, ph-quintic or involute")))?;
+    let found = py.detach(|| transition::fit(&ends, kind, longest.unwrap_or(f64::INFINITY))).map_err(raise)?;
+    let solutions: Vec<Py<Curve>> = found.solutions.into_iter().map(|p| Py::new(py, Curve(p))).collect::<PyResult<_>>()?;
+    let (curve, reason) = match found.outcome {
         Ok(i) => (solutions.get(i).map(|curve| curve.clone_ref(py)), None),
         Err(why) => (None, Some(why)),
     };
-    Ok(Fit { curve, solutions, spirals, reason })
-}
-
-/// All curves, which of them are spirals, and the chosen one or why there is none.
-type Found = (Vec<Piece>, Vec<bool>, Result<usize, String>);
-
-fn find(ends: &Ends, family: &str, longest: f64) -> PyResult<Found> {
-    match family {
-        "cubic" => {
-            let answer = spiral(ends).map_err(raise)?.no_longer_than(longest);
-            let chosen = match &answer.outcome {
-                Outcome::Chosen(i) => Ok(*i),
-                Outcome::Why(why) => Err(why.sentence("cubic spiral")),
-            };
-            let all = &answer.solutions;
-            Ok((all.iter().map(|s| s.piece()).collect(), all.iter().map(|s| s.spiral).collect(), chosen))
-        }
-        "ph-quintic" => {
-            let answer = ph_spiral(ends).map_err(raise)?.no_longer_than(longest);
-            let chosen = match &answer.outcome {
-                PhOutcome::Chosen(i) => Ok(*i),
-                PhOutcome::Why(why) => Err(why.sentence("PH quintic spiral")),
-            };
-            let all = &answer.solutions;
-            let pieces = all.iter().map(|s| Piece::PhQuintic(s.curve)).collect();
-            Ok((pieces, all.iter().map(|s| s.spiral).collect(), chosen))
-        }
-        "involute" => {
-            let (found, frame) = involute_between(ends, [0, 0]).map_err(raise)?;
-            if let InvoluteOutcome::None(why) = found.outcome {
-                return Ok((Vec::new(), Vec::new(), Err(format!("no spiral has these ends: {why}"))));
-            }
-            let pieces: Vec<Piece> = InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute).into_iter().collect();
-            let length: f64 = pieces.iter().map(Piece::length).sum();
-            let too_long = || format!("the spiral is {length:?} long, longer than {longest:?}");
-            let spirals = vec![true; pieces.len()];
-            Ok((pieces, spirals, if length <= longest { Ok(0) } else { Err(too_long()) }))
-        }
-        _ => Err(PyValueError::new_err(format!("the family is `{family}`; it must be cubic, ph-quintic or involute"))),
-    }
+    Ok(Fit { curve, solutions, spirals: found.spirals, reason })
 }

@@ -1,13 +1,12 @@
 //! Families, and the exact answers for one datum or many.
 
 use crate::error::{raise, raise_row};
-use numpy::ndarray::ArrayView2;
 use numpy::{AllowTypeChange, IntoPyArray, PyArrayLike2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
-use spiral_atlas::family::{self, Answer, Chart, Family, Value};
+use spiral_atlas::family::{self, Answer, Chart, Family, RowError, Value};
 use spiral_atlas::recipe::parse_coordinate;
 use std::num::NonZero;
 
@@ -193,41 +192,12 @@ pub fn solve_batch<'py>(
         ))
     })?;
     let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-    let (flags, counts) = py.detach(|| batch(family, chart, data, threads)).map_err(|(row, error)| raise_row(py, row, error))?;
+    // The rows as they lie in memory, or a copy of them where they have strides.
+    let rows = data.as_standard_layout();
+    let solve = || {
+        let codes = family::verdicts(family, chart, rows.as_slice().unwrap_or_default(), threads)?;
+        Ok::<(Vec<u8>, Vec<u8>), RowError>(codes.iter().map(|code| (code.flags(), code.counts())).unzip())
+    };
+    let (flags, counts) = py.detach(solve).map_err(|fault| raise_row(py, fault.row, fault.error))?;
     Ok((flags.into_pyarray(py).into_any(), counts.into_pyarray(py).into_any()))
-}
-
-type Fault = (usize, spiral_atlas::Error);
-
-/// Rows in runs of equal length, one for each thread.
-fn batch(
-    family: &'static dyn Family,
-    chart: usize,
-    data: ArrayView2<'_, f64>,
-    threads: usize,
-) -> Result<(Vec<u8>, Vec<u8>), Fault> {
-    let rows = data.nrows();
-    let (mut flags, mut counts) = (vec![0; rows], vec![0; rows]);
-    let run = rows.div_ceil(threads).max(1);
-    let outcomes: Vec<Result<(), Fault>> = std::thread::scope(|scope| {
-        let parts = flags.chunks_mut(run).zip(counts.chunks_mut(run)).enumerate();
-        let workers: Vec<_> = parts
-            .map(|(i, (flags, counts))| {
-                scope.spawn(move || {
-                    let mut point = Vec::with_capacity(data.ncols());
-                    for (j, (flag, count)) in flags.iter_mut().zip(counts).enumerate() {
-                        let row = i * run + j;
-                        point.clear();
-                        point.extend(data.row(row));
-                        let code = family::verdict(family, chart, &point).map_err(|e| (row, e))?;
-                        (*flag, *count) = (code.flags(), code.counts());
-                    }
-                    Ok(())
-                })
-            })
-            .collect();
-        workers.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
-    });
-    outcomes.into_iter().collect::<Result<(), _>>()?;
-    Ok((flags, counts))
 }

@@ -138,16 +138,19 @@ struct Others {
 
 impl Others {
     /// All families that join two ends by a spiral no longer than allowed, but for the one that was asked: each is asked too. One that
-    /// fails counts as none.
+    /// fails counts as none. Where no involute exists no spiral does, so that nobody is asked.
     fn new(ends: &Ends, wish: Wish) -> Others {
         let longest = wish.longest();
+        let found = involute::find(ends, [0, 0]);
+        if found.as_ref().is_ok_and(|found| found.spirals().is_err()) {
+            return Others::default();
+        }
         let short = |pieces: std::result::Result<Vec<Piece>, String>| {
             pieces.is_ok_and(|pieces| pieces.iter().map(Piece::length).sum::<f64>() <= longest)
         };
         let cubic = || spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
         let ph = || ph_spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
-        // Where no involute exists no spiral does.
-        let involute = || involute::find(ends, [0, 0]).is_ok_and(|found| short(found.spirals()));
+        let involute = || found.as_ref().is_ok_and(|found| short(found.spirals()));
         let all: [(Family, &dyn Fn() -> bool); 3] =
             [(Family::Cubic, &cubic), (Family::PhQuintic, &ph), (Family::Involute, &involute)];
         let families = all.into_iter().filter(|(family, has)| *family != wish.family && has()).map(|(family, _)| family.name());

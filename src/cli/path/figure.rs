@@ -4,7 +4,7 @@ use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::{Course, Motion, Plan, Scene};
 use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
-use spiral_atlas::transition::Station;
+use spiral_atlas::transition::{Piece, Station};
 use spiral_atlas::{Error, Result};
 
 const SIZE: (u32, u32) = (1500, 900);
@@ -22,6 +22,14 @@ fn steps(spans: usize) -> impl Iterator<Item = f64> + Clone {
 
 fn points(spans: &[PhQuintic]) -> Vec<[f64; 2]> {
     spans.iter().flat_map(|c| steps(spans.len()).map(|t| c.point(t))).collect()
+}
+
+fn pieces(all: &[Piece]) -> Line {
+    let point = |piece: &Piece, t: f64| {
+        let [from, to] = piece.range();
+        piece.at(from + t * (to - from)).point
+    };
+    all.iter().flat_map(|piece| steps(all.len()).map(move |t| point(piece, t))).collect()
 }
 
 /// A function of the arc length along spans.
@@ -118,7 +126,7 @@ pub fn separations(motions: &[Motion], minimum: f64, title: String) -> Result<Ve
     let figure = PathsFigure {
         title,
         note: format!("dots: starts; on the right a line for each pair; red: the minimum {minimum}"),
-        paths: motions.iter().map(|m| points(m.spans())).collect(),
+        paths: motions.iter().map(|m| pieces(m.course().pieces())).collect(),
         graph: Lines { across: "time".into(), up: "separation".into(), lines },
         level: Some(minimum),
         backdrop: None,

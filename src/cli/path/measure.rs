@@ -1,11 +1,10 @@
 //! `path measure`.
 
-use super::input::objects;
 use super::{Files, Outcome, figure};
 use crate::cli::output;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use spiral_atlas::path::{Course, OffsetCurve, Spot, Summary};
-use spiral_atlas::transition::{Piece, Station};
+use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 
 /// Tell of paths: points at equal steps of arc length, where the curvature is extreme and where it changes its sign, and offset curves.
@@ -33,18 +32,6 @@ pub struct Args {
     /// Distance of an offset curve, positive to the left.
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     offset: Option<f64>,
-}
-
-#[derive(Deserialize)]
-struct Input {
-    #[serde(deserialize_with = "objects")]
-    paths: Vec<Path>,
-}
-
-#[derive(Deserialize)]
-struct Path {
-    #[serde(deserialize_with = "objects")]
-    pieces: Vec<Piece>,
 }
 
 #[derive(Serialize)]
@@ -88,10 +75,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     if let Some(d) = args.offset.filter(|d| !d.is_finite()) {
         return Err(Error::Domain(format!("--offset is {d:?}; it must be a finite number")));
     }
-    let input: Input = args.files.read()?;
+    let courses = args.files.courses()?;
     let blame = |i: usize, e: Error| args.files.blame(Error::Domain(format!("paths[{i}]: {e}")));
-    let named = |(i, path): (usize, Path)| Course::new(path.pieces).map_err(|e| blame(i, e));
-    let courses = input.paths.into_iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
     let figure = || figure::measured(&courses, args.offset);
     if let Some(count) = args.samples.filter(|_| args.csv) {
         let samples = courses.iter().enumerate().map(|(i, course)| course.stations(count as usize).map_err(|e| blame(i, e)));

@@ -11,10 +11,12 @@ mod separation;
 mod spline;
 
 use super::{Outcome, output};
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
+use spiral_atlas::path::Course;
+use spiral_atlas::transition::Piece;
 use spiral_atlas::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -60,11 +62,53 @@ pub fn run(args: &Args) -> Result<Outcome> {
 /// Longest input in bytes: a million pieces have 200 MiB.
 const MAX_INPUT: u64 = 1 << 28;
 
+/// A file of paths.
+#[derive(clap::Args)]
+pub(super) struct Source {
+    /// JSON file, TOML file named .toml, or `-` for JSON from standard input.
+    input: PathBuf,
+}
+
+/// Given as all tools print them; other fields are left out of account.
+#[derive(Deserialize)]
+struct Given {
+    #[serde(deserialize_with = "input::objects")]
+    paths: Vec<GivenPath>,
+}
+
+#[derive(Deserialize)]
+struct GivenPath {
+    #[serde(deserialize_with = "input::objects")]
+    pieces: Vec<Piece>,
+}
+
+impl Source {
+    /// What stands in the input.
+    fn read<T: DeserializeOwned>(&self) -> Result<T> {
+        let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
+        input::parse(&text, has_extension(&self.input, "toml")).map_err(|e| self.blame(Error::Domain(e)))
+    }
+
+    /// The paths in the input.
+    pub fn courses(&self) -> Result<Vec<Course>> {
+        let named = |(i, path): (usize, GivenPath)| {
+            Course::new(path.pieces).map_err(|e| self.blame(Error::Domain(format!("paths[{i}]: {e}"))))
+        };
+        self.read::<Given>()?.paths.into_iter().enumerate().map(named).collect()
+    }
+
+    /// An error of what was read here.
+    pub fn blame(&self, error: Error) -> Error {
+        let name = if self.input == Path::new("-") { "standard input".into() } else { self.input.display().to_string() };
+        Error::Domain(format!("{name}: {error}"))
+    }
+}
+
 /// What a tool works on and where it draws.
 #[derive(clap::Args)]
 struct Files {
-    /// JSON file, TOML file named .toml, or `-` for JSON from standard input.
-    input: PathBuf,
+    #[command(flatten)]
+    source: Source,
     /// Draw what was found.
     #[arg(long, value_name = "FILE.png")]
     figure: Option<PathBuf>,
@@ -73,17 +117,27 @@ struct Files {
 impl Files {
     /// What stands in the input.
     fn read<T: DeserializeOwned>(&self) -> Result<T> {
+        self.check()?;
+        self.source.read()
+    }
+
+    /// Before any work, whether the figure can be what its name says.
+    fn check(&self) -> Result<()> {
         if let Some(path) = self.figure.as_ref().filter(|p| !has_extension(p, "png")) {
             return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
         }
-        let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
-        input::parse(&text, has_extension(&self.input, "toml")).map_err(|e| self.blame(Error::Domain(e)))
+        Ok(())
+    }
+
+    /// The paths in the input.
+    fn courses(&self) -> Result<Vec<Course>> {
+        self.check()?;
+        self.source.courses()
     }
 
     /// An error of what was read here.
     fn blame(&self, error: Error) -> Error {
-        let name = if self.input == Path::new("-") { "standard input".into() } else { self.input.display().to_string() };
-        Error::Domain(format!("{name}: {error}"))
+        self.source.blame(error)
     }
 
     /// Draws, if asked to, and prints.

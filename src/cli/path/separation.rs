@@ -3,16 +3,15 @@
 use super::input::objects;
 use super::{Files, Outcome, figure};
 use serde::{Deserialize, Serialize};
-use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::{Motion, Separation, Verdict, separations};
 use spiral_atlas::transition::Piece;
 use spiral_atlas::{Error, Result};
 
 /// Prove whether vehicles keep a minimum distance at all times, and tell how near they come.
 ///
-/// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools print it; pieces are of the kinds
-/// `ph-quintic` and `line`, and other fields are left out of account. `verdict` is `kept`, `violated` or `undecided`: within rounding of
-/// the minimum.
+/// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools and `curve --json` print it;
+/// pieces are of all kinds but `involute`, and other fields are left out of account. `verdict` is `kept`, `violated` or
+/// `undecided`: within rounding of the minimum.
 ///
 /// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit
 /// status is 0 for `kept`, 1 for `violated` and `undecided`.
@@ -64,25 +63,8 @@ struct Pair {
     found: Separation,
 }
 
-/// A piece as a PH quintic, which a line is, too.
-fn quintic(i: usize, piece: &Piece) -> Result<PhQuintic> {
-    match piece {
-        Piece::PhQuintic(curve) => Ok(*curve),
-        Piece::Line(line) => Ok(PhQuintic::straight(line.start, line.end)),
-        _ => Err(Error::Domain(format!(
-            "pieces[{i}] is of the kind `{}`; separation is proved for the kinds `ph-quintic` and `line` alone. \
-             Take points of the path with `path measure --samples`, and lay a path through them with `path spline`",
-            piece.kind().name()
-        ))),
-    }
-}
-
-fn motion(path: &Path) -> Result<Motion> {
-    if path.pieces.is_empty() {
-        return Err(Error::Domain("`pieces` is empty; a path has one at least".into()));
-    }
-    let quintics = path.pieces.iter().enumerate().map(|(i, piece)| quintic(i, piece)).collect::<Result<_>>()?;
-    Motion::new(quintics, path.speed, path.start_time)
+fn motion(path: Path) -> Result<Motion> {
+    Motion::new(path.pieces, path.speed, path.start_time)
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
@@ -91,8 +73,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     if input.paths.len() < 2 {
         return Err(blame(Error::Domain(format!("`paths` has {} paths; it takes two to be apart", input.paths.len()))));
     }
-    let named = |(i, path): (usize, &Path)| motion(path).map_err(|e| blame(Error::Domain(format!("paths[{i}]: {e}"))));
-    let motions = input.paths.iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
+    let named = |(i, path): (usize, Path)| motion(path).map_err(|e| blame(Error::Domain(format!("paths[{i}]: {e}"))));
+    let motions = input.paths.into_iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
     let found = separations(&motions, args.minimum)?;
     let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);
     let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);

@@ -24,7 +24,7 @@ mod shape;
 mod table;
 
 pub use bound::least_end_curvature;
-pub use involute::{Chord, Involute, InvolutePoint, Outcome as InvoluteOutcome, Spiral, Split, WhyNone, involute};
+pub use involute::{Chord, GREATEST, Involute, InvolutePoint, Outcome as InvoluteOutcome, Spiral, Split, WhyNone, involute};
 
 use super::{Answer, Chart, Code, Count, Family, Flag, Scalar, Table, coordinates, verdict};
 use crate::error::Result;

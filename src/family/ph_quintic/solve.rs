@@ -1,7 +1,7 @@
 //! The exact answer for one datum: all solutions, which are spirals, and their measures.
 
 use super::pair::Pair;
-use super::truth::{self, Margin, Measures, Truth, chosen, measure};
+use super::truth::{self, Measured, Measures, Truth, chosen, measure};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
@@ -114,7 +114,7 @@ pub fn flags(datum: &Datum) -> Result<u8> {
 }
 
 /// All numbers as accurate as [`solve`] promises, or `None`.
-fn described<N: Real + Margin>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
+fn described<N: Measured>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
     let truth = truth::solve(pair, [datum.kappa0, datum.kappa1])?;
     let best = chosen(pair, &truth.solutions)?;
     let mut all = Vec::new();
@@ -197,7 +197,7 @@ pub(super) fn exact_scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> 
     Ok(())
 }
 
-fn rounded<N: Real + Margin>(datum: &Datum, pair: &Pair<N>, which: &[usize]) -> Option<Vec<f32>> {
+fn rounded<N: Measured>(datum: &Datum, pair: &Pair<N>, which: &[usize]) -> Option<Vec<f32>> {
     let Truth { solutions, curves, .. } = truth::solve(pair, [datum.kappa0, datum.kappa1])?;
     let best = &solutions[chosen(pair, &solutions)??];
     let measures = measure(pair, &curves?, best)?;

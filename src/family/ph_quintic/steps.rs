@@ -1,7 +1,8 @@
 //! The work for one datum is bounded by its digits: its counted steps stay few near every case where the equations degenerate.
 //!
-//! A step is one knot, or one height that starts from logarithms. Brackets take some 60 knots at most, and solutions a dozen each; a few
-//! precisions are tried.
+//! A step is one knot, one height that starts from logarithms, or one piece of an energy, a margin or a sign. Brackets take some 60
+//! knots at most, and solutions a dozen each. The pieces are halved down to the sharpest bend, which data of doubles put as close to an end
+//! as 2^-1000. A few precisions are tried.
 
 use super::{Datum, flags, solve};
 use crate::error::Error;
@@ -43,7 +44,7 @@ fn few_steps_for_data_of_any_size() {
         }
     }
     println!("{answered} of {all} answered; most steps {most:?}");
-    assert!(most.0 < 400 && answered * 10 > all * 8, "{answered} of {all} answered; most steps {most:?}");
+    assert!(most.0 < 2000 && answered * 10 > all * 8, "{answered} of {all} answered; most steps {most:?}");
 }
 
 #[test]
@@ -60,5 +61,28 @@ fn few_steps_beside_the_limits_of_angles_and_curvatures() {
         }
     }
     println!("most steps {most:?}");
-    assert!(most.0 < 400, "{most:?}");
+    assert!(most.0 < 1000, "{most:?}");
+}
+
+/// The speed in the middle is far below that at the ends, and the f64 step hardly knows it.
+#[test]
+fn few_steps_where_tangents_all_but_run_against_each_other() {
+    let datum = Datum {
+        phi0: 0.00012305211208073135,
+        phi1: 3.141469601477712,
+        kappa0: 2.9725652171194206e-5,
+        kappa1: 0.000304662804446726,
+    };
+    let mut most = (0, None);
+    assert!(case(datum, &mut most) && most.0 < 1000, "{most:?}");
+}
+
+/// A circular arc of a small angle, in doubles: one solution is about to become three, the angle apart.
+#[test]
+fn steps_near_a_fork_grow_with_the_digits_of_the_distance() {
+    for (angle, bound) in [(1e-10, 1500), (1e-20, 3000), (1e-40, 8000)] {
+        let (steps, solved) = counted(|| solve(&Datum { phi0: angle, phi1: angle, kappa0: angle, kappa1: angle }));
+        let count = solved.expect("decided").all().len();
+        assert!(count == 3 && steps < bound, "{angle}: {count} solutions, {steps} steps");
+    }
 }

@@ -8,7 +8,7 @@ use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
 use crate::curve::energy;
 use crate::family::{Code, outer};
 use crate::num::bernstein::{MOST_HALVINGS, exact_margin, margin, positive};
-use crate::num::{Ball, Interval, Real};
+use crate::num::{Ball, FIRST_BITS, Interval, Real};
 
 /// A solution and whether its curvature rises throughout.
 #[derive(Debug, Clone)]
@@ -88,31 +88,47 @@ pub(super) struct Measures<N> {
     pub margin: N,
 }
 
-/// Numbers that have a margin.
-pub(super) trait Margin: Sized {
-    fn of_quintic(c: &[Self; 6]) -> Option<Self>;
+/// Numbers that have a margin and an energy.
+pub(super) trait Measured: Real {
+    fn margin(quintic: &[Self; 6]) -> Option<Self>;
+    /// `∫ h²/σ³`.
+    fn energy(speed: &[Self; 5], turn: &[Self; 3]) -> Option<Self>;
 }
 
-impl Margin for Ball {
-    fn of_quintic(c: &[Ball; 6]) -> Option<Ball> {
+impl Measured for Ball {
+    fn margin(c: &[Ball; 6]) -> Option<Ball> {
         let (value, error) = margin(&c.map(|b| b.value), c.iter().fold(0.0, |most, b| b.error.max(most)));
         Some(Ball { value, error })
     }
+    fn energy(speed: &[Ball; 5], turn: &[Ball; 3]) -> Option<Ball> {
+        energy(speed, turn)
+    }
 }
 
-impl Margin for Interval {
-    fn of_quintic(c: &[Interval; 6]) -> Option<Interval> {
+impl Measured for Interval {
+    fn margin(c: &[Interval; 6]) -> Option<Interval> {
         exact_margin(c)
+    }
+    /// At the first precision in doubles, where they find more digits than [`super::solve`] promises: a series of intervals costs a
+    /// hundred times as much. The f64 step seldom gets so far, because its solution is off by more than the roundings of the series.
+    fn energy(speed: &[Interval; 5], turn: &[Interval; 3]) -> Option<Interval> {
+        let bits = speed[0].bits();
+        let in_doubles = || {
+            let ball = energy(&speed.each_ref().map(Ball::around), &turn.each_ref().map(Ball::around))?;
+            (ball.error <= ball.value * 2f64.powi(-40)).then(|| ball.interval(bits))?
+        };
+        let fast = if bits <= FIRST_BITS { in_doubles() } else { None };
+        fast.or_else(|| energy(speed, turn))
     }
 }
 
 /// The energy alone.
-pub(super) fn energy_of<N: Real>(pair: &Pair<N>, solution: &Solution<N>) -> Option<N> {
-    energy(&solution.shape.speed, &solution.shape.turn)?.mul(&pair.sin).mul(&pair.sin).times(4.0).over(&solution.root.z)
+pub(super) fn energy_of<N: Measured>(pair: &Pair<N>, solution: &Solution<N>) -> Option<N> {
+    N::energy(&solution.shape.speed, &solution.shape.turn)?.mul(&pair.sin).mul(&pair.sin).times(4.0).over(&solution.root.z)
 }
 
 /// A, B, energy, length, margin.
-pub(super) fn measure<N: Real + Margin>(pair: &Pair<N>, curves: &Curves<N>, solution: &Solution<N>) -> Option<Measures<N>> {
+pub(super) fn measure<N: Measured>(pair: &Pair<N>, curves: &Curves<N>, solution: &Solution<N>) -> Option<Measures<N>> {
     let Root { t, z } = &solution.root;
     let a = z.sqrt()?;
     let [s0, s1, s2, s3, s4] = &solution.shape.speed;
@@ -120,12 +136,12 @@ pub(super) fn measure<N: Real + Margin>(pair: &Pair<N>, curves: &Curves<N>, solu
     let length = s0.add(s1).add(s2).add(s3).add(s4).mul(z).over(&fifth)?;
     Some(Measures {
         numbers: [a.times(curves.scale[0]), a.mul(t).times(curves.scale[1]), energy_of(pair, solution)?, length],
-        margin: N::of_quintic(&solution.shape.quintic())?,
+        margin: N::margin(&solution.shape.quintic())?,
     })
 }
 
 /// The spiral of least energy, as an index; `None` when two cannot be told apart.
-pub(super) fn chosen<N: Real>(pair: &Pair<N>, solutions: &[Solution<N>]) -> Option<Option<usize>> {
+pub(super) fn chosen<N: Measured>(pair: &Pair<N>, solutions: &[Solution<N>]) -> Option<Option<usize>> {
     let spirals: Vec<usize> = (0..solutions.len()).filter(|i| solutions[*i].spiral).collect();
     let (Some(first), true) = (spirals.first(), spirals.len() > 1) else { return Some(spirals.first().copied()) };
     let mut best = (*first, energy_of(pair, &solutions[*first])?);

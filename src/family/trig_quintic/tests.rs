@@ -2,7 +2,8 @@ use super::exact::{Shape, judge};
 use super::plain::{PRINTED_Q, end_slope, flags, printed_ratio};
 use super::threshold::{exact_least_ratio, least_ratio};
 use super::*;
-use crate::num::Interval;
+use crate::num::{Interval, climb};
+use crate::steps::counted;
 use std::cmp::Ordering::{Equal, Greater, Less};
 
 fn shape(ratio: f64, degrees: f64, m: f64, p: f64, q: f64) -> Shape {
@@ -59,4 +60,42 @@ fn a_tie_at_the_end_is_decided() {
     // κ'(1) = 0 exactly.
     let flags = judge(&shape(2.5, 42.0, 1.0, 0.0, 0.125), 128);
     assert_eq!(flags, Some(END_RISES));
+}
+
+/// All of them: ratio and m of any size, angles down to the least and up to the double below π/2, shape parameters up to both ends.
+#[test]
+fn every_shape_is_decided_in_few_halvings() {
+    const SIZES: [f64; 7] = [5e-324, 1e-160, 1e-20, 1.0, 6.0, 1e140, f64::MAX];
+    const THETAS: [f64; 4] = [5e-324, 1e-160, 0.7, std::f64::consts::FRAC_PI_2];
+    let pq = [(-4f64).next_up(), 0.0, 1.0];
+    let (mut most, mut most_bits) = ((0, None), 0);
+    for (i, ratio) in SIZES.into_iter().enumerate() {
+        for (j, m) in SIZES.into_iter().enumerate() {
+            for (k, theta) in THETAS.into_iter().enumerate() {
+                let shape = Shape { ratio, theta, m, p: pq[(i + k) % 3], q: pq[(j + k) % 3] };
+                let (steps, told) = counted(|| climb(&shape, "a verdict", |bits| judge(&shape, bits)));
+                let (_, bits) = told.unwrap_or_else(|e| panic!("{e}"));
+                most_bits = most_bits.max(bits);
+                if steps > most.0 {
+                    most = (steps, Some(shape));
+                }
+            }
+        }
+    }
+    assert!(most.0 < 400 && most_bits <= 1024, "{most_bits} bits, most halvings {most:?}");
+}
+
+#[test]
+fn thresholds_of_any_shape_are_decided_in_few_halvings() {
+    let (least, end) = ((-4f64).next_up(), std::f64::consts::FRAC_PI_2);
+    let (mut most, mut found) = (0, 0);
+    for m in [5e-324, 0.1, 1.0, 6.0, 1e3, 1e140] {
+        for (theta, p, q) in [(5e-324, 0.0, 0.0), (1e-9, 1.0, 1.0), (0.7, least, 1.0), (0.7, 1.0, least), (end, 0.5, 0.0)] {
+            let shape = Shape { ratio: 1.0, theta, m, p, q };
+            let (steps, threshold) = counted(|| exact_least_ratio(&shape));
+            found += usize::from(threshold.unwrap_or_else(|e| panic!("{e}")) != crate::family::NO_VALUE);
+            most = most.max(steps);
+        }
+    }
+    assert!(most < 1000 && found > 5, "{found} thresholds, most halvings {most}");
 }

@@ -224,7 +224,7 @@ impl Ends {
             b: b.to_f64()?,
             length: length.to_f64()?,
             energy: if (1e-4..1e4).contains(&(a.approx() / b.approx())) {
-                energy(&doubles(&turn), &doubles(&speed))
+                energy(&doubles(&turn), [&doubles(&u), &doubles(&v)])
             } else {
                 f64::NAN
             },
@@ -234,25 +234,27 @@ impl Ends {
     }
 }
 
-/// `∫ (2 turn)² / speed³` by Simpson's rule, halved until it stands still.
-fn energy(turn: &[f64], speed: &[f64]) -> f64 {
+/// `∫ (2 turn)² / |w|⁶` by Simpson's rule, halved until it stands still.
+///
+/// A piece is done when halving it changes its own part, which is positive, by less than 1e-10 of it. Roundings are far below that, even where
+/// w is small: its square is a sum of squares.
+fn energy(turn: &[f64], w: [&[f64]; 2]) -> f64 {
     let value = |c: &[f64], x: f64| c.iter().rev().fold(0.0, |sum, c| sum * x + c);
-    let f = |x: f64| 4.0 * value(turn, x).powi(2) / value(speed, x).powi(3);
-    fn refine(f: &dyn Fn(f64) -> f64, from: f64, to: f64, ends: [f64; 3], depth: u32, tolerance: f64) -> f64 {
+    let f = |x: f64| 4.0 * value(turn, x).powi(2) / w.iter().map(|c| value(c, x).powi(2)).sum::<f64>().powi(3);
+    fn refine(f: &dyn Fn(f64) -> f64, from: f64, to: f64, ends: [f64; 3], depth: u32) -> f64 {
         let middle = 0.5 * (from + to);
         let (left, right) = (f(0.5 * (from + middle)), f(0.5 * (middle + to)));
         let h = (to - from) / 12.0;
         let coarse = 2.0 * h * (ends[0] + 4.0 * ends[1] + ends[2]);
         let fine = h * (ends[0] + 4.0 * left + 2.0 * ends[1] + 4.0 * right + ends[2]);
-        if depth == 0 || (fine - coarse).abs() < tolerance {
+        // The first halvings see what a few points would miss.
+        if depth >= 40 || depth >= 8 && (fine - coarse).abs() <= fine * 1e-10 {
             return fine + (fine - coarse) / 15.0;
         }
-        let low = refine(f, from, middle, [ends[0], left, ends[1]], depth - 1, tolerance * 0.5);
-        low + refine(f, middle, to, [ends[1], right, ends[2]], depth - 1, tolerance * 0.5)
+        let low = refine(f, from, middle, [ends[0], left, ends[1]], depth + 1);
+        low + refine(f, middle, to, [ends[1], right, ends[2]], depth + 1)
     }
-    let ends = [f(0.0), f(0.5), f(1.0)];
-    let rough = refine(&f, 0.0, 1.0, ends, 12, 0.0);
-    refine(&f, 0.0, 1.0, ends, 40, rough.abs() * 1e-10)
+    refine(&f, 0.0, 1.0, [f(0.0), f(0.5), f(1.0)], 0)
 }
 
 fn determinant(rows: &[Vec<Poly>]) -> Poly {

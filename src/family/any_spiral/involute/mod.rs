@@ -30,6 +30,8 @@ use serde::Serialize;
 use std::f64::consts::PI;
 use std::fmt;
 
+/// Greatest curvature times half the chord.
+pub const GREATEST: f64 = 1e100;
 /// Most turns about one end.
 const MOST_TURNS: u32 = 1000;
 
@@ -126,8 +128,10 @@ pub fn involute(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
         }
     }
     for (name, k) in [("k1", chord.k1), ("k2", chord.k2)] {
-        if k.is_nan() || k.abs() > 1e100 {
-            return Err(Error::Domain(format!("{name} is {k:?}; it must be at most 1e100 in magnitude (times half the chord)")));
+        if k.is_nan() || k.abs() > GREATEST {
+            return Err(Error::Domain(format!(
+                "{name} is {k:?}; it must be at most {GREATEST:?} in magnitude (times half the chord)"
+            )));
         }
     }
     if let Some(n) = turns.iter().find(|n| **n > MOST_TURNS) {

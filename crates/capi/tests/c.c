@@ -1,0 +1,143 @@
+/* The C interface, from C: c ATLAS CELLS. Every call that can fail is seen to fail as well. */
+
+#include <math.h>
+#include <spiral_atlas.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CHECK(condition)                                                                            \
+    do {                                                                                            \
+        if (!(condition)) {                                                                         \
+            fprintf(stderr, "%s:%d: not so: %s; last error: %s\n", __FILE__, __LINE__, #condition, spiral_last_error()); \
+            exit(1);                                                                                \
+        }                                                                                           \
+    } while (0)
+
+static int says(const char *word) { return strstr(spiral_last_error(), word) != NULL; }
+
+static void atlases(const char *path) {
+    SpiralAtlas *atlas = NULL;
+    CHECK(spiral_atlas_open("/nowhere/none.safetensors", &atlas) == SPIRAL_IO && says("/nowhere/none") && atlas == NULL);
+    CHECK(spiral_atlas_open(NULL, &atlas) == SPIRAL_ARGUMENT && says("`path`"));
+    CHECK(spiral_atlas_open(path, NULL) == SPIRAL_ARGUMENT && says("`atlas`"));
+    CHECK(spiral_atlas_open(path, &atlas) == SPIRAL_OK);
+    CHECK(strcmp(spiral_atlas_family(atlas), "cubic") == 0 && spiral_atlas_axes(atlas) == 4);
+    const char *name = NULL;
+    const double *values = NULL;
+    size_t count = 0;
+    size_t nodes_in_all = 1;
+    double point[8] = {0};
+    for (size_t i = 0; i < 4; i++) {
+        CHECK(spiral_atlas_axis(atlas, i, &name, &values, &count) == SPIRAL_OK && count > 1);
+        point[i] = values[1];
+        nodes_in_all *= count;
+    }
+    CHECK(strcmp(name, "kappa1") == 0);
+    CHECK(spiral_atlas_axis(atlas, 4, &name, &values, &count) == SPIRAL_DOMAIN && says("axis 4"));
+    const uint8_t *all = NULL;
+    CHECK(spiral_atlas_data(atlas, &all, NULL, &count) == SPIRAL_OK && count == nodes_in_all);
+    uint8_t mask = 0;
+    CHECK(spiral_atlas_flag(atlas, "SPIRAL", &mask) == SPIRAL_OK && mask != 0);
+    CHECK(spiral_atlas_flag(atlas, "SPIRALS", &mask) == SPIRAL_DOMAIN && says("`SPIRALS`"));
+    CHECK(spiral_atlas_flag(atlas, "\xff", &mask) == SPIRAL_ARGUMENT && says("UTF-8"));
+    int64_t nodes[2];
+    uint8_t flags[2], solutions[2];
+    point[4] = 99;
+    CHECK(spiral_atlas_lookup(atlas, point, 2, nodes, flags, solutions) == SPIRAL_OK);
+    CHECK(nodes[0] > 0 && flags[0] == all[nodes[0]] && nodes[1] == -1 && flags[1] == 0 && solutions[1] == 0);
+    CHECK(spiral_atlas_lookup(atlas, point, 2, NULL, NULL, NULL) == SPIRAL_OK);
+    CHECK(spiral_atlas_lookup(atlas, NULL, 0, nodes, flags, solutions) == SPIRAL_OK);
+    CHECK(spiral_atlas_lookup(atlas, NULL, 1, nodes, flags, solutions) == SPIRAL_ARGUMENT && says("`points`"));
+    CHECK(spiral_atlas_lookup(atlas, point, SIZE_MAX, nodes, flags, solutions) == SPIRAL_ARGUMENT && says("memory"));
+    CHECK(spiral_atlas_lookup(NULL, point, 1, nodes, flags, solutions) == SPIRAL_ARGUMENT);
+    CHECK(spiral_atlas_check(atlas) == SPIRAL_OK);
+
+    /* The nodes are what the family says of them. */
+    uint8_t own_flags, own_solutions;
+    CHECK(spiral_solve_batch("cubic", NULL, point, 1, 0, &own_flags, &own_solutions) == SPIRAL_OK);
+    CHECK(own_flags == flags[0] && own_solutions == solutions[0]);
+    spiral_atlas_close(atlas);
+    spiral_atlas_close(NULL);
+}
+
+static void cells(const char *path) {
+    SpiralCells *cells = NULL;
+    SpiralAtlas *atlas = NULL;
+    CHECK(spiral_atlas_open(path, &atlas) == SPIRAL_FILE && says("cells"));
+    CHECK(spiral_cells_open(path, &cells) == SPIRAL_OK && spiral_cells_axes(cells) == 4);
+    uint8_t spiral = 0, inside[2], outside[2], holds[2], truth[2];
+    CHECK(spiral_cells_flag(cells, "SPIRAL", &spiral) == SPIRAL_OK);
+    double points[8] = {0.7, 1.3, 0.4, 4, 0.7, 1.3, 0.4, 400};
+    CHECK(spiral_cells_lookup(cells, points, 2, inside, outside) == SPIRAL_OK && inside[1] == 0 && outside[1] == 0);
+    CHECK(spiral_cells_verdict(cells, points, 2, 255, holds) == SPIRAL_OK);
+    CHECK(spiral_solve_batch("cubic", NULL, points, 2, 1, truth, NULL) == SPIRAL_OK);
+    CHECK(holds[0] == truth[0] && holds[1] == truth[1] && (inside[0] & ~truth[0]) == 0 && (outside[0] & truth[0]) == 0);
+    points[4] = NAN;
+    CHECK(spiral_cells_verdict(cells, points, 2, spiral, holds) == SPIRAL_DOMAIN && says("row 1") && says("phi0"));
+    spiral_cells_close(cells);
+    spiral_cells_close(NULL);
+}
+
+static void answers(void) {
+    SpiralAnswer *answer = NULL;
+    const double datum[4] = {0.7, 1.4, 0.4, 4};
+    CHECK(spiral_solve("cubics", NULL, datum, &answer) == SPIRAL_DOMAIN && says("`cubics`") && answer == NULL);
+    CHECK(spiral_solve("cubic", "flat", datum, &answer) == SPIRAL_DOMAIN && says("`flat`"));
+    CHECK(spiral_solve("cubic", NULL, datum, &answer) == SPIRAL_OK);
+    uint8_t flags = 0, mask = 0;
+    size_t count = 0;
+    int64_t chosen = -1;
+    CHECK(spiral_answer_verdict(answer, &flags, NULL, &count, &chosen) == SPIRAL_OK && count == 1 && chosen == 0);
+    CHECK(spiral_family_flag("cubic", "SPIRAL", &mask) == SPIRAL_OK && (flags & mask) != 0);
+    double f0 = 0;
+    CHECK(spiral_answer_number(answer, chosen, "f0", &f0) == SPIRAL_OK && fabs(f0 - 1.6601027476816781) < 1e-12);
+    CHECK(spiral_answer_number(answer, chosen, "f9", &f0) == SPIRAL_NONE && says("`f9`") && says("margin"));
+    CHECK(spiral_answer_number(answer, 7, "f0", &f0) == SPIRAL_DOMAIN && says("solution 7"));
+    double points[4][2];
+    CHECK(spiral_answer_points(answer, chosen, "control_points", points, 4, &count) == SPIRAL_OK && count == 4);
+    CHECK(points[0][0] == -1 && points[0][1] == 0 && points[3][0] == 1 && points[3][1] == 0);
+    spiral_answer_close(answer);
+    const double bad[4] = {0.7, 4.0, 0.4, 4};
+    CHECK(spiral_solve("cubic", NULL, bad, &answer) == SPIRAL_DOMAIN && says("phi"));
+}
+
+static void curves(void) {
+    const char *kinds[] = {"cubic", "ph-quintic", "involute"};
+    const SpiralEnd start = {0, 0, -0.7, 0.004}, end = {200, 0, 1.4, 0.04}, wrong = {0, 0, 0.7, 0.004};
+    SpiralCurve *curve = NULL;
+    for (size_t i = 0; i < 3; i++) {
+        CHECK(spiral_fit(&start, &end, kinds[i], INFINITY, &curve) == SPIRAL_OK);
+        CHECK(strcmp(spiral_curve_kind(curve), kinds[i]) == 0 && strstr(spiral_curve_json(curve), kinds[i]) != NULL);
+        SpiralStation stations[101];
+        CHECK(spiral_curve_stations(curve, stations, 101) == SPIRAL_OK);
+        CHECK(fabs(stations[100].station - spiral_curve_length(curve)) < 1e-9 && stations[100].x == 200);
+        CHECK(fabs(stations[0].curvature - 0.004) < 1e-9 && fabs(stations[100].heading - 1.4) < 1e-9);
+        for (size_t k = 1; k < 101; k++) CHECK(stations[k].curvature > stations[k - 1].curvature - 1e-12);
+        CHECK(spiral_curve_stations(curve, stations, 1) == SPIRAL_DOMAIN && spiral_curve_stations(curve, NULL, 5) == SPIRAL_ARGUMENT);
+        double points[6][2];
+        size_t count = 99;
+        CHECK(spiral_curve_control_points(curve, points, 6, &count) == SPIRAL_OK);
+        CHECK(count == (i == 0 ? 4u : i == 1 ? 6u : 0u));
+        spiral_curve_close(curve);
+        curve = NULL;
+        CHECK(spiral_fit(&wrong, &end, kinds[i], INFINITY, &curve) == SPIRAL_NONE && strlen(spiral_last_error()) > 20);
+        CHECK(spiral_fit(&start, &end, kinds[i], 200.0, &curve) == SPIRAL_NONE && curve == NULL);
+    }
+    CHECK(spiral_fit(&start, &end, NULL, INFINITY, &curve) == SPIRAL_OK);
+    spiral_curve_close(curve);
+    CHECK(spiral_fit(&start, &start, NULL, INFINITY, &curve) == SPIRAL_DOMAIN);
+    CHECK(spiral_fit(&start, &end, "clothoid", INFINITY, &curve) == SPIRAL_DOMAIN && says("clothoid"));
+    const SpiralEnd nan = {NAN, 0, -0.7, 0.004};
+    CHECK(spiral_fit(&nan, &end, NULL, INFINITY, &curve) == SPIRAL_DOMAIN && says("NaN"));
+}
+
+int main(int count, char **arguments) {
+    CHECK(count == 3 && strlen(spiral_version()) > 4 && strlen(spiral_last_error()) == 0);
+    atlases(arguments[1]);
+    cells(arguments[2]);
+    answers();
+    curves();
+    puts("C: all as it should be");
+    return 0;
+}

@@ -1,0 +1,89 @@
+// The C++ header, and one atlas and one file of cells read by several threads at once: cpp ATLAS CELLS.
+
+#include <spiral_atlas.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+namespace sa = spiral_atlas;
+
+#define CHECK(condition)                                                                  \
+    do {                                                                                  \
+        if (!(condition)) {                                                               \
+            std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition); \
+            std::exit(1);                                                                 \
+        }                                                                                 \
+    } while (0)
+
+template <typename Call> static void throws(SpiralStatus status, const std::string &word, Call call) {
+    try {
+        call();
+    } catch (const sa::Error &error) {
+        CHECK(error.status() == status && std::string(error.what()).find(word) != std::string::npos);
+        return;
+    }
+    std::fprintf(stderr, "no exception, but it should say %s\n", word.c_str());
+    std::exit(1);
+}
+
+/// Points that fill a box evenly, the same on every machine.
+static std::vector<double> points(std::size_t count) {
+    const double low[4] = {0.1, 0.2, 0.02, 1}, high[4] = {1.2, 1.4, 0.9, 90};
+    const double steps[4] = {0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101};
+    std::vector<double> all;
+    for (std::size_t i = 0; i < count; i++)
+        for (std::size_t j = 0; j < 4; j++) {
+            const double turns = static_cast<double>(i) * steps[j];
+            all.push_back(low[j] + (high[j] - low[j]) * (turns - std::floor(turns)));
+        }
+    return all;
+}
+
+int main(int, char **arguments) {
+    throws(SPIRAL_IO, "nowhere", [] { sa::Atlas("nowhere"); });
+    throws(SPIRAL_FILE, "cells", [&] { sa::Atlas{arguments[2]}; });
+    const sa::Atlas atlas(arguments[1]);
+    const sa::Cells cells(arguments[2]);
+    atlas.check();
+    CHECK(atlas.family() == "cubic" && atlas.axes() == 4 && atlas.axis_name(0) == "phi0" && atlas.axis(0).size() > 1);
+    CHECK(atlas.flags().size() == atlas.solutions().size() && atlas.flag("SPIRAL") == sa::flag("cubic", "SPIRAL"));
+    throws(SPIRAL_ARGUMENT, "3 numbers", [&] { atlas.lookup(std::vector<double>(3)); });
+
+    const std::vector<double> data = points(2000);
+    const auto truth = sa::solve_batch("cubic", data);
+    const auto found = atlas.lookup(data);
+    const auto known = cells.lookup(data);
+    const auto holds = cells.verdict(data);
+    for (std::size_t i = 0; i < 2000; i++) {
+        CHECK(found.nodes[i] < 0 || found.flags[i] == atlas.flags()[static_cast<std::size_t>(found.nodes[i])]);
+        CHECK(holds[i] == truth.flags[i] && (known.inside[i] & ~holds[i]) == 0 && (known.outside[i] & holds[i]) == 0);
+    }
+
+    // Each thread has an error of its own, and all read the same handles.
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; t++)
+        threads.emplace_back([&, t] {
+            const std::string name = "none" + std::to_string(t);
+            for (int round = 0; round < 50; round++) {
+                CHECK(atlas.lookup(data).flags == found.flags && cells.lookup(data).inside == known.inside);
+                throws(SPIRAL_DOMAIN, "`" + name + "`", [&] { atlas.flag(name); });
+            }
+            CHECK(cells.verdict(data) == holds && sa::solve_batch("cubic", data, 2).flags == truth.flags);
+        });
+    for (auto &thread : threads) thread.join();
+
+    const double datum[] = {0.7, 1.4, 0.4, 4};
+    const sa::Answer answer("cubic", datum);
+    CHECK(answer.chosen() && std::abs(answer.number(*answer.chosen(), "f0") - 1.6601027476816781) < 1e-12);
+    CHECK(answer.points(0, "control_points").size() == 4);
+    throws(SPIRAL_NONE, "`f9`", [&] { answer.number(0, "f9"); });
+
+    std::string reason;
+    const auto curve = sa::fit({0, 0, -0.7, 0.004}, {200, 0, 1.4, 0.04});
+    CHECK(curve && curve->kind() == "cubic" && curve->control_points().size() == 4 && curve->stations(11)[10].x == 200);
+    CHECK(!sa::fit({0, 0, 0.7, 0.004}, {200, 0, 1.4, 0.04}, "involute", 1e300, &reason) && !reason.empty());
+    throws(SPIRAL_DOMAIN, "NaN", [] { sa::fit({std::nan(""), 0, 0, 0}, {1, 0, 0, 0}); });
+    std::puts("C++: all as it should be");
+}

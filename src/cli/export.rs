@@ -1,0 +1,65 @@
+//! `export`: paths as files of other programs.
+
+use super::path::Source;
+use super::{Outcome, output};
+use spiral_atlas::Result;
+use spiral_atlas::export::{OpenDrive, opendrive};
+use spiral_atlas::files::write_file;
+use std::path::PathBuf;
+
+/// Write paths as files that other programs read.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  spiral-atlas curve --from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg \\\n      \
+                        --start-curvature 0.004 --end-curvature 0.04 --json | spiral-atlas export opendrive - --out road.xodr"
+)]
+pub struct Args {
+    #[command(subcommand)]
+    format: Format,
+}
+
+#[derive(clap::Subcommand)]
+enum Format {
+    Opendrive(RoadArgs),
+}
+
+/// ASAM OpenDRIVE 1.7: a road for each path, whose reference line the path is, with one driving lane to the right.
+///
+/// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve --json` and the tools of `path` print it.
+///
+/// Lines, arcs and cubic curves are exact. PH quintics are fitted by cubics, no further away than the tolerance; how many, how well, and how
+/// much the curvature differs at joints is told on standard error. Involutes and trigonometric curves are refused.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  spiral-atlas export opendrive path.json --lane-width 3.75 --out road.xodr")]
+struct RoadArgs {
+    #[command(flatten)]
+    source: Source,
+    /// Width of the lane in metres.
+    #[arg(long, value_name = "METRES", default_value_t = 3.5)]
+    lane_width: f64,
+    /// How far a fitted curve may be from the true one, in metres.
+    #[arg(long, value_name = "METRES", default_value_t = 0.001)]
+    tolerance: f64,
+    /// Where the file goes; standard output unless given.
+    #[arg(long, value_name = "FILE.xodr")]
+    out: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Outcome> {
+    let Format::Opendrive(args) = &args.format;
+    let options = OpenDrive { lane_width: args.lane_width, tolerance: args.tolerance };
+    let paths = args.source.courses()?;
+    let (text, fit) = opendrive(&paths, &options).map_err(|e| args.source.blame(e))?;
+    match &args.out {
+        Some(path) => write_file(path, text.as_bytes())?,
+        None => output::print(&text)?,
+    }
+    if fit.curves > 0 {
+        output::note(&format!(
+            "{} PH quintics are {} cubics now, no further away than {:.1e} m; curvature at joints differs by at most {:.1e} / m",
+            fit.curves, fit.cubics, fit.error, fit.curvature
+        ));
+    }
+    Ok(Outcome::Fine)
+}

@@ -1,0 +1,5 @@
+//! Paths as files that other programs read.
+
+mod opendrive;
+
+pub use opendrive::{Fit, OpenDrive, opendrive};

@@ -1,0 +1,113 @@
+//! One question for all families: the spiral between two ends in the user's units, or why there is none.
+
+use super::{Ends, InvoluteBetween, Kind, NoSpiral, Outcome, PhOutcome, Piece, involute_between, ph_spiral, spiral};
+use crate::error::{Error, Result};
+use crate::family::any_spiral::InvoluteOutcome;
+
+/// What [`fit`] found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// Every curve of the kind with these ends, spirals or not.
+    pub solutions: Vec<Piece>,
+    /// Which of them are spirals, proved.
+    pub spirals: Vec<bool>,
+    /// The index of the chosen spiral, or in a sentence why there is none.
+    pub outcome: std::result::Result<usize, String>,
+}
+
+impl Fit {
+    /// The chosen spiral.
+    pub fn curve(&self) -> Option<&Piece> {
+        self.outcome.as_ref().ok().map(|i| &self.solutions[*i])
+    }
+}
+
+/// The curves of one kind between two ends, and the chosen spiral among them.
+///
+/// # Arguments
+/// - `kind`: [`Kind::Cubic`], of several spirals the one with the largest margin; [`Kind::PhQuintic`], that of least
+///   bending energy; or [`Kind::Involute`], the image of an involute of a circle, which exists whenever any spiral does.
+/// - `longest`: a spiral longer than this counts as none; infinity for no limit.
+///
+/// # Errors
+/// [`Error::Domain`] for another kind, a limit that is not above 0, and what [`spiral`], [`ph_spiral`] and
+/// [`involute_between`] refuse; [`Error::Undecided`] at the precision cap. That there is no spiral is no error.
+pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
+    if longest.is_nan() || longest <= 0.0 {
+        return Err(Error::Domain(format!("the greatest length is {longest:?}; it must be above 0")));
+    }
+    match kind {
+        Kind::Cubic => {
+            let answer = spiral(ends)?.no_longer_than(longest);
+            Ok(Fit {
+                solutions: answer.solutions.iter().map(|s| s.piece()).collect(),
+                spirals: answer.solutions.iter().map(|s| s.spiral).collect(),
+                outcome: match answer.outcome {
+                    Outcome::Chosen(i) => Ok(i),
+                    Outcome::Why(why) => Err(why.sentence("cubic spiral")),
+                },
+            })
+        }
+        Kind::PhQuintic => {
+            let answer = ph_spiral(ends)?.no_longer_than(longest);
+            Ok(Fit {
+                solutions: answer.solutions.iter().map(|s| Piece::PhQuintic(s.curve)).collect(),
+                spirals: answer.solutions.iter().map(|s| s.spiral).collect(),
+                outcome: match answer.outcome {
+                    PhOutcome::Chosen(i) => Ok(i),
+                    PhOutcome::Why(why) => Err(why.sentence("PH quintic spiral")),
+                },
+            })
+        }
+        Kind::Involute => {
+            let (found, frame) = involute_between(ends, [0, 0])?;
+            let solutions: Vec<Piece> = InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute).into_iter().collect();
+            let length: f64 = solutions.iter().map(Piece::length).sum();
+            let outcome = match found.outcome {
+                InvoluteOutcome::Curve { .. } if length <= longest => Ok(0),
+                InvoluteOutcome::Curve { .. } => Err(format!("the spiral is {length:?} long, longer than {longest:?}")),
+                // In the user's units; within rounding of a boundary, in those of the chord's frame.
+                InvoluteOutcome::None(why) => {
+                    let why = NoSpiral::of(ends)?.map_or_else(|| why.to_string(), |why| why.to_string());
+                    Err(format!("no spiral of any kind joins these ends: {why}"))
+                }
+            };
+            Ok(Fit { spirals: vec![true; solutions.len()], solutions, outcome })
+        }
+        _ => Err(Error::Domain(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ENDS: Ends = Ends {
+        start: [0.0, 0.0],
+        end: [200.0, 0.0],
+        start_direction: -0.7,
+        end_direction: 1.4,
+        start_curvature: 0.004,
+        end_curvature: 0.04,
+    };
+
+    #[test]
+    fn each_kind_has_its_spiral_or_a_reason() {
+        for kind in [Kind::Cubic, Kind::PhQuintic, Kind::Involute] {
+            let found = fit(&ENDS, kind, f64::INFINITY).unwrap();
+            let curve = found.curve().unwrap_or_else(|| panic!("{kind:?}: {:?}", found.outcome));
+            assert!(curve.kind() == kind && (curve.start(), curve.end()) == (ENDS.start, ENDS.end));
+            assert!(found.spirals.len() == found.solutions.len() && found.spirals[found.outcome.clone().unwrap()]);
+            let shorter = fit(&ENDS, kind, 0.999 * curve.length()).unwrap();
+            assert!(shorter.outcome.unwrap_err().contains("long"), "{kind:?}");
+            let none = fit(&Ends { start_direction: 0.7, ..ENDS }, kind, f64::INFINITY).unwrap();
+            assert!(none.curve().is_none() && none.outcome.unwrap_err().len() > 20);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_asked_is_refused() {
+        assert!(fit(&ENDS, Kind::Arc, 1.0).unwrap_err().to_string().contains("`arc`"));
+        assert!(fit(&ENDS, Kind::Cubic, f64::NAN).unwrap_err().to_string().contains("NaN"));
+    }
+}

@@ -1,0 +1,46 @@
+//! Paths as files of other programs. What stands in the files is judged by `tests/opendrive`.
+
+use super::{Folder, fine, run};
+
+const ROAD: &str = r#"{"paths": [{"pieces": [
+    {"kind": "line", "start": [0, 0], "end": [30, 0]},
+    {"kind": "arc", "start": [30, 0], "direction": 0, "curvature": 0.02, "length": 40}
+]}]}"#;
+
+#[test]
+fn a_road_goes_to_a_file_or_to_standard_output() {
+    let folder = Folder::new("");
+    std::fs::write(folder.at("road.json"), ROAD).unwrap();
+    let (input, out) = (folder.text("road.json"), folder.text("road.xodr"));
+    let printed = fine(["export", "opendrive", &input]);
+    assert!(printed.out.contains(r#"<arc curvature="0.02"/>"#) && printed.out.contains(r#"length="70.0""#), "{}", printed.out);
+    assert!(printed.err.is_empty(), "{}", printed.err);
+    let silent = fine(["export", "opendrive", &input, "--out", &out]);
+    assert!(silent.out.is_empty() && std::fs::read_to_string(out).unwrap() == printed.out);
+}
+
+#[test]
+fn what_no_road_can_be_is_refused_and_leaves_no_file() {
+    let folder = Folder::new("");
+    let (input, out) = (folder.text("road.json"), folder.text("road.xodr"));
+    let options = ["curve", "--from", "0,0", "--to", "200,0", "--start-direction=-40deg", "--end-direction", "80deg"];
+    let curvatures = ["--start-curvature", "0.004", "--end-curvature", "0.04", "--json", "--family"];
+    let curve = |family: &str| fine(options.iter().chain(&curvatures).copied().chain([family])).out;
+    let none = r#"{"paths": []}"#.to_owned();
+    let still = r#"{"paths": [{"pieces": [{"kind": "cubic", "control_points": [[0, 0], [0, 0], [1, 1], [2, 0]]}]}]}"#.to_owned();
+    let cases: [(String, &[&str], &[&str]); 6] = [
+        (curve("involute"), &[], &["pieces[0]", "`involute`", "ph-quintic"]),
+        (curve("ph-quintic"), &["--tolerance", "1e-300"], &["tolerance", "2000"]),
+        (ROAD.into(), &["--lane-width", "NaN"], &["lane width", "NaN"]),
+        (ROAD.into(), &["--tolerance", "0"], &["tolerance", "0.0"]),
+        (none, &[], &["no path"]),
+        (still, &[], &["pieces[0]", "direction"]),
+    ];
+    for (text, more, words) in cases {
+        std::fs::write(folder.at("road.json"), &text).unwrap();
+        let said = run(["export", "opendrive", &input, "--out", &out].iter().chain(more));
+        assert_eq!(said.code, Some(2), "{text} {more:?}");
+        assert!(words.iter().all(|word| said.err.contains(word)), "{more:?}: {}", said.err);
+        assert!(!folder.at("road.xodr").exists());
+    }
+}
