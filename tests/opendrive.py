@@ -33,9 +33,9 @@ def curve(options):
 LINE_ARC = json.dumps({"paths": [
     {"pieces": [
         {"kind": "line", "start": [10, -5], "end": [40, 35]},
-        {"kind": "arc", "start": [40, 35], "start_direction": math.atan2(4, 3), "curvature": 0.02, "length": 40},
+        {"kind": "arc", "start": [40, 35], "direction": math.atan2(4, 3), "curvature": 0.02, "length": 40},
     ]},
-    {"pieces": [{"kind": "arc", "start": [0, 0], "start_direction": 3, "curvature": -0.005, "length": 300}]},
+    {"pieces": [{"kind": "arc", "start": [0, 0], "direction": 3, "curvature": -0.005, "length": 300}]},
 ]})
 CASES = {
     "line-arc": LINE_ARC,

@@ -12,6 +12,7 @@ mod draw;
 mod export;
 mod generate;
 mod info;
+mod join;
 mod output;
 mod path;
 mod points;
@@ -53,6 +54,7 @@ enum Command {
     Adapters(adapters::Args),
     Query(query::Args),
     Curve(Box<curve::Args>),
+    Join(Box<join::Args>),
     Path(path::Args),
     Export(export::Args),
     /// Print shell completions.
@@ -86,6 +88,7 @@ pub fn main() -> ExitCode {
         Command::Adapters(args) => adapters::run(&args),
         Command::Query(args) => query::run(&args),
         Command::Curve(args) => curve::run(&args),
+        Command::Join(args) => join::run(&args),
         Command::Path(args) => path::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Completions { shell } => completions(shell),

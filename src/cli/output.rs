@@ -4,6 +4,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
 use spiral_atlas::files::size;
 pub use spiral_atlas::picture::{angle, grouped};
+use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -35,6 +36,13 @@ pub fn to_json(value: &impl Serialize) -> Result<String> {
 /// A value as part of a larger JSON text.
 pub fn to_value(value: &impl Serialize) -> Result<serde_json::Value> {
     serde_json::to_value(value).map_err(json_error)
+}
+
+/// Samples with their header.
+pub fn table(samples: &[Station], comma: &str) -> String {
+    let row = |s: &Station| s.numbers().map(|x| format!("{x:?}")).join(comma);
+    let lines = std::iter::once(Station::COLUMNS.join(comma)).chain(samples.iter().map(row));
+    lines.map(|line| line + "\n").collect()
 }
 
 /// The failure of writing JSON; none is known.

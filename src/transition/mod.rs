@@ -25,6 +25,7 @@ mod cubic;
 mod figure;
 mod fit;
 mod involute;
+pub mod join;
 mod none;
 mod ph_quintic;
 mod piece;

@@ -130,6 +130,11 @@ impl InvoluteBetween {
         Some(InvoluteBetween { ends: *ends, turns: found.turns, curve: found.curve()?.clone(), frame: *frame })
     }
 
+    /// What it joins.
+    pub fn ends(&self) -> &Ends {
+        &self.ends
+    }
+
     /// Its parameter where a share, from 0 to 1, of its length is behind.
     pub fn parameter_at(&self, share: f64) -> f64 {
         self.curve.at_length(share).f
@@ -256,7 +261,8 @@ impl Piece {
     /// As [`Piece::length`].
     pub fn length_to(&self, t: f64) -> f64 {
         match self {
-            Piece::Cubic(_) | Piece::TrigQuintic(_) => arc_length(|t| self.at(t).speed, self.range()[0], t),
+            Piece::Cubic(cubic) => arc_length(|t| of_legs(&cubic.legs, t).speed(), 0.0, t),
+            Piece::TrigQuintic(part) => arc_length(|t| part.curve.jet(t).speed(), part.from, t),
             Piece::PhQuintic(curve) => curve.length_to(t),
             Piece::Involute(between) => between.curve.length_to(t) * between.unit(),
             Piece::Line(_) | Piece::Arc(_) => self.length() * t,

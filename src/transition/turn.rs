@@ -1,6 +1,6 @@
 //! Words for the two ends and the two sides.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// One of the user's two ends.
@@ -14,7 +14,7 @@ pub enum Which {
 }
 
 /// The side to which the user's curve turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Turn {
     /// Counter-clockwise, positive curvature.

@@ -70,7 +70,7 @@ fn curve(family: &str, asked: &[&str], more: &[&str]) -> Said {
 }
 
 /// What a command says to an input.
-fn piped(args: &[&str], input: &str) -> Said {
+pub(super) fn piped(args: &[&str], input: &str) -> Said {
     let mut child = program().args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
     child.wait_with_output().unwrap().into()

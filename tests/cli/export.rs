@@ -4,7 +4,7 @@ use super::{Folder, fine, run};
 
 const ROAD: &str = r#"{"paths": [{"pieces": [
     {"kind": "line", "start": [0, 0], "end": [30, 0]},
-    {"kind": "arc", "start": [30, 0], "start_direction": 0, "curvature": 0.02, "length": 40}
+    {"kind": "arc", "start": [30, 0], "direction": 0, "curvature": 0.02, "length": 40}
 ]}]}"#;
 
 #[test]

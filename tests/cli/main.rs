@@ -13,6 +13,7 @@ mod failures;
 mod files;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod join;
 mod path;
 mod snapshots;
 

@@ -177,7 +177,7 @@ const KINDS: &str = r#"{"paths": [
     {"pieces": [{"kind": "involute", "start": [0, 0], "end": [2, 0], "start_direction": -0.9, "end_direction": 1.2,
         "start_curvature": -0.3, "end_curvature": 3}]},
     {"pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0]},
-        {"kind": "arc", "start": [1, 0], "start_direction": 0, "curvature": 1, "length": 1}]}]}"#;
+        {"kind": "arc", "start": [1, 0], "direction": 0, "curvature": 1, "length": 1}]}]}"#;
 
 #[test]
 fn every_kind_of_piece_is_measured() {

@@ -109,7 +109,7 @@ impl<'f, F: Found> Report<'f, F> {
         text += &self.others.as_ref().map_or(String::new(), Others::advice);
         if let Some(samples) = self.samples.as_ref().filter(|samples| !samples.is_empty()) {
             text += "\n";
-            text += table(samples, ", ").trim_end();
+            text += output::table(samples, ", ").trim_end();
         }
         text + "\n"
     }
@@ -121,16 +121,9 @@ impl<'f, F: Found> Report<'f, F> {
                 output::note(reason);
                 Ok(())
             }
-            None => output::print(&table(self.samples.as_deref().unwrap_or_default(), ",")),
+            None => output::print(&output::table(self.samples.as_deref().unwrap_or_default(), ",")),
         }
     }
-}
-
-/// Samples with their header.
-fn table(samples: &[Station], comma: &str) -> String {
-    let row = |s: &Station| s.numbers().map(|x| format!("{x:?}")).join(comma);
-    let lines = std::iter::once(Station::COLUMNS.join(comma)).chain(samples.iter().map(row));
-    lines.map(|line| line + "\n").collect()
 }
 
 /// Other families that have a spiral where one has none.

@@ -3,7 +3,7 @@
 mod equal_length;
 mod figure;
 mod hermite;
-mod input;
+pub(super) mod input;
 mod least_curvature;
 mod measure;
 mod plan;

@@ -8,6 +8,11 @@ use crate::error::{Error, Result};
 use crate::family::{Code, NO_VALUE};
 use crate::num::{Interval, Twin, climb};
 use fearless_simd::{Level as SimdLevel, Simd, SimdBase, dispatch};
+use std::cell::RefCell;
+use std::collections::VecDeque;
+
+/// So many levels of shapes are remembered.
+const KEPT: usize = 64;
 
 /// An end point in units of the given radius r; the start is (0, 0) along (1, 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,12 +143,25 @@ pub fn level_of_shape(kind: Kind, theta: f64, m: f64, q: f64) -> Result<Level> {
             return Err(Error::Domain(format!("{name} is {value:?}; it must be finite and above 0")));
         }
     }
+    let key = (kind, [theta, m, q].map(f64::to_bits));
+    // Joins are made of a few shapes, again and again.
+    type Known = VecDeque<((Kind, [u64; 3]), Level)>;
+    thread_local!(static KNOWN: RefCell<Known> = const { RefCell::new(VecDeque::new()) });
+    if let Some(level) = KNOWN.with_borrow(|known| known.iter().find(|(k, _)| *k == key).map(|(_, level)| *level)) {
+        return Ok(level);
+    }
     let attempt = |bits| {
         let angle = ExactAngle::cached(kind, theta, bits)?;
         let u = angle.length.over(&Interval::new(q, bits))?;
         judge_shape(kind, &angle, &Shape { u, m: Interval::new(m, bits) })
     };
-    climb(&format_args!("theta = {theta:?}, m = {m:?}, q = {q:?}"), "a segment's level", attempt).map(|(flags, _)| level(flags))
+    let found = climb(&format_args!("theta = {theta:?}, m = {m:?}, q = {q:?}"), "a segment's level", attempt);
+    let level = found.map(|(flags, _)| level(flags))?;
+    KNOWN.with_borrow_mut(|known| {
+        known.truncate(KEPT - 1);
+        known.push_front((key, level));
+    });
+    Ok(level)
 }
 
 fn level(flags: u8) -> Level {

@@ -23,6 +23,9 @@ pub(super) struct Told {
     end: Option<[f64; 2]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     start_direction: Option<f64>,
+    /// Of a line or an arc, at its start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    direction: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     end_direction: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -70,6 +73,7 @@ impl Told {
             start: None,
             end: None,
             start_direction: None,
+            direction: None,
             end_direction: None,
             start_curvature: None,
             end_curvature: None,
@@ -110,11 +114,17 @@ impl Told {
                     ..told(Kind::Involute)
                 }
             }
-            Piece::Line(Line { start, end }) => Told { start: Some(*start), end: Some(*end), ..told(Kind::Line) },
+            Piece::Line(Line { start, end }) => Told {
+                start: Some(*start),
+                end: Some(*end),
+                direction: Some(piece.at(0.0).heading),
+                curvature: Some(0.0),
+                ..told(Kind::Line)
+            },
             Piece::Arc(Arc { start, start_direction, curvature, .. }) => Told {
                 start: Some(*start),
                 end: Some(piece.end()),
-                start_direction: Some(*start_direction),
+                direction: Some(*start_direction),
                 curvature: Some(*curvature),
                 ..told(Kind::Arc)
             },
@@ -153,7 +163,7 @@ impl Told {
     fn piece(&self) -> Result<Piece> {
         let Told { start, end, start_direction, curvature, .. } = *self;
         let numbers = [self.p, self.q, self.from, self.to, start_direction, self.end_direction, self.start_curvature];
-        let more = [self.end_curvature, curvature, self.length];
+        let more = [self.end_curvature, self.direction, curvature, self.length];
         let points = [start, end].into_iter().flatten().chain(self.preimage.into_iter().flatten());
         let lists = self.legs.iter().flatten().chain(self.control_points.iter().flatten()).copied();
         let all = numbers.into_iter().chain(more).flatten().chain(points.chain(lists).flatten());
@@ -196,7 +206,7 @@ impl Told {
                 Ok(Piece::Line(Line { start, end }))
             }
             Kind::Arc => {
-                let (start, start_direction) = (self.needs("start", start)?, self.needs("start_direction", start_direction)?);
+                let (start, start_direction) = (self.needs("start", start)?, self.needs("direction", self.direction)?);
                 let (curvature, length) = (self.needs("curvature", curvature)?, self.needs("length", self.length)?);
                 if length <= 0.0 {
                     return Err(Error::Domain(format!("`length` is {length:?}; that of an arc must be above 0")));

@@ -1,0 +1,178 @@
+//! `join`: paths of spirals, arcs and lines between two states, or two lines and circles.
+
+mod parse;
+mod request;
+
+use super::{Outcome, output, points};
+use parse::{COLUMNS, states};
+use spiral_atlas::plot::{self, Lines, PathsFigure};
+use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
+use spiral_atlas::transition::{Piece, Station, stations};
+use spiral_atlas::{Error, Result};
+use std::path::PathBuf;
+
+const SIZE: (u32, u32) = (1500, 900);
+const SAMPLES: usize = 2000;
+
+/// Join two states, or two lines and circles, by few spirals, arcs and lines, within a limit of curvature.
+///
+/// A state is a point, a direction of travel and a signed curvature, positive to the left, in any unit of length. Lines
+/// have no ends and a direction, and circles are travelled to the left or to the right; the join leaves the first and
+/// reaches the second where it has to.
+///
+/// Position, direction and curvature of the path are continuous. The curvature of each piece is monotone, proved, so
+/// the limit that the pieces' ends keep holds everywhere. The join is the best of those tried, not of all.
+///
+/// Prints {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,"bending_energy":..,"pieces":[..]},
+/// where a rate is dκ/ds, or {"pieces":null,"reason":".."}. With --points, one such line for each row, in order; a bad
+/// row gives {"line":..,"error":".."}.
+///
+/// Exit status: 0 when there is a join, 1 when none was found, 2 for an error. With --points it is 0 when every row was
+/// answered, whatever the answers, and 2 when one was bad.
+#[derive(clap::Args)]
+#[command(
+    group(clap::ArgGroup::new("start").args(["from", "from_line", "from_circle"])),
+    group(clap::ArgGroup::new("goal").args(["to", "to_line", "to_circle"])),
+    after_help = "Examples:\n  spiral-atlas join --from 0,0,0deg --to 8,6,90deg --greatest-curvature 0.5 --figure join.png\n  \
+                        spiral-atlas join --from-line 0,0,0deg --to-circle 90,35,30,left --greatest-curvature 0.04 --samples 101 --csv\n  \
+                        spiral-atlas join --points states.csv --greatest-curvature 1 > joins.jsonl\n  \
+                        spiral-atlas join request.toml"
+)]
+pub struct Args {
+    /// All of the options below but those of output in one file: JSON, TOML if named .toml, `-` for JSON from standard
+    /// input.
+    #[arg(value_name = "FILE", conflicts_with_all = ["start", "goal", "points", "greatest_curvature", "family", "objective", "longest", "most_pieces"])]
+    request: Option<PathBuf>,
+    /// Start in a state; the direction is an angle from the x axis, the curvature 0 unless given.
+    #[arg(long, value_name = "X,Y,ANGLE[,CURVATURE]", value_parser = parse::state, allow_hyphen_values = true, help_heading = ENDS)]
+    from: Option<End>,
+    /// End in a state.
+    #[arg(long, value_name = "X,Y,ANGLE[,CURVATURE]", value_parser = parse::state, allow_hyphen_values = true, help_heading = ENDS)]
+    to: Option<End>,
+    /// Start anywhere on a straight line: a point of it and its direction.
+    #[arg(long, value_name = "X,Y,ANGLE", value_parser = parse::line, allow_hyphen_values = true, help_heading = ENDS)]
+    from_line: Option<End>,
+    /// End anywhere on a straight line.
+    #[arg(long, value_name = "X,Y,ANGLE", value_parser = parse::line, allow_hyphen_values = true, help_heading = ENDS)]
+    to_line: Option<End>,
+    /// Start anywhere on a circle: its centre, its radius, and to which side it is travelled, left or right.
+    #[arg(long, value_name = "X,Y,RADIUS,SIDE", value_parser = parse::circle, allow_hyphen_values = true, help_heading = ENDS)]
+    from_circle: Option<End>,
+    /// End anywhere on a circle.
+    #[arg(long, value_name = "X,Y,RADIUS,SIDE", value_parser = parse::circle, allow_hyphen_values = true, help_heading = ENDS)]
+    to_circle: Option<End>,
+    /// A CSV file of states, - for standard input. Columns, in any order: x0, y0, direction0, curvature0, x1, y1,
+    /// direction1, curvature1.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "goal", "figure"], help_heading = ENDS)]
+    points: Option<PathBuf>,
+    /// Greatest curvature allowed, 1 / length: one over the least radius.
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    greatest_curvature: Option<f64>,
+    /// What kind of spirals.
+    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = parse::named::<Family>(&["cubic", "ph-quintic", "involute", "trig-quintic"]))]
+    family: Family,
+    /// What is to be least; a rate is |dκ/ds|, how fast the steering must turn.
+    #[arg(long, value_name = "NAME", default_value = "length", value_parser = parse::named::<Objective>(&OBJECTIVES))]
+    objective: Objective,
+    /// A join longer than this counts as none; in your unit of length.
+    #[arg(long, value_name = "LENGTH", default_value_t = f64::INFINITY, hide_default_value = true, allow_hyphen_values = true)]
+    longest: f64,
+    /// Most pieces allowed.
+    #[arg(long, value_name = "N", default_value_t = Request::MOST_PIECES)]
+    most_pieces: usize,
+    /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from
+    /// the start), x, y, heading (radians), curvature.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000), conflicts_with = "points")]
+    samples: Option<u32>,
+    /// Print the samples as CSV, and nothing else.
+    #[arg(long, requires = "samples")]
+    csv: bool,
+    /// Draw the path and its curvature.
+    #[arg(long, value_name = "FILE.png")]
+    figure: Option<PathBuf>,
+}
+
+const ENDS: &str = "What is joined";
+const OBJECTIVES: [&str; 4] = ["length", "greatest-curvature", "greatest-rate", "bending-energy"];
+
+/// What is printed of a single join.
+#[derive(serde::Serialize)]
+struct Told<'a> {
+    #[serde(flatten)]
+    found: &'a join::Outcome,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<Vec<Station>>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Outcome> {
+    if let Some(path) = args.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
+        return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
+    }
+    if let Some(path) = &args.points {
+        // A limit or a length that is none spoils every row alike: it is told once.
+        let nowhere = State { point: [0.0, 0.0], direction: 0.0, curvature: 0.0 };
+        join::join(&args.request(nowhere.into(), State { point: [1.0, 0.0], ..nowhere }.into()))?;
+        return points::run(path, &[&COLUMNS], |_, cells| {
+            let [from, to] = states(cells)?;
+            serde_json::to_vec(&join::join(&args.request(from, to))?).map_err(output::json_error)
+        });
+    }
+    let request = match &args.request {
+        Some(path) => request::read(path)?,
+        None => args.request(
+            args.from.or(args.from_line).or(args.from_circle).unwrap_or_else(|| missing("from")),
+            args.to.or(args.to_line).or(args.to_circle).unwrap_or_else(|| missing("to")),
+        ),
+    };
+    let found = join::join(&request)?;
+    let samples = args.samples.zip(found.join()).map(|(n, join)| stations(&join.pieces, n as usize)).transpose()?;
+    match (&found, &samples) {
+        (join::Outcome::None(reason), _) if args.csv => output::note(reason),
+        (_, Some(samples)) if args.csv => output::print(&output::table(samples, ","))?,
+        _ => output::print_json(&Told { found: &found, samples })?,
+    }
+    let Some(join) = found.join() else { return Ok(Outcome::Bad) };
+    if let Some(path) = &args.figure {
+        spiral_atlas::files::write_file(path, &figure(join)?)?;
+    }
+    Ok(Outcome::Fine)
+}
+
+/// Neither states, a table nor a file was given.
+fn missing(end: &str) -> ! {
+    super::refuse(&format!("one of `--{end}`, `--{end}-line` and `--{end}-circle` is needed, or `--points`, or a file"))
+}
+
+impl Args {
+    fn request(&self, from: End, to: End) -> Request {
+        let limit = self.greatest_curvature.unwrap_or_else(|| super::refuse("`--greatest-curvature` is needed"));
+        let Args { family, objective, longest, most_pieces, .. } = *self;
+        Request { family, objective, longest, most_pieces, ..Request::new(from, to, limit) }
+    }
+}
+
+/// The path, and its curvature over the length.
+fn figure(join: &Join) -> Result<Vec<u8>> {
+    let all = stations(&join.pieces, SAMPLES)?;
+    let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
+    let (lines, arcs) = (kinds("line"), kinds("arc"));
+    let spirals = join.pieces.len() - lines - arcs;
+    plot::paths_png(
+        &PathsFigure {
+            title: format!("A join of length {:.6}", join.measures.length),
+            note: format!("dots: where pieces start; spirals: {spirals}, arcs: {arcs}, lines: {lines}"),
+            paths: std::iter::once(all.iter().map(|s| [s.x, s.y]).collect())
+                .chain(join.pieces.iter().skip(1).map(|p: &Piece| vec![p.start()]))
+                .collect(),
+            graph: Lines {
+                across: "s".into(),
+                up: "κ".into(),
+                lines: vec![all.iter().map(|s| [s.station, s.curvature]).collect()],
+            },
+            level: None,
+            backdrop: None,
+        },
+        SIZE,
+    )
+}

@@ -1,0 +1,76 @@
+//! Ends as they are typed, and as rows of a table have them.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use serde::de::DeserializeOwned;
+use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::transition::Turn;
+use spiral_atlas::transition::join::{End, State};
+use spiral_atlas::{Error, Result};
+
+/// Columns, in the order of [`states`].
+pub const COLUMNS: [&str; 8] = ["x0", "y0", "direction0", "curvature0", "x1", "y1", "direction1", "curvature1"];
+
+/// The states of a row.
+pub fn states(cells: &[&str]) -> Result<[End; 2]> {
+    let number = |i: usize| {
+        let wrong = || Error::Domain(format!("{}: {:?} is no number", COLUMNS[i], cells[i]));
+        cells[i].parse::<f64>().map_err(|_| wrong())
+    };
+    let angle = |i: usize| parse_angle(cells[i]).map_err(|e| Error::Domain(format!("{}: {e}", COLUMNS[i])));
+    let state = |i: usize| -> Result<End> {
+        Ok(State { point: [number(i)?, number(i + 1)?], direction: angle(i + 2)?, curvature: number(i + 3)? }.into())
+    };
+    Ok([state(0)?, state(4)?])
+}
+
+/// One of the names that a type is read from.
+pub fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(names: &[&'static str]) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(names.iter().copied()).try_map(|name| serde_json::from_value(name.into()))
+}
+
+type Parsed<T> = std::result::Result<T, String>;
+
+fn cells(text: &str) -> Vec<&str> {
+    text.split(',').map(str::trim).collect()
+}
+
+fn number(cell: &str) -> Option<f64> {
+    cell.parse().ok().filter(|x: &f64| x.is_finite())
+}
+
+fn angle(cell: &str) -> Parsed<f64> {
+    parse_angle(cell).map_err(|e| e.to_string())
+}
+
+/// Point, direction and perhaps curvature.
+pub fn state(text: &str) -> Parsed<End> {
+    let wrong = || format!("{text:?} is no state `x,y,angle` or `x,y,angle,curvature` of finite numbers");
+    let (x, y, direction, curvature) = match cells(text)[..] {
+        [x, y, direction] => (x, y, direction, Some(0.0)),
+        [x, y, direction, curvature] => (x, y, direction, number(curvature)),
+        _ => return Err(wrong()),
+    };
+    let (Some(x), Some(y), Some(curvature)) = (number(x), number(y), curvature) else { return Err(wrong()) };
+    Ok(State { point: [x, y], direction: angle(direction)?, curvature }.into())
+}
+
+/// Point and direction.
+pub fn line(text: &str) -> Parsed<End> {
+    let wrong = || format!("{text:?} is no line `x,y,angle` of finite numbers");
+    let [x, y, direction] = cells(text)[..] else { return Err(wrong()) };
+    let (Some(x), Some(y)) = (number(x), number(y)) else { return Err(wrong()) };
+    Ok(End::Line { point: [x, y], direction: angle(direction)? })
+}
+
+/// Centre, radius and side.
+pub fn circle(text: &str) -> Parsed<End> {
+    let wrong = || format!("{text:?} is no circle `x,y,radius,left` or `x,y,radius,right` of finite numbers");
+    let [x, y, radius, side] = cells(text)[..] else { return Err(wrong()) };
+    let turn = match side {
+        "left" => Turn::Left,
+        "right" => Turn::Right,
+        _ => return Err(wrong()),
+    };
+    let (Some(x), Some(y), Some(radius)) = (number(x), number(y), number(radius)) else { return Err(wrong()) };
+    Ok(End::Circle { centre: [x, y], radius, turn })
+}

@@ -1,0 +1,219 @@
+//! Chains: lines and circles with spirals between them, in units of the least radius.
+//!
+//! A spiral between two circles fixes how far their centres are from each other, and a spiral from a line to a circle
+//! how far the centre is from the line, wherever it starts. So a chain is laid out by its centres, and the directions
+//! follow.
+
+use super::super::piece::{Arc, Line, Piece};
+use super::request::{Family, Objective, Request};
+use super::spiral::{Pose, Spiral, pinned};
+use super::turns::wrapped;
+use crate::curve::vector::{Vector, add, dot, scale, sub, turn};
+use crate::error::Result;
+use crate::num::roots::find;
+
+/// The shortest spiral whose length is sought, in least radii: its control points show its curvature to 1e-12.
+pub(super) const SHORTEST: f64 = 0.06;
+
+/// A line or a circle of a chain.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Node {
+    Line(Pose),
+    Arc { centre: Vector, curvature: f64 },
+}
+
+impl Node {
+    pub fn curvature(&self) -> f64 {
+        match self {
+            Node::Line(_) => 0.0,
+            Node::Arc { curvature, .. } => *curvature,
+        }
+    }
+}
+
+/// What leads from one to the next: a spiral, or two with a line between, of any length from 0.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Link {
+    pub first: Spiral,
+    pub second: Option<Spiral>,
+    pub line: f64,
+}
+
+impl Link {
+    pub fn direct(from: f64, to: f64, length: f64) -> Link {
+        Link { first: Spiral { from, to, length }, second: None, line: 0.0 }
+    }
+
+    pub fn over_line([from, to]: [f64; 2], lengths: [f64; 2], line: f64) -> Link {
+        let first = Spiral { from, to: 0.0, length: lengths[0] };
+        Link { first, second: Some(Spiral { from: 0.0, to, length: lengths[1] }), line }
+    }
+
+    pub fn spirals(&self) -> impl Iterator<Item = Spiral> {
+        [Some(self.first), self.second].into_iter().flatten()
+    }
+
+    /// How far it turns.
+    pub fn angle(&self) -> f64 {
+        self.spirals().map(|s| s.angle()).sum()
+    }
+
+    /// From the centre that it leaves to the centre that it reaches, for a start along (1, 0); where there is no
+    /// centre, from or to the end of the line.
+    pub fn hop(&self, family: Family) -> Vector {
+        let mut end = self.first.step(family);
+        if let Some(second) = self.second {
+            let along = unit(self.first.angle());
+            end = add(end, turn(along, add([self.line, 0.0], second.step(family))));
+        }
+        let last = self.second.unwrap_or(self.first);
+        let centre = |curvature: f64, direction: f64| -> Vector {
+            if curvature == 0.0 { [0.0, 0.0] } else { turn(unit(direction), [0.0, 1.0 / curvature]) }
+        };
+        sub(add(end, centre(last.to, self.angle())), centre(self.first.from, 0.0))
+    }
+
+    /// With a line so long that centres are at a distance, if one is.
+    pub fn reaching(&self, family: Family, distance: f64) -> Option<Link> {
+        self.second?;
+        let link = Link { line: 0.0, ..*self };
+        // Seen along the line.
+        let [x, y] = turn(unit(-self.first.angle()), link.hop(family));
+        let line = (distance * distance - y * y).sqrt() - x;
+        (line > LEAST_LINE).then_some(Link { line, ..link })
+    }
+}
+
+/// A line shorter than this would not show its direction to 1e-12 by its ends.
+const LEAST_LINE: f64 = 2e-3;
+
+/// A zero between two arguments, if the signs differ there.
+pub(super) fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
+    let differ = low < high && f(low) * f(high) < 0.0;
+    differ.then(|| find(f, low, high, 1e-17 * high))
+}
+
+pub(super) fn unit(direction: f64) -> Vector {
+    [direction.cos(), direction.sin()]
+}
+
+pub(super) fn angle_of(v: Vector) -> f64 {
+    v[1].atan2(v[0])
+}
+
+/// A chain that is laid out.
+#[derive(Debug, Clone)]
+pub(super) struct Chain {
+    start: Pose,
+    end: Vector,
+    links: Vec<Link>,
+    /// Curvature of the circles between the links, and how far the path goes round them.
+    arcs: Vec<(f64, f64)>,
+}
+
+impl Chain {
+    /// Lines only at the ends, with one circle at least.
+    pub fn new(family: Family, nodes: &[Node], links: &[Link]) -> Chain {
+        let leaves = |i: usize| match (&nodes[i], &nodes[i + 1]) {
+            (Node::Line(pose), _) => pose.direction,
+            (_, Node::Line(pose)) => pose.direction - links[i].angle(),
+            (Node::Arc { centre: a, .. }, Node::Arc { centre: b, .. }) => angle_of(sub(*b, *a)) - angle_of(links[i].hop(family)),
+        };
+        let directions: Vec<f64> = (0..links.len()).map(leaves).collect();
+        let arc = |i: usize| {
+            let k = nodes[i].curvature();
+            (k, wrapped(k.signum() * (directions[i] - directions[i - 1] - links[i - 1].angle())))
+        };
+        let arcs = (1..links.len()).map(arc).collect();
+        let beside = |centre: Vector, k: f64, direction: f64| sub(centre, turn(unit(direction), [0.0, 1.0 / k]));
+        let foot = |pose: &Pose, at: Vector| add(pose.at, scale(pose.along(), dot(pose.along(), sub(at, pose.at))));
+        let (from, to) = (directions[0], directions[links.len() - 1] + links[links.len() - 1].angle());
+        let start = match (&nodes[0], &nodes[1]) {
+            (Node::Arc { centre, curvature }, _) => beside(*centre, *curvature, from),
+            (Node::Line(pose), Node::Arc { centre, .. }) => foot(pose, sub(*centre, turn(unit(from), links[0].hop(family)))),
+            (Node::Line(pose), Node::Line(_)) => pose.at,
+        };
+        let last = links.len() - 1;
+        let end = match (&nodes[last], &nodes[last + 1]) {
+            (_, Node::Arc { centre, curvature }) => beside(*centre, *curvature, to),
+            (Node::Arc { centre, .. }, Node::Line(pose)) => {
+                foot(pose, add(*centre, turn(unit(directions[last]), links[last].hop(family))))
+            }
+            (Node::Line(_), Node::Line(pose)) => pose.at,
+        };
+        Chain { start: Pose { at: start, direction: from }, end, links: links.to_vec(), arcs }
+    }
+
+    /// Two spirals without an arc between, whose centre may be too far away to have digits.
+    pub fn corner(start: Pose, end: Vector, links: [Link; 2]) -> Chain {
+        Chain { start, end, links: links.to_vec(), arcs: vec![(links[0].first.to, 0.0)] }
+    }
+
+    /// Its spirals.
+    pub fn spirals(&self) -> impl Iterator<Item = Spiral> {
+        self.links.iter().flat_map(Link::spirals)
+    }
+
+    /// Its length, nearly.
+    pub fn length(&self, family: Family) -> f64 {
+        let links = self.links.iter().map(|link| link.spirals().map(|s| s.stretched(family)).sum::<f64>() + link.line);
+        links.sum::<f64>() + self.arcs.iter().map(|(k, round)| round / k.abs()).sum::<f64>()
+    }
+
+    /// How many pieces it has.
+    pub fn pieces(&self) -> usize {
+        let links = self.links.iter().map(|link| link.spirals().count() + usize::from(link.line > 0.0));
+        links.sum::<usize>() + self.arcs.iter().filter(|(_, round)| *round > 0.0).count()
+    }
+
+    /// What it costs, nearly.
+    pub fn cost(&self, family: Family, objective: Objective) -> f64 {
+        let spirals = || self.spirals();
+        match objective {
+            Objective::Length => self.length(family),
+            Objective::GreatestCurvature => spirals().map(|s| s.from.abs().max(s.to.abs())).fold(0.0, f64::max),
+            Objective::GreatestRate => spirals().map(|s| (s.to - s.from).abs() / s.length).fold(0.0, f64::max),
+            Objective::BendingEnergy => {
+                let bent = |s: Spiral| s.length * (s.from * s.from + s.from * s.to + s.to * s.to) / 3.0;
+                spirals().map(bent).sum::<f64>() + self.arcs.iter().map(|(k, round)| round * k.abs()).sum::<f64>()
+            }
+        }
+    }
+
+    /// In pieces of the user's frame, in which `origin` is the origin here; or the spiral that is not to be had.
+    pub fn build(&self, request: &Request, origin: Vector) -> Result<std::result::Result<Vec<Piece>, Spiral>> {
+        let Request { greatest_curvature: most, family, .. } = *request;
+        let place = |v: Vector| add(origin, scale(v, 1.0 / most));
+        let (mut at, mut pieces) = (Pose { at: place(self.start.at), ..self.start }, Vec::with_capacity(8));
+        for (i, link) in self.links.iter().enumerate() {
+            for (j, spiral) in link.spirals().enumerate() {
+                if j == 1 && link.line > 0.0 {
+                    let end = add(at.at, scale(at.along(), link.line / most));
+                    pieces.push(Piece::Line(Line { start: at.at, end }));
+                    at.at = end;
+                }
+                let Some((piece, next)) = spiral.piece(family, at, most)? else { return Ok(Err(spiral)) };
+                pieces.push(piece);
+                at = next;
+            }
+            if let Some((k, round)) = self.arcs.get(i) {
+                at = add_arc(&mut pieces, at, k * most, *round);
+            }
+        }
+        if let Some(last) = pieces.pop() {
+            pieces.push(pinned(last, place(self.end))?);
+        }
+        Ok(Ok(pieces))
+    }
+}
+
+/// Adds an arc that goes round by an angle, if it does.
+pub(super) fn add_arc(pieces: &mut Vec<Piece>, at: Pose, curvature: f64, angle: f64) -> Pose {
+    if angle == 0.0 {
+        return at;
+    }
+    let arc = Piece::Arc(Arc { start: at.at, start_direction: at.direction, curvature, length: angle / curvature.abs() });
+    let end = Pose { at: arc.end(), direction: at.direction + angle.copysign(curvature) };
+    pieces.push(arc);
+    end
+}

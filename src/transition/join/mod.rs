@@ -1,0 +1,127 @@
+//! Joins: paths of few spirals, arcs and lines between two states, with continuous direction and curvature and a limit
+//! of curvature.
+//!
+//! ```
+//! use spiral_atlas::transition::Turn;
+//! use spiral_atlas::transition::join::{End, Request, State, join};
+//!
+//! // A robot with a least radius of 2 turns a corner.
+//! let from = State { point: [0.0, 0.0], direction: 0.0, curvature: 0.0 };
+//! let to = State { point: [8.0, 6.0], direction: 1.5, curvature: 0.1 };
+//! let found = join(&Request::new(from, to, 0.5))?;
+//! let path = found.join().expect("there is room");
+//! assert!(path.measures.greatest_curvature <= 0.5 && path.measures.length > 10.0);
+//!
+//! // From a straight line to a circle by one spiral.
+//! let line = End::Line { point: [0.0, 0.0], direction: 0.0 };
+//! let circle = End::Circle { centre: [0.0, 31.0], radius: 30.0, turn: Turn::Left };
+//! let found = join(&Request { most_pieces: 1, ..Request::new(line, circle, 1.0 / 30.0) })?;
+//! assert_eq!(found.join().map(|path| path.pieces.len()), Some(1));
+//! # Ok::<(), spiral_atlas::Error>(())
+//! ```
+//!
+//! # How it is done
+//! As Dubins paths are made of arcs and lines, these are made of *turns* and lines. A turn is a spiral from the
+//! curvature at hand to that of an arc, the arc, and a spiral to curvature 0 (Fraichard & Scheuer 2004 have it with
+//! clothoids). The centre of the arc does not depend on how long the arc is. So all places where the turn can end
+//! straight lie on a circle about that centre, and are left at a fixed angle: `X = C + R(ψ) u` for the direction ψ
+//! there. Two turns with a line between them have then `C2 - C1 = R(ψ) ((l, 0) + u1 - u2)`, and three turns have a
+//! middle centre at two known distances: all closed forms.
+//!
+//! Turns of several curvatures and of spirals of several lengths are tried in all pairs. The best pair whose spirals
+//! are proved is taken. In units of the least radius the spirals are 0.4 long or longer: from shorter ones, control
+//! points in doubles could not show the curvature to 1e-12.
+//!
+//! Lines and circles are joined by the same spirals, laid out by the centres of circles: see `link.rs` and `shapes.rs`.
+
+mod best;
+mod link;
+mod measure;
+mod request;
+mod shapes;
+mod spiral;
+mod states;
+mod turns;
+
+use crate::curve::vector::{length, scale, sub};
+use crate::error::Result;
+use crate::num::told;
+use best::Best;
+
+pub use measure::Measures;
+pub use request::{End, Family, Join, Objective, Outcome, Request, State};
+
+/// Ends farther apart, in least radii, would leave no digits for the spirals.
+const FARTHEST: f64 = 1e12;
+
+/// The best join found.
+///
+/// # Accuracy
+/// Each spiral is proved to have monotone curvature, so |κ| stays within the limit. Pieces meet to 1e-12 in position,
+/// direction and curvature, relative to the extent of coordinates in least radii; given points are met exactly. The
+/// join is the best of those tried, not of all.
+///
+/// # Errors
+/// [`crate::Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a
+/// line or a circle, and where lengths leave the range of doubles. That there is no join is no error.
+pub fn join(request: &Request) -> Result<Outcome> {
+    request.check()?;
+    let limit = request.greatest_curvature;
+    if let Some(why) = beyond(request) {
+        return Ok(Outcome::None(why));
+    }
+    let radii = |end: &End| if let End::Circle { radius, .. } = end { radius * limit } else { 0.0 };
+    let apart = length(scale(sub(request.to.point(), request.from.point()), limit));
+    let far = [("the ends are", apart), ("the start radius is", radii(&request.from)), ("the end radius is", radii(&request.to))];
+    if let Some((what, far)) = far.into_iter().find(|(_, far)| far.is_nan() || *far > FARTHEST) {
+        let apart = if what == "the ends are" { " apart" } else { "" };
+        return Ok(Outcome::None(format!("{what} {} least radii{apart}; joins are sought up to 1e12", told(far))));
+    }
+    let mut best = Best::new(request);
+    let none = tried(request, &mut best)?;
+    if let Some(join) = best.join {
+        return Ok(Outcome::Join(join));
+    }
+    let free = Request { longest: f64::INFINITY, most_pieces: Request::MOST_PIECES, ..*request };
+    let mut best = Best::new(&free);
+    if free != *request {
+        tried(&free, &mut best)?;
+    }
+    Ok(Outcome::None(match best.join {
+        Some(join) => format!(
+            "no join found keeps to {} pieces and a length of {}; without these bounds one has {} pieces and is {} long",
+            request.most_pieces,
+            told(request.longest),
+            join.pieces.len(),
+            told(join.measures.length)
+        ),
+        None => none,
+    }))
+}
+
+/// Offers all joins that are tried, and says why there is none, should there be none.
+fn tried(request: &Request, best: &mut Best) -> Result<String> {
+    if let (End::State(from), End::State(to)) = (&request.from, &request.to) {
+        states::states(request, [from, to], best)?;
+        return Ok(
+            "no turns and lines of those tried fit between these states; a greater limit of curvature gives them room".into()
+        );
+    }
+    shapes::shapes(request, best)
+}
+
+/// A given curvature is beyond the limit.
+fn beyond(request: &Request) -> Option<String> {
+    let limit = request.greatest_curvature;
+    let too_much = |(name, end): (&str, &End)| match *end {
+        End::State(State { curvature, .. }) if curvature.abs() > limit => {
+            Some(format!("the {name} curvature {curvature:?} is beyond the greatest curvature {limit:?}"))
+        }
+        End::Circle { radius, .. } if 1.0 / radius > limit => Some(format!(
+            "the {name} circle has the radius {radius:?} and so the curvature {:?}, beyond the greatest curvature {limit:?}",
+            1.0 / radius
+        )),
+        _ => None,
+    };
+    [("start", &request.from), ("end", &request.to)].into_iter().find_map(too_much)
+}

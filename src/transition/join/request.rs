@@ -1,0 +1,231 @@
+//! What a join is asked for, and what it is.
+
+use super::super::Turn;
+use super::super::piece::Piece;
+use super::measure::Measures;
+use crate::error::{Error, Result};
+use serde::{Deserialize, Serialize};
+
+/// A place on a path: point, direction of travel and signed curvature, in the user's units and axes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct State {
+    /// The point.
+    pub point: [f64; 2],
+    /// Direction of travel: counter-clockwise angle from the x axis, radians.
+    pub direction: f64,
+    /// Curvature, 1 / length, positive where the path turns left.
+    pub curvature: f64,
+}
+
+/// What a join leads from or to.
+///
+/// A join of two states has its ends given. One between lines and circles leaves the first and reaches the second where
+/// it has to: the parts of them before and after are no pieces of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum End {
+    /// A point with its direction and curvature.
+    State(State),
+    /// Anywhere on a straight line, along its direction.
+    Line {
+        /// A point of it.
+        point: [f64; 2],
+        /// Direction of travel, as in [`State`].
+        direction: f64,
+    },
+    /// Anywhere on a circle.
+    Circle {
+        /// Its centre.
+        centre: [f64; 2],
+        /// Its radius, above 0.
+        radius: f64,
+        /// Which way it is travelled.
+        turn: Turn,
+    },
+}
+
+impl End {
+    /// Its point; of a circle its centre.
+    pub fn point(&self) -> [f64; 2] {
+        match *self {
+            End::State(State { point, .. }) | End::Line { point, .. } | End::Circle { centre: point, .. } => point,
+        }
+    }
+}
+
+impl From<State> for End {
+    fn from(state: State) -> End {
+        End::State(state)
+    }
+}
+
+/// The curves that the spirals of a join are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Family {
+    /// Cubic Bézier curves.
+    #[default]
+    Cubic,
+    /// Pythagorean-hodograph quintics: exact length, rational offsets.
+    PhQuintic,
+    /// Images of an involute of a circle.
+    Involute,
+    /// Quintic trigonometric Bézier curves, from or to a straight end; with the shape numbers ratio 6, m 1, p 0, q 0.
+    TrigQuintic,
+}
+
+/// Of several joins that keep the limits, the one that has least of this.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Objective {
+    /// Arc length.
+    #[default]
+    Length,
+    /// Greatest |κ|.
+    GreatestCurvature,
+    /// Greatest |dκ/ds|: how fast the steering wheel must turn.
+    GreatestRate,
+    /// ∫ κ² ds.
+    BendingEnergy,
+}
+
+/// A join to be found, of two states or of two lines and circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// Where it starts.
+    pub from: End,
+    /// Where it ends.
+    pub to: End,
+    /// Greatest |κ| allowed, above 0.
+    pub greatest_curvature: f64,
+    /// What its spirals are.
+    pub family: Family,
+    /// What is to be least.
+    pub objective: Objective,
+    /// Greatest length allowed; infinite for none.
+    pub longest: f64,
+    /// Most pieces allowed; [`Request::MOST_PIECES`] shuts nothing out.
+    pub most_pieces: usize,
+}
+
+/// Limits of curvature within 1 / this and this have squares in the range of doubles.
+const WIDEST: f64 = 1e150;
+
+impl Request {
+    /// As many pieces as a join of states can have: three turns of a spiral, an arc and a spiral, and a spiral more at
+    /// both ends.
+    pub const MOST_PIECES: usize = 11;
+
+    /// With a limit of curvature alone: the shortest, of cubics.
+    pub fn new(from: impl Into<End>, to: impl Into<End>, greatest_curvature: f64) -> Request {
+        Request {
+            from: from.into(),
+            to: to.into(),
+            greatest_curvature,
+            family: Family::default(),
+            objective: Objective::default(),
+            longest: f64::INFINITY,
+            most_pieces: Request::MOST_PIECES,
+        }
+    }
+
+    /// # Errors
+    /// [`Error::Domain`] naming the first number that is not finite or not above 0.
+    pub(super) fn check(&self) -> Result<()> {
+        for (name, end) in [("start", &self.from), ("end", &self.to)] {
+            let ([x, y], rest) = match *end {
+                End::State(State { point, direction, curvature }) => {
+                    (point, vec![("direction", direction), ("curvature", curvature)])
+                }
+                End::Line { point, direction } => (point, vec![("direction", direction)]),
+                End::Circle { centre, radius, .. } => {
+                    positive(&format!("the {name} radius"), radius)?;
+                    (centre, Vec::new())
+                }
+            };
+            for (what, value) in [("x", x), ("y", y)].into_iter().chain(rest) {
+                finite(&format!("{name} {what}"), value)?;
+            }
+        }
+        if matches!(self.from, End::State(_)) != matches!(self.to, End::State(_)) {
+            return Err(Error::Domain(
+                "one end is a state and the other is not; joined are two states, or two lines and circles".into(),
+            ));
+        }
+        positive("the greatest curvature", self.greatest_curvature)?;
+        if !(1.0 / WIDEST..=WIDEST).contains(&self.greatest_curvature) {
+            return Err(Error::Domain(format!(
+                "the greatest curvature is {:?}; its square must be in the range of doubles (change the unit of length)",
+                self.greatest_curvature
+            )));
+        }
+        if self.most_pieces == 0 {
+            return Err(Error::Domain("the most pieces are 0; a join has one at least".into()));
+        }
+        if self.longest.is_nan() || self.longest <= 0.0 {
+            return Err(Error::Domain(format!("the longest length is {:?}; it must be above 0", self.longest)));
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn finite(name: &str, value: f64) -> Result<()> {
+    if value.is_finite() { Ok(()) } else { Err(Error::Domain(format!("{name} is {value}; it must be finite"))) }
+}
+
+pub(super) fn positive(name: &str, value: f64) -> Result<()> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Domain(format!("{name} is {value:?}; it must be finite and above 0")))
+}
+
+/// A path of lines, arcs and proved spirals with continuous direction and curvature. As JSON it is a path: `length`,
+/// `greatest_curvature`, and so on, and `pieces`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Join {
+    /// Its numbers.
+    #[serde(flatten)]
+    pub measures: Measures,
+    /// Its pieces, in the direction of travel.
+    pub pieces: Vec<Piece>,
+}
+
+impl Join {
+    pub(super) fn new(pieces: Vec<Piece>, limit: f64) -> Join {
+        Join { measures: Measures::of(&pieces, limit), pieces }
+    }
+}
+
+/// The join, or why there is none.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// It exists.
+    Join(Join),
+    /// Which condition excludes it, in words and numbers.
+    None(String),
+}
+
+impl Outcome {
+    /// The join, if there is one.
+    pub fn join(&self) -> Option<&Join> {
+        match self {
+            Outcome::Join(join) => Some(join),
+            Outcome::None(_) => None,
+        }
+    }
+}
+
+impl Serialize for Outcome {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Without<'a> {
+            pieces: Option<()>,
+            reason: &'a str,
+        }
+        match self {
+            Outcome::Join(join) => join.serialize(serializer),
+            Outcome::None(reason) => Without { pieces: None, reason }.serialize(serializer),
+        }
+    }
+}

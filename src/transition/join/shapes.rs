@@ -1,0 +1,396 @@
+//! Joins of lines and circles: the J, U, C and S shapes, circles in circles, and what leads around where those do not
+//! fit.
+
+use super::best::Best;
+use super::link::{Chain, Link, Node, SHORTEST, angle_of, root, unit};
+use super::request::{End, Family, Objective, Request};
+use super::spiral::{Pose, Spiral};
+use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
+use crate::error::Result;
+
+/// Curvatures of arcs between, in units of the limit.
+const PEAKS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
+/// How far spirals turn that may be long, radians.
+const ANGLES: [f64; 3] = [0.3, 0.6, 1.0];
+/// A spiral leads at least this factor from one curvature to the other.
+const APART: f64 = 0.55;
+/// How far a line goes beyond the least distance: nearly square to it, at 45° and at 30°.
+const SLANTS: [f64; 3] = [1.02, 1.4, 2.0];
+/// Directions that differ by less, radians, are parallel: well below what joins are exact to.
+const PARALLEL: f64 = 1e-13;
+/// Centres and radii that differ by less, relatively, are the same: a few roundings.
+const SAME: f64 = 16.0 * f64::EPSILON;
+/// Lines whose corner is farther away than this, in least radii, are joined nearer, too.
+const FAR: f64 = 100.0;
+/// So many chains of those within the bounds are compared: the model that orders them tells length to some hundredths.
+const COMPARED: usize = 6;
+/// So many are built at most; each takes the proofs of a few spirals.
+const BUILT: usize = 100;
+
+/// Offers joins of two lines and circles, and says why there is none, should there be none.
+///
+/// # Errors
+/// Those of the spirals, where lengths leave the range of doubles.
+pub(super) fn shapes(request: &Request, best: &mut Best) -> Result<String> {
+    let origin = request.from.point();
+    let nodes = [&request.from, &request.to].map(|end| node(end, origin, request.greatest_curvature));
+    let name = |node: &Node| if matches!(node, Node::Line(_)) { "line" } else { "circle" };
+    let [from, to] = [name(&nodes[0]), name(&nodes[1])];
+    if same(&nodes) {
+        return Ok(format!("the two {from}s are one, travelled the same way: there is nothing to join"));
+    }
+    let sought = Sought { family: request.family, objective: request.objective };
+    let mut chains = sought.chains(nodes);
+    chains.retain(|chain| chain.length(request.family).is_finite() && chain.pieces() <= request.most_pieces);
+    let key = |chain: &Chain| (chain.cost(request.family, request.objective), chain.length(request.family));
+    chains.sort_by(|a, b| key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1)));
+    let enough = best.kept + COMPARED;
+    let (mut built, mut missing): (usize, Vec<Spiral>) = (0, Vec::new());
+    for chain in &chains {
+        if chain.spirals().any(|spiral| missing.contains(&spiral)) {
+            continue;
+        }
+        match chain.build(request, origin)? {
+            Ok(pieces) => best.offer(pieces),
+            Err(spiral) => missing.push(spiral),
+        }
+        built += 1;
+        if best.kept >= enough || built >= BUILT {
+            break;
+        }
+    }
+    Ok(format!(
+        "no spirals, arcs and lines of those tried lead from the {from} to the {to}; a greater limit of curvature gives them room"
+    ))
+}
+
+/// In least radii from the origin.
+fn node(end: &End, origin: Vector, most: f64) -> Node {
+    let place = |point: Vector| scale(sub(point, origin), most);
+    match *end {
+        End::State(state) => Node::Line(Pose { at: place(state.point), direction: state.direction }),
+        End::Line { point, direction } => Node::Line(Pose { at: place(point), direction }),
+        End::Circle { centre, radius, turn } => {
+            let curvature = (1.0 / (radius * most)).min(1.0);
+            Node::Arc { centre: place(centre), curvature: if turn == super::super::Turn::Left { curvature } else { -curvature } }
+        }
+    }
+}
+
+/// Whether both are one, to a rounding of their numbers.
+fn same(nodes: &[Node; 2]) -> bool {
+    match nodes {
+        [Node::Line(a), Node::Line(b)] => {
+            let turned = a.direction - b.direction;
+            let apart = sub(b.at, a.at);
+            parallel(turned) && turned.cos() > 0.0 && cross(a.along(), apart).abs() <= SAME * length(apart).max(1.0)
+        }
+        [Node::Arc { centre: a, curvature: k }, Node::Arc { centre: b, curvature: l }] => {
+            (k - l).abs() <= SAME * k.abs() && length(sub(*b, *a)) * k.abs() <= SAME
+        }
+        _ => false,
+    }
+}
+
+fn parallel(turned: f64) -> bool {
+    turned.sin().abs() <= PARALLEL * turned.abs().max(1.0)
+}
+
+/// Where a centre may be.
+#[derive(Debug, Clone, Copy)]
+enum Locus {
+    Line(Pose),
+    Circle { centre: Vector, radius: f64 },
+}
+
+/// What chains are made for.
+struct Sought {
+    family: Family,
+    objective: Objective,
+}
+
+impl Sought {
+    fn chains(&self, nodes: [Node; 2]) -> Vec<Chain> {
+        let mut all: Vec<Chain> = self.direct(&nodes).iter().map(|link| Chain::new(self.family, &nodes, &[*link])).collect();
+        if let [Node::Line(a), Node::Line(b)] = nodes {
+            let turned = b.direction - a.direction;
+            let corner = meet([Locus::Line(a), Locus::Line(b)])[0].filter(|_| !parallel(turned));
+            let far = corner.map_or(f64::INFINITY, |corner| length(sub(corner, a.at)).min(length(sub(corner, b.at))));
+            if parallel(turned) && turned.cos() < 0.0 {
+                self.half_turns(a, b, &mut all);
+            }
+            if far > FAR {
+                self.by_two_arcs(a, b, &mut all);
+            }
+            let Some(corner) = corner.filter(|_| far <= super::FARTHEST) else { return all };
+            self.corners([a, b], corner, &mut all);
+        }
+        for k in PEAKS.into_iter().chain(halfway(&nodes)).flat_map(|k| [k, -k]) {
+            for first in self.links(nodes[0].curvature(), k) {
+                for last in self.links(k, nodes[1].curvature()) {
+                    self.by_arc(&nodes, k, [first, last], &mut all);
+                }
+            }
+        }
+        all
+    }
+
+    /// Lengths of spirals between two curvatures.
+    fn lengths(&self, from: f64, to: f64) -> Vec<f64> {
+        let bend = 0.5 * (from.abs() + to.abs());
+        let short = [0.4, 0.8].into_iter().filter(|length| length * bend <= Spiral::most(from, to));
+        match self.objective {
+            Objective::Length => short.collect(),
+            _ => ANGLES.into_iter().map(|angle| angle / bend).chain([0.4]).filter(|length| *length >= 0.4).collect(),
+        }
+    }
+
+    /// What may lead from one curvature to another, not both 0.
+    fn links(&self, from: f64, to: f64) -> Vec<Link> {
+        let direct = || self.lengths(from, to).into_iter().map(move |length| Link::direct(from, to, length));
+        if from == 0.0 || to == 0.0 {
+            return direct().collect();
+        }
+        let over = self.lengths(from, 0.0).into_iter().zip(self.lengths(0.0, to));
+        let over = over.map(|(a, b)| Link::over_line([from, to], [a, b], 0.0));
+        let (less, more) = (from.abs().min(to.abs()), from.abs().max(to.abs()));
+        let one = from * to > 0.0 && less <= APART * more && self.family != Family::TrigQuintic;
+        if one { direct().chain(over).collect() } else { over.collect() }
+    }
+
+    /// Links that lead from one node to the other: at most one of them is a line.
+    fn direct(&self, nodes: &[Node; 2]) -> Vec<Link> {
+        let [from, to] = [nodes[0].curvature(), nodes[1].curvature()];
+        let spiral = |angle: f64| Link::direct(from, to, 2.0 * angle / (from.abs() + to.abs()));
+        let single = |f: &dyn Fn(&Link) -> f64| {
+            let least = 0.5 * SHORTEST * (from.abs() + to.abs());
+            root(|angle| f(&spiral(angle)), least, Spiral::most(from, to)).map(spiral)
+        };
+        match nodes {
+            [Node::Line(_), Node::Line(_)] => Vec::new(),
+            [Node::Line(line), Node::Arc { centre, .. }] => {
+                let beside = cross(line.along(), sub(*centre, line.at));
+                single(&|link| self.after(link) - beside).into_iter().collect()
+            }
+            [Node::Arc { centre, .. }, Node::Line(line)] => {
+                let beside = cross(line.along(), sub(*centre, line.at));
+                single(&|link| self.before(link) - beside).into_iter().collect()
+            }
+            [Node::Arc { centre: a, .. }, Node::Arc { centre: b, .. }] => {
+                let apart = length(sub(*b, *a));
+                let far = |link: &Link| length(link.hop(self.family)) - apart;
+                let one = (from * to > 0.0 && from != to && apart > 0.0).then(|| single(&far)).flatten();
+                let pair = |angle: f64| Link::over_line([from, to], [from, to].map(|k| 2.0 * angle / k.abs()), 0.0);
+                let least = 0.5 * SHORTEST * from.abs().max(to.abs());
+                let pair = root(|angle| far(&pair(angle)), least, Spiral::most(from, 0.0)).map(pair);
+                let lines = self.links(from, to).into_iter().filter_map(|link| link.reaching(self.family, apart));
+                lines.chain(one).chain(pair).collect()
+            }
+        }
+    }
+
+    /// From a line to a circle: how far left of the line its centre is.
+    fn after(&self, link: &Link) -> f64 {
+        link.hop(self.family)[1]
+    }
+
+    /// From a circle to a line: the same.
+    fn before(&self, link: &Link) -> f64 {
+        -turn(unit(-link.angle()), link.hop(self.family))[1]
+    }
+
+    /// Where the centre of an arc is that a link joins with a node: before the arc, or after it.
+    fn locus(&self, node: &Node, link: &Link, after: bool) -> Locus {
+        match node {
+            Node::Arc { centre, .. } => Locus::Circle { centre: *centre, radius: length(link.hop(self.family)) },
+            Node::Line(line) => {
+                let beside = if after { self.after(link) } else { self.before(link) };
+                Locus::Line(Pose { at: add(line.at, turn(line.along(), [0.0, beside])), ..*line })
+            }
+        }
+    }
+
+    /// Chains over an arc between.
+    fn by_arc(&self, nodes: &[Node; 2], k: f64, [first, last]: [Link; 2], all: &mut Vec<Chain>) {
+        let mut add_chains = |links: [Link; 2]| {
+            let loci = [self.locus(&nodes[0], &links[0], true), self.locus(&nodes[1], &links[1], false)];
+            let centres = meet(loci);
+            let chain = |centre| Chain::new(self.family, &[nodes[0], Node::Arc { centre, curvature: k }, nodes[1]], &links);
+            all.extend(centres.into_iter().flatten().map(chain));
+            centres[0].is_some()
+        };
+        if add_chains([first, last]) {
+            return;
+        }
+        match nodes {
+            // Too far away: a line leads nearer.
+            [Node::Line(_), Node::Arc { centre, .. }] => {
+                let far = beside(&self.locus(&nodes[0], &first, true), *centre);
+                for slant in SLANTS {
+                    last.reaching(self.family, far * slant).map(|last| add_chains([first, last]));
+                }
+            }
+            [Node::Arc { centre, .. }, Node::Line(_)] => {
+                let far = beside(&self.locus(&nodes[1], &last, false), *centre);
+                for slant in SLANTS {
+                    first.reaching(self.family, far * slant).map(|first| add_chains([first, last]));
+                }
+            }
+            // One about the other: the second link is made as long as the first.
+            [Node::Arc { .. }, Node::Arc { curvature: to, .. }] => {
+                let far = length(first.hop(self.family));
+                let stretched = |factor: f64| match last.second {
+                    None => Link::direct(k, *to, factor * last.first.length),
+                    Some(second) => Link::over_line([k, *to], [last.first.length, second.length].map(|x| factor * x), 0.0),
+                };
+                let bend = (k.abs() + if last.second.is_none() { to.abs() } else { 0.0 }).max(to.abs());
+                let long = last.second.map_or(last.first.length, |second| second.length.max(last.first.length));
+                let most = 2.0 * Spiral::most(k, if last.second.is_none() { *to } else { 0.0 }) / (bend * long);
+                let short = last.second.map_or(last.first.length, |second| second.length.min(last.first.length));
+                let factor = root(|x| length(stretched(x).hop(self.family)) - far, SHORTEST / short, most);
+                factor.map(|factor| add_chains([first, stretched(factor)]));
+            }
+            [Node::Line(_), Node::Line(_)] => {}
+        }
+    }
+
+    /// Two spirals round the corner of two lines, without an arc.
+    fn corners(&self, [a, b]: [Pose; 2], corner: Vector, all: &mut Vec<Chain>) {
+        let turned = b.direction - a.direction;
+        let angle = turned.sin().atan2(turned.cos());
+        let gentle = angle.abs() / 0.4;
+        for peak in PEAKS.into_iter().chain((gentle < PEAKS[3]).then_some(gentle)) {
+            let long = angle.abs() / peak;
+            if 0.5 * angle.abs() > Spiral::most(0.0, peak) || long < SHORTEST {
+                continue;
+            }
+            let k = peak.copysign(angle);
+            let links = [Link::direct(0.0, k, long), Link::direct(k, 0.0, long)];
+            let [first, second] = links.map(|link| link.first.step(self.family));
+            // The legs from the corner are equal, and together they lead from end to end.
+            let leg = length(add(first, turn(unit(0.5 * angle), second))) / (2.0 * (0.5 * angle).cos());
+            let start = Pose { at: sub(corner, scale(a.along(), leg)), ..a };
+            all.push(Chain::corner(start, add(corner, scale(b.along(), leg)), links));
+        }
+    }
+
+    /// From a line to one the other way: an arc of the right radius.
+    fn half_turns(&self, a: Pose, b: Pose, all: &mut Vec<Chain>) {
+        let apart = cross(a.along(), sub(b.at, a.at));
+        for angle in ANGLES {
+            let k = 2.0 * self.after(&Link::direct(0.0, 1.0, 2.0 * angle)) / apart;
+            if k.is_nan() || k.abs() > 1.0 || k == 0.0 {
+                continue;
+            }
+            let length = 2.0 * angle / k.abs();
+            let links = [Link::direct(0.0, k, length), Link::direct(k, 0.0, length)];
+            let centre = add(a.at, turn(a.along(), links[0].hop(self.family)));
+            let arc = Node::Arc { centre, curvature: k };
+            all.push(Chain::new(self.family, &[Node::Line(a), arc, Node::Line(b)], &links));
+        }
+    }
+
+    /// From a point of a line over two arcs to another line.
+    fn by_two_arcs(&self, a: Pose, b: Pose, all: &mut Vec<Chain>) {
+        let (from, to) = (Node::Line(a), Node::Line(b));
+        for k in PEAKS.into_iter().flat_map(|k| [k, -k]) {
+            for ((first, last), (next, other)) in self.pairs(k) {
+                let centre = add(a.at, turn(a.along(), first.hop(self.family)));
+                let arc = Node::Arc { centre, curvature: k };
+                let line = self.locus(&to, &last, false);
+                let far = beside(&line, centre);
+                let longer = SLANTS.into_iter().filter_map(|slant| next.reaching(self.family, far * slant));
+                for next in longer.chain([next]) {
+                    let radius = length(next.hop(self.family));
+                    for centre in meet([line, Locus::Circle { centre, radius }]).into_iter().flatten() {
+                        let nodes = [from, arc, Node::Arc { centre, curvature: other }, to];
+                        all.push(Chain::new(self.family, &nodes, &[first, next, last]));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Spirals to an arc, from another to a line, and what leads from arc to arc, with the curvature of the second.
+    fn pairs(&self, k: f64) -> Vec<((Link, Link), (Link, f64))> {
+        let mut all = Vec::new();
+        for other in [k, -k] {
+            let outer = self.links(0.0, k).into_iter().zip(self.links(other, 0.0));
+            let inner = self.links(k, other);
+            all.extend(outer.flat_map(|outer| inner.iter().map(move |next| (outer, (*next, other))).collect::<Vec<_>>()));
+        }
+        all
+    }
+}
+
+/// Curvatures of arcs that touch one circle and another about it, in units of the limit; a little sharper ones leave
+/// room for spirals.
+fn halfway(nodes: &[Node; 2]) -> impl Iterator<Item = f64> + use<> {
+    let [a, b] = [0, 1].map(|i| 1.0 / nodes[i].curvature().abs());
+    let radii = [a + b, (a - b).abs()].into_iter().flat_map(|twice| [0.5 * twice, 0.45 * twice]);
+    radii.filter(|radius| radius.is_finite() && *radius >= 1.0).map(|radius| 1.0 / radius)
+}
+
+/// How far a point is from a line.
+fn beside(locus: &Locus, point: Vector) -> f64 {
+    match locus {
+        Locus::Line(line) => cross(line.along(), sub(point, line.at)).abs(),
+        Locus::Circle { .. } => f64::NAN,
+    }
+}
+
+/// Where two meet.
+fn meet(loci: [Locus; 2]) -> [Option<Vector>; 2] {
+    match loci {
+        [Locus::Line(a), Locus::Line(b)] => {
+            let (u, v) = (a.along(), b.along());
+            let t = cross(sub(b.at, a.at), v) / cross(u, v);
+            [t.is_finite().then(|| add(a.at, scale(u, t))), None]
+        }
+        [Locus::Line(line), Locus::Circle { centre, radius }] | [Locus::Circle { centre, radius }, Locus::Line(line)] => {
+            let u = line.along();
+            let to = sub(centre, line.at);
+            let (along, beside) = (dot(u, to), cross(u, to));
+            if beside.is_nan() || beside.abs() > radius {
+                return [None, None];
+            }
+            let half = ((radius - beside) * (radius + beside)).sqrt();
+            [along - half, along + half].map(|t| Some(add(line.at, scale(u, t))))
+        }
+        [Locus::Circle { centre: a, radius: r }, Locus::Circle { centre: b, radius: s }] => {
+            let across = sub(b, a);
+            let apart = length(across);
+            // About one centre: all places are alike.
+            if apart <= SAME * r && (r - s).abs() <= SAME * r {
+                return [Some(add(a, [r, 0.0])), None];
+            }
+            if apart == 0.0 || apart.is_nan() || apart > r + s || apart < (r - s).abs() {
+                return [None, None];
+            }
+            let x = 0.5 * (apart + (r - s) * (r + s) / apart);
+            let y = ((r - x) * (r + x)).max(0.0).sqrt();
+            let along = unit(angle_of(across));
+            [[x, y], [x, -y]].map(|v| Some(add(a, turn(along, v))))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn loci_meet() {
+        let circle = |x: f64, radius: f64| Locus::Circle { centre: [x, 0.0], radius };
+        let [one, two] = meet([circle(0.0, 5.0), circle(6.0, 5.0)]).map(Option::unwrap);
+        assert!(length(sub(one, [3.0, 4.0])) < 1e-15 && length(sub(two, [3.0, -4.0])) < 1e-15);
+        assert_eq!(meet([circle(0.0, 1.0), circle(0.5, 3.0)]), [None, None]);
+        assert_eq!(meet([circle(2.0, 1.0), circle(2.0, 1.0)]), [Some([3.0, 0.0]), None]);
+        let line = |y: f64, direction: f64| Locus::Line(Pose { at: [0.0, y], direction });
+        assert_eq!(meet([line(3.0, 0.0), circle(0.0, 5.0)]), [Some([-4.0, 3.0]), Some([4.0, 3.0])]);
+        assert_eq!(meet([line(5.5, PI), circle(0.0, 5.0)]), [None, None]);
+        let [corner, none] = meet([line(1.0, 0.0), line(0.0, 0.25 * PI)]);
+        assert!(none.is_none() && length(sub(corner.unwrap(), [1.0, 1.0])) < 1e-15);
+    }
+}

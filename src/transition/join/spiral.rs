@@ -1,0 +1,264 @@
+//! The spirals that joins are made of: between two curvatures of one sign, or from or to 0, of a given length.
+//!
+//! Their shape is that of nearly constant parametric speed, so that the curvature is nearly linear in the length, as a
+//! clothoid's is. With end curvatures and the angle between the end directions given, a cubic has two free numbers, the
+//! lengths h0, h1 of its outer legs, and a PH quintic the moduli A, B of its outer pre-images; its inner numbers follow
+//! from (3.4) of Habib & Sakai and from `w1 = (κ0 A³ e^{iθ/2} + κ1 B³) / (4 sin(θ/2))`. Here h0 = h1 = L/3 and A² = B²
+//! = L, but at a straight end the outer leg is m times the inner one, as in Habib & Sakai's CGIV paper, with m = 1.
+//! Spirals that turn by more than some 0.6 rad need other legs to have monotone curvature ([`Spiral::shape`]).
+
+use super::super::cubic::spiral;
+use super::super::involute::involute_between;
+use super::super::ph_quintic::ph_spiral;
+use super::super::piece::{Arc, Cubic, InvoluteBetween, Line, Piece, TrigPart};
+use super::super::placement::Ends;
+use super::super::segment::{Base, Outcome, Request, Target, add_segment};
+use super::super::turn::Turn;
+use super::request::Family;
+use crate::curve::vector::{Vector, add, length, scale, sub, turn};
+use crate::curve::{CubicBezier, PhQuintic, TrigBezier};
+use crate::error::Result;
+use crate::family::reach::{Kind, Level};
+use crate::family::trig_quintic::{SPIRAL, Scaling, Shape, flags};
+
+/// Point and direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pose {
+    pub at: Vector,
+    pub direction: f64,
+}
+
+impl Pose {
+    /// The vector that (1, 0) is turned to.
+    pub fn along(&self) -> Vector {
+        [self.direction.cos(), self.direction.sin()]
+    }
+}
+
+/// A spiral: curvatures of one sign, or one of them 0, and the length that a clothoid that turns as far would have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Spiral {
+    pub from: f64,
+    pub to: f64,
+    pub length: f64,
+}
+
+impl Spiral {
+    /// How far it turns, with its sign.
+    pub fn angle(&self) -> f64 {
+        0.5 * (self.from + self.to) * self.length
+    }
+
+    /// The most that a spiral of [`Spiral::step`] between two curvatures turns, radians.
+    pub fn most(from: f64, to: f64) -> f64 {
+        if from == 0.0 || to == 0.0 { 1.3 } else { 1.15 }
+    }
+
+    /// By how much the legs are longer than L/3, and by how much the one at the flatter end is longer than the other is
+    /// shorter; at a straight end m instead.
+    ///
+    /// Fitted: for angles up to [`Spiral::most`] and ratios of curvature from 0.05 to 0.8 the result has monotone
+    /// curvature, in the middle of the range of those that have. Close to the greatest angle it grows long, so that
+    /// circles far from a line are reached. What is used is proved all the same.
+    fn shape(&self, family: Family) -> [f64; 2] {
+        let angle = self.angle().abs();
+        let (flat, round) = (self.from.abs().min(self.to.abs()), self.from.abs().max(self.to.abs()));
+        if family == Family::TrigQuintic {
+            // These are as long as they are; nearly their chord.
+            return [length(self.step(family)) / self.length * (1.0 + angle * angle / 48.0), 1.0];
+        }
+        if flat == 0.0 {
+            return if family == Family::PhQuintic {
+                [1.0 + 12.0 * (angle - 0.95).max(0.0).powi(2), (1.6 - angle).clamp(0.6, 1.0)]
+            } else {
+                let more = (angle - 0.7).max(0.0);
+                [1.0 + 2.5 * more * more * (1.0 + more), (1.75 - 1.5 * angle).clamp(0.4, 1.0)]
+            };
+        }
+        if family == Family::PhQuintic {
+            return [1.0, 1.0];
+        }
+        let (ratio, share) = (flat / round, ((angle - 0.5) / 0.3).clamp(0.0, 1.0));
+        let longer = ratio.powf(-0.22 * (1.0 - ratio).sqrt());
+        let uneven = 0.3 - 2.0 / 3.0 * (ratio - 0.5).max(0.0);
+        // Where this is 1 and the curvatures are near, two cubics nearly coincide, and doubles cannot tell them apart.
+        let even = 1.0 - 0.02 * ((ratio - 0.2) / 0.2).clamp(0.0, 1.0);
+        [even + share * (longer - even), 1.0 + share * uneven]
+    }
+
+    /// How long it is, nearly.
+    pub fn stretched(&self, family: Family) -> f64 {
+        self.length * self.shape(family)[0]
+    }
+
+    /// From its start to its end, for a start along (1, 0).
+    pub fn step(&self, family: Family) -> Vector {
+        let (angle, side) = (self.angle().abs(), self.angle().signum());
+        let (k0, k1) = (self.from.abs(), self.to.abs());
+        let [x, y] = match family {
+            Family::Cubic | Family::Involute => {
+                let ([longer, uneven], sine) = (self.shape(family), angle.sin());
+                let h = longer * self.length / 3.0;
+                let [flat, round] = if k0.min(k1) == 0.0 { [h, h] } else { [h * uneven, h / uneven] };
+                let [h0, h1] = if k0 < k1 { [flat, round] } else { [round, flat] };
+                let (x, y) = (1.5 * k1 * h1 * h1 / sine, 1.5 * k0 * h0 * h0 / sine);
+                let h0 = if k0 == 0.0 { uneven * x } else { h0 };
+                let h1 = if k1 == 0.0 { uneven * y } else { h1 };
+                [h0 + x + (y + h1) * angle.cos(), (y + h1) * sine]
+            }
+            Family::PhQuintic => {
+                let [longer, m] = self.shape(family);
+                let (half, root) = (0.5 * angle, (longer * self.length).sqrt());
+                let [x, y] = [k1, k0].map(|k| k * root * root * root / (4.0 * half.sin()));
+                let a = if k0 == 0.0 { m * x } else { root };
+                let b = if k1 == 0.0 { m * y } else { root };
+                let tilted = |f: f64| [f * half.cos(), f * half.sin()];
+                PhQuintic::new([0.0, 0.0], [[a, 0.0], add([x, 0.0], tilted(y)), tilted(b)]).end
+            }
+            Family::TrigQuintic if k0.min(k1) > 0.0 => [f64::NAN, f64::NAN],
+            Family::TrigQuintic => {
+                let [x, y] = trig_shape(angle).curve(1.0 / k0.max(k1), Scaling::Corrected).points()[5];
+                if k0 == 0.0 { [x, y] } else { turn([angle.cos(), angle.sin()], [x, -y]) }
+            }
+        };
+        [x, side * y]
+    }
+
+    /// The proved spiral in units of `1 / scale`, from a pose of the user's frame, with the pose where it ends; `None`
+    /// where the family has none.
+    pub fn piece(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
+        let direction = at.direction + self.angle();
+        if family != Family::Involute && (self.from == 0.0 || self.to == 0.0) {
+            let Some(piece) = self.straight_ended(family, at, scale_by)? else { return Ok(None) };
+            let end = piece.end();
+            return Ok(Some((piece, Pose { at: end, direction })));
+        }
+        let end = add(at.at, scale(turn(at.along(), self.step(family)), 1.0 / scale_by));
+        let ends = Ends {
+            start: at.at,
+            end,
+            start_direction: at.direction,
+            end_direction: direction,
+            start_curvature: self.from * scale_by,
+            end_curvature: self.to * scale_by,
+        };
+        let piece = between(family, &ends)?;
+        Ok(piece.map(|piece| (piece, Pose { at: end, direction })))
+    }
+
+    /// One end is straight.
+    fn trigonometric(self, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
+        let (angle, round) = (self.angle().abs(), self.from + self.to);
+        let shape = trig_shape(angle);
+        if flags(&shape)? & SPIRAL == 0 {
+            return Ok(None);
+        }
+        let curve = shape.curve(1.0 / (round.abs() * scale_by), Scaling::Corrected);
+        let mirrored = |curve: &TrigBezier| curve.mapped(curve.start, |[x, y]| [x, -y]);
+        // Run backwards it starts along θ + π and turns the other way.
+        let (curve, start) =
+            if self.from == 0.0 { (curve, 0.0) } else { (mirrored(&curve).reversed(), std::f64::consts::PI - angle) };
+        let curve = if round > 0.0 { curve } else { mirrored(&curve) };
+        let turned = at.direction - start.copysign(round);
+        let along = [turned.cos(), turned.sin()];
+        Ok(Some(Piece::TrigQuintic(TrigPart { curve: curve.mapped(at.at, |z| turn(along, z)), from: 0.0, to: 1.0 })))
+    }
+
+    /// One end is straight.
+    fn straight_ended(self, family: Family, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
+        let round = self.from + self.to;
+        if family == Family::TrigQuintic {
+            return self.trigonometric(at, scale_by);
+        }
+        let [longer, m] = self.shape(family);
+        let request = Request {
+            base: if self.from == 0.0 { Base::Line } else { Base::Circle },
+            start: at.at,
+            direction: at.direction,
+            turn: if round > 0.0 { Turn::Left } else { Turn::Right },
+            radius: 1.0 / (round.abs() * scale_by),
+            theta: self.angle().abs(),
+            target: Target::Shape { m, q: longer * self.length * round.abs() },
+        };
+        let kind = if family == Family::PhQuintic { Kind::Ph } else { Kind::Cubic };
+        Ok(match add_segment(kind, &request)? {
+            Outcome::Segment(added) if added.level >= Level::Exact => Some(added.piece),
+            _ => None,
+        })
+    }
+}
+
+/// The shape of trigonometric spirals: a ratio of 6 gives spirals for all angles to a straight end that are used here.
+fn trig_shape(theta: f64) -> Shape {
+    Shape { ratio: 6.0, theta, m: 1.0, p: 0.0, q: 0.0 }
+}
+
+/// The family's proved spiral between two ends, if it has one.
+pub(super) fn between(family: Family, ends: &Ends) -> Result<Option<Piece>> {
+    Ok(match family {
+        Family::Cubic => spiral(ends)?.chosen().map(|s| s.piece()),
+        Family::PhQuintic => ph_spiral(ends)?.chosen().map(|s| Piece::PhQuintic(s.curve)),
+        // Both ends would be round, or both are straight.
+        Family::TrigQuintic => None,
+        Family::Involute => {
+            let (found, frame) = involute_between(ends, [0, 0])?;
+            InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute)
+        }
+    })
+}
+
+/// The same way, travelled back.
+pub(super) fn reversed(piece: Piece) -> Result<Piece> {
+    use std::f64::consts::PI;
+    Ok(match piece {
+        Piece::Cubic(Cubic { points, legs }) => {
+            let ([a, b, c, d], [u, v, w]) = (points.p, legs);
+            Piece::Cubic(Cubic { points: CubicBezier { p: [d, c, b, a] }, legs: [w, v, u].map(|leg| scale(leg, -1.0)) })
+        }
+        Piece::PhQuintic(PhQuintic { start, end, preimage: [u, v, w] }) => {
+            Piece::PhQuintic(PhQuintic::between(end, start, [w, v, u].map(|[x, y]| [-y, x])))
+        }
+        Piece::Line(Line { start, end }) => Piece::Line(Line { start: end, end: start }),
+        Piece::Arc(arc) => {
+            let back = arc.start_direction + arc.curvature * arc.length + PI;
+            let start = Piece::Arc(arc).end();
+            Piece::Arc(Arc { start, start_direction: back, curvature: -arc.curvature, length: arc.length })
+        }
+        Piece::Involute(between) => {
+            let e = *between.ends();
+            let ends = Ends {
+                start: e.end,
+                end: e.start,
+                start_direction: e.end_direction + PI,
+                end_direction: e.start_direction + PI,
+                start_curvature: -e.end_curvature,
+                end_curvature: -e.start_curvature,
+            };
+            Piece::Involute(InvoluteBetween::new(&ends, [0, 0])?)
+        }
+        Piece::TrigQuintic(TrigPart { curve, from, to }) => {
+            Piece::TrigQuintic(TrigPart { curve: curve.reversed(), from: 1.0 - to, to: 1.0 - from })
+        }
+    })
+}
+
+/// The same piece with its end moved by a rounding to where the next one starts.
+pub(super) fn pinned(piece: Piece, to: Vector) -> Result<Piece> {
+    Ok(match piece {
+        Piece::Cubic(Cubic { points, legs }) => {
+            let [a, b, c, _] = points.p;
+            Piece::Cubic(Cubic { points: CubicBezier { p: [a, b, c, to] }, legs })
+        }
+        Piece::PhQuintic(curve) => Piece::PhQuintic(PhQuintic::between(curve.start, to, curve.preimage)),
+        Piece::Involute(between) => {
+            let ends = Ends { end: to, ..*between.ends() };
+            Piece::Involute(InvoluteBetween::new(&ends, [0, 0])?)
+        }
+        Piece::TrigQuintic(part) => {
+            let mut curve = part.curve;
+            curve.sides[2] = add(curve.sides[2], sub(to, curve.points()[5]));
+            Piece::TrigQuintic(TrigPart { curve, ..part })
+        }
+        other => other,
+    })
+}

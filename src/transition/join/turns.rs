@@ -1,0 +1,116 @@
+//! Turns: from a state over an arc to a straight end.
+
+use super::request::{Family, Objective};
+use super::spiral::{Pose, Spiral};
+use crate::curve::vector::{Vector, add, scale, turn};
+use std::f64::consts::TAU;
+
+/// Curvatures of arcs in units of the limit, and lengths of spirals in units of the least radius, for the shortest
+/// join.
+const SHORT: &[(f64, f64)] = &[(1.0, 0.4), (1.0, 0.8), (0.5, 0.4), (0.25, 0.8), (0.125, 0.8)];
+/// The same for gentle joins. A spiral turns by at most 0.6 rad, where both families' are proved.
+const GENTLE: &[(f64, f64)] =
+    &[(1.0, 0.4), (1.0, 1.2), (0.5, 0.8), (0.5, 2.4), (0.25, 0.8), (0.25, 2.4), (0.25, 4.8), (0.125, 2.4), (0.125, 4.8)];
+/// A spiral leads at least this factor from one curvature to the other: nearer ones are no spirals but for arcs.
+const APART: f64 = 0.55;
+/// Below this an arc goes on about a centre too far away to be of use.
+const HELD: f64 = 1.0 / 64.0;
+/// An arc of less than this, radians, is a rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// A turn that may be left in any direction, in units of the least radius.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turn {
+    /// What leads to the arc.
+    pub before: [Option<Spiral>; 2],
+    /// Curvature of the arc.
+    pub curvature: f64,
+    /// Direction at the arc's start.
+    pub heading: f64,
+    /// Centre of the arc.
+    pub centre: Vector,
+    /// From the arc to curvature 0.
+    pub exit: Spiral,
+    /// From the centre to where it ends, for the direction (1, 0) there.
+    pub reach: Vector,
+}
+
+impl Turn {
+    /// Left in a direction, how far its arc goes round, radians from 0 to a full turn.
+    pub fn arc(&self, direction: f64) -> f64 {
+        wrapped(self.curvature.signum() * (direction - self.exit.angle() - self.heading))
+    }
+
+    /// Left after an arc, its length, nearly.
+    pub fn length(&self, arc: f64) -> f64 {
+        let spirals = self.before.iter().flatten().chain([&self.exit]);
+        spirals.map(|s| s.length).sum::<f64>() + arc / self.curvature.abs()
+    }
+
+    /// What it costs, nearly.
+    pub fn cost(&self, arc: f64, objective: Objective) -> f64 {
+        let spirals = || self.before.iter().flatten().chain([&self.exit]);
+        match objective {
+            Objective::Length => self.length(arc),
+            Objective::GreatestCurvature => self.curvature.abs(),
+            Objective::GreatestRate => spirals().map(|s| (s.to - s.from).abs() / s.length).fold(0.0, f64::max),
+            Objective::BendingEnergy => {
+                let bent = |s: &Spiral| s.length * (s.from * s.from + s.from * s.to + s.to * s.to) / 3.0;
+                spirals().map(bent).sum::<f64>() + arc * self.curvature.abs()
+            }
+        }
+    }
+
+    /// How many pieces it has.
+    pub fn pieces(&self, arc: f64) -> usize {
+        self.before.iter().flatten().count() + 1 + usize::from(arc > 0.0)
+    }
+}
+
+/// An angle within 0 and a full turn; a rounding from either is 0.
+pub(super) fn wrapped(angle: f64) -> f64 {
+    let angle = angle.rem_euclid(TAU);
+    if angle <= ROUNDING || angle >= TAU - ROUNDING { 0.0 } else { angle }
+}
+
+/// From the centre of a turn to its straight end, seen along the direction there.
+pub(super) fn reach(family: Family, exit: &Spiral) -> Vector {
+    let [x, y] = exit.step(family);
+    let (sin, cos) = exit.angle().sin_cos();
+    turn([cos, -sin], [x, y - 1.0 / exit.from])
+}
+
+/// All turns from a pose with a curvature, both in units of the least radius.
+pub(super) fn turns(family: Family, at: Pose, curvature: f64, objective: Objective) -> Vec<Turn> {
+    let rungs = if objective == Objective::Length { SHORT } else { GENTLE };
+    let mut all = Vec::with_capacity(3 * rungs.len());
+    let mut add_turn = |before: [Option<Spiral>; 2], k: f64, length: f64| {
+        let (mut place, mut heading) = (at.at, at.direction);
+        for spiral in before.iter().flatten() {
+            place = add(place, turn([heading.cos(), heading.sin()], spiral.step(family)));
+            heading += spiral.angle();
+        }
+        let centre = add(place, scale([-heading.sin(), heading.cos()], 1.0 / k));
+        let exit = Spiral { from: k, to: 0.0, length };
+        all.push(Turn { before, curvature: k, heading, centre, exit, reach: reach(family, &exit) });
+    };
+    for (peak, length) in rungs.iter().copied() {
+        for k in [peak, -peak] {
+            let to_arc = |from: f64| Spiral { from, to: k, length };
+            if curvature == 0.0 {
+                add_turn([Some(to_arc(0.0)), None], k, length);
+                continue;
+            }
+            let (less, more) = (k.abs().min(curvature.abs()), k.abs().max(curvature.abs()));
+            if k * curvature > 0.0 && less <= APART * more && family != Family::TrigQuintic {
+                add_turn([Some(to_arc(curvature)), None], k, length);
+            }
+            let to_line = Spiral { from: curvature, to: 0.0, length: rungs[0].1.max(0.5 * length) };
+            add_turn([Some(to_line), Some(to_arc(0.0))], k, length);
+        }
+        if curvature.abs() >= HELD && curvature.abs() * length <= 1.2 {
+            add_turn([None, None], curvature, length);
+        }
+    }
+    all
+}

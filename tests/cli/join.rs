@@ -1,0 +1,134 @@
+//! The command `join`.
+
+use super::curve_output::piped;
+use super::{Folder, fine, run};
+use serde_json::{Value, json};
+
+const LIMIT: [&str; 2] = ["--greatest-curvature", "0.5"];
+
+fn join(arguments: &[&str]) -> super::Said {
+    run(["join"].iter().chain(arguments))
+}
+
+fn with_limit(arguments: &[&str]) -> super::Said {
+    join(&[&LIMIT, arguments].concat())
+}
+
+fn kinds(json: &Value) -> Vec<&str> {
+    json["pieces"].as_array().unwrap().iter().map(|piece| piece["kind"].as_str().unwrap()).collect()
+}
+
+#[test]
+fn states_lines_and_circles_are_joined() {
+    let folder = Folder::new("");
+    let figure = folder.text("join.png");
+    let said = with_limit(&["--from", "0,0,0deg", "--to", "8,6,90deg", "--figure", &figure, "--samples", "11"]).json();
+    assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    assert_eq!(said["samples"].as_array().unwrap().len(), 11);
+    assert_eq!(said["samples"][10]["station"], said["length"]);
+    let arc = said["pieces"].as_array().unwrap().iter().find(|piece| piece["kind"] == "arc").unwrap();
+    assert!(arc["start"].is_array() && arc["direction"].is_number() && arc["curvature"] == 0.5 && arc["length"].is_number());
+    let u = with_limit(&["--from-line", "0,0,0", "--to-line", "0,9,100deg", "--family", "ph-quintic"]).json();
+    assert_eq!(kinds(&u), ["ph-quintic", "arc", "ph-quintic"]);
+    let j = with_limit(&["--from-line=-3,0,0", "--to-circle", "0,4.2,4,left", "--most-pieces", "1"]).json();
+    assert_eq!(kinds(&j), ["cubic"]);
+    let s = with_limit(&["--from-circle", "0,0,4,left", "--to-circle", "12,0,3,right", "--objective", "greatest-rate"]).json();
+    let [low, high] = [0, 1].map(|i| s["curvature_range"][i].as_f64().unwrap());
+    assert!((low + 1.0 / 3.0).abs() < 1e-12 && (high - 0.25).abs() < 1e-12, "{low} {high}");
+}
+
+#[test]
+fn samples_come_as_a_table() {
+    let csv = with_limit(&["--from", "0,0,0", "--to", "5,0,0", "--samples", "3", "--csv"]);
+    assert_eq!(csv.out, "station,x,y,heading,curvature\n0.0,0.0,0.0,0.0,0.0\n2.5,2.5,0.0,0.0,0.0\n5.0,5.0,0.0,0.0,0.0\n");
+    assert_eq!(csv.code, Some(0));
+    let none = with_limit(&["--from", "0,0,0", "--to", "5,0,0", "--samples", "3", "--csv", "--longest", "4"]);
+    assert_eq!((none.code, none.out.as_str()), (Some(1), ""));
+    assert!(none.err.contains("a length of 4; without these bounds one has 1 pieces and is 5 long"), "{}", none.err);
+}
+
+#[test]
+fn no_join_is_an_answer() {
+    let none = with_limit(&["--from", "0,0,0,0.7", "--to", "5,0,0"]);
+    assert_eq!(none.code, Some(1));
+    let none: Value = serde_json::from_str(&none.out).unwrap();
+    assert_eq!(none, json!({ "pieces": null, "reason": "the start curvature 0.7 is beyond the greatest curvature 0.5" }));
+    let one = with_limit(&["--from-line", "0,0,0", "--to-line", "5,0,0"]);
+    assert!(one.code == Some(1) && one.out.contains("there is nothing to join"), "{}", one.out);
+}
+
+#[test]
+fn a_request_stands_in_a_file() {
+    let folder = Folder::new("");
+    let typed = ["join", "--from", "0,0,0", "--to", "4,3,90deg,0.25", "--greatest-curvature", "0.5", "--longest", "99"];
+    let typed = fine(typed).out;
+    let toml = "greatest_curvature = 0.5\nlongest = 99\nfrom.state = { point = [0, 0], direction = 0 }\n\
+                to.state = { point = [4, 3], direction = \"90deg\", curvature = 0.25 }\n";
+    std::fs::write(folder.at("a.toml"), toml).unwrap();
+    assert_eq!(join(&[&folder.text("a.toml")]).out, typed);
+    let json = json!({
+        "greatest_curvature": 0.5, "longest": 99, "family": "cubic", "objective": "length", "most_pieces": 11,
+        "from": { "state": { "point": [0, 0], "direction": 0 } },
+        "to": { "state": { "point": [4, 3], "direction": "90deg", "curvature": 0.25 } },
+    });
+    assert_eq!(piped(&["join", "-"], &json.to_string()).out, typed);
+    let mut circle = json.clone();
+    circle["from"] = json!({ "line": { "point": [0, 0], "direction": 0 } });
+    circle["to"] = json!({ "circle": { "centre": [9, 3], "radius": 2, "turn": "left" } });
+    assert_eq!(piped(&["join", "-"], &circle.to_string()).code, Some(0));
+    for (path, value, what) in [
+        ("objective", json!("speed"), "objective: unknown variant `speed`"),
+        ("longset", json!(3), "longset: unknown field `longset`"),
+        ("from", json!({ "state": { "point": [0, 0] } }), "from.state: missing field `direction`"),
+        ("to", json!({ "pose": {} }), "to: unknown variant `pose`"),
+    ] {
+        let mut wrong = json.clone();
+        wrong[path] = value;
+        let said = piped(&["join", "-"], &wrong.to_string());
+        assert!(said.code == Some(2) && said.err.contains(what), "{}", said.err);
+    }
+}
+
+#[test]
+fn tables_are_answered_row_by_row() {
+    let rows = "x0,y0,direction0,curvature0,x1,y1,direction1,curvature1\n0,0,0,0,8,6,90deg,0\n0,0,0,1,8,6,1,0\n0,0,0,x,8,6,1,0\n\
+                0,0,0,nan,8,6,1,0\n";
+    let said = piped(&["join", "--points", "-", "--greatest-curvature", "0.5"], rows);
+    let lines: Vec<Value> = said.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!((said.code, lines.len()), (Some(2), 4));
+    assert_eq!(lines[0]["pieces"][0]["kind"], "cubic");
+    assert!(lines[1]["pieces"].is_null() && lines[1]["reason"].as_str().unwrap().contains("start curvature 1.0"));
+    assert_eq!(lines[2], json!({ "line": 4, "error": "curvature0: \"x\" is no number" }));
+    assert!(lines[3]["error"].as_str().unwrap().contains("start curvature is NaN"));
+    let fine = rows.lines().take(3).collect::<Vec<_>>().join("\n");
+    let said = piped(&["join", "--points", "-", "--greatest-curvature", "0.5"], &fine);
+    assert_eq!(said.code, Some(0));
+}
+
+#[test]
+fn mistakes_are_told() {
+    for (arguments, what) in [
+        (vec!["--to", "1,0,0"], "one of `--from`, `--from-line` and `--from-circle` is needed"),
+        (vec!["--from", "0,0", "--to", "1,0,0"], "\"0,0\" is no state `x,y,angle`"),
+        (vec!["--from", "0,0,nan", "--to", "1,0,0"], "nan"),
+        (vec!["--from-circle", "0,0,1,up", "--to-line", "1,0,0"], "is no circle"),
+        (vec!["--from-circle", "0,0,-1,left", "--to-line", "1,0,0"], "the start radius is -1.0; it must be finite and above 0"),
+        (vec!["--from", "0,0,0", "--to-line", "1,0,0"], "one end is a state and the other is not"),
+        (vec!["--from", "0,0,0", "--from-line", "0,0,0", "--to-line", "1,0,0"], "cannot be used with"),
+        (vec!["--from", "0,0,0", "--to", "1,0,0", "--most-pieces", "0"], "the most pieces are 0"),
+        (vec!["--from", "0,0,0", "--to", "1,0,0", "--longest=-1"], "the longest length is -1.0"),
+        (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "would be a PNG picture"),
+        (vec!["--from", "0,0,0", "--to", "1,0,0", "--csv"], "--samples"),
+        (vec!["request.toml"], "cannot be used with"),
+    ] {
+        let said = with_limit(&arguments);
+        assert!(said.code == Some(2) && said.err.contains(what) && said.out.is_empty(), "{arguments:?}: {}", said.err);
+    }
+    let limit = |limit: &str| join(&["--from", "0,0,0", "--to", "1,0,0", &format!("--greatest-curvature={limit}")]);
+    for (given, what) in [("0", "is 0.0; it must"), ("-1", "is -1.0"), ("nan", "is NaN"), ("1e200", "change the unit of length")]
+    {
+        let said = limit(given);
+        assert!(said.code == Some(2) && said.err.contains(what), "{}", said.err);
+    }
+    assert!(join(&["--from", "0,0,0", "--to", "1,0,0"]).err.contains("`--greatest-curvature` is needed"));
+}
