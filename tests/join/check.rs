@@ -112,6 +112,10 @@ fn seen(piece: &Value) -> Seen {
             Seen { ends: [start, end], curvatures: vec![curvature], length }
         }
         "involute" => involute(piece),
+        "trig-quintic" => {
+            let points: Vec<Vector> = piece["control_points"].as_array().unwrap().iter().map(vector).collect();
+            sampled(|t| trigonometric(&points, number("p"), number("q"), t))
+        }
         _ => bezier(&piece["control_points"].as_array().unwrap().iter().map(vector).collect::<Vec<_>>()),
     }
 }
@@ -144,11 +148,54 @@ fn bezier(p: &[Vector]) -> Seen {
         let speed = d[0].hypot(d[1]);
         (rows[rows.len() - 1][0], d[1].atan2(d[0]), (d[0] * e[1] - d[1] * e[0]) / speed.powi(3), speed)
     };
+    sampled(jet)
+}
+
+/// Value and two derivatives.
+type Rates = [f64; 3];
+
+fn times(a: Rates, b: Rates) -> Rates {
+    [a[0] * b[0], a[1] * b[0] + a[0] * b[1], a[2] * b[0] + 2.0 * a[1] * b[1] + a[0] * b[2]]
+}
+
+fn linear(factor: f64, a: Rates, constant: f64) -> Rates {
+    [factor * a[0] + constant, factor * a[1], factor * a[2]]
+}
+
+/// Basis (2) of Misro, Ramli and Ali, by the angle φ = πt/2.
+fn trigonometric(points: &[Vector], p: f64, q: f64, t: f64) -> (Vector, f64, f64, f64) {
+    let angle = std::f64::consts::FRAC_PI_2 * t;
+    let (sin, cos) = angle.sin_cos();
+    let half = [0.5 * angle, 0.5 * std::f64::consts::FRAC_PI_2 * (1.0 - t)].map(f64::sin);
+    let (s, c) = ([sin, cos, -sin], [cos, -sin, -cos]);
+    // 1 - C and 1 - S.
+    let (v, w) = ([2.0 * half[0] * half[0], sin, cos], [2.0 * half[1] * half[1], -cos, sin]);
+    let power = |a: Rates, n: i32| (0..n).fold([1.0, 0.0, 0.0], |product, _| times(product, a));
+    let sum = |a: Rates, b: Rates, constant: f64| [a[0] + b[0] + constant, a[1] + b[1], a[2] + b[2]];
+    let basis = [
+        times(power(w, 4), linear(-p, s, 1.0)),
+        times(times(s, power(w, 3)), linear(p, w, 4.0)),
+        times(times(power(w, 2), v), sum(linear(8.0, s, 0.0), linear(3.0, c, 0.0), 9.0)),
+        times(times(power(v, 2), w), sum(linear(8.0, c, 0.0), linear(3.0, s, 0.0), 9.0)),
+        times(times(c, power(v, 3)), linear(q, v, 4.0)),
+        times(power(v, 4), linear(-q, c, 1.0)),
+    ];
+    // From the nearer end, so that nothing is lost there.
+    let origin = if t < 0.5 { points[0] } else { points[5] };
+    let of = |order: usize| [0, 1].map(|i| (0..6).map(|n| basis[n][order] * (points[n][i] - origin[i])).sum::<f64>());
+    let ([x, y], d, e) = (of(0), of(1), of(2));
+    let speed = d[0].hypot(d[1]);
+    let curvature = (d[0] * e[1] - d[1] * e[0]) / speed.powi(3);
+    ([origin[0] + x, origin[1] + y], d[1].atan2(d[0]), curvature, speed * std::f64::consts::FRAC_PI_2)
+}
+
+/// Ends, curvatures and length of a curve given by point, direction, curvature and speed.
+fn sampled(jet: impl Fn(f64) -> (Vector, f64, f64, f64)) -> Seen {
     let place = |t: f64| {
         let (point, direction, curvature, _) = jet(t);
         Place { point, direction, curvature }
     };
-    let steps = 200;
+    let steps = 400;
     let at = |i: usize| jet(i as f64 / steps as f64);
     // Simpson's rule.
     let weight = |i: usize| if i == 0 || i == steps { 1.0 } else { [2.0, 4.0][i % 2] };

@@ -8,7 +8,7 @@ use check::{Checked, check};
 use spiral_atlas::transition::join::{Family, Join, Objective, Outcome, Request, State, join};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const FAMILIES: [Family; 3] = [Family::Cubic, Family::PhQuintic, Family::Involute];
+const FAMILIES: [Family; 4] = [Family::Cubic, Family::PhQuintic, Family::Involute, Family::TrigQuintic];
 
 /// Uniform numbers in [0, 1), the same each time (SplitMix64).
 struct Random(u64);
@@ -49,7 +49,7 @@ fn found(request: &Request) -> Join {
 #[test]
 fn random_states_are_joined() {
     let mut random = Random(1);
-    for (family, count) in FAMILIES.into_iter().zip([2000, 500, 200]) {
+    for (family, count) in FAMILIES.into_iter().zip([2000, 500, 200, 500]) {
         let (mut joined, mut ratios) = (0, Vec::new());
         for _ in 0..count {
             let (from, to) = (random.state(10.0), random.state(10.0));
@@ -65,7 +65,9 @@ fn random_states_are_joined() {
         let at = |share: f64| ratios[(share * (ratios.len() - 1) as f64) as usize];
         println!("{family:?}: {joined} of {count}; over Dubins: median {}, 90 % {}, 99 % {}", at(0.5), at(0.9), at(0.99));
         assert!(joined * 1000 >= count * 995, "{family:?}: {joined} of {count}");
-        assert!(at(0.5) < 1.2, "{family:?}: {}", at(0.5));
+        // Trigonometric spirals are long for what they turn.
+        let most = if family == Family::TrigQuintic { 1.7 } else { 1.2 };
+        assert!(at(0.5) < most, "{family:?}: {}", at(0.5));
     }
 }
 
@@ -172,7 +174,7 @@ fn hostile_numbers_are_refused_by_name() {
 #[test]
 fn nearly_degenerate_states_of_all_sizes() {
     let mut random = Random(5);
-    for (family, count) in FAMILIES.into_iter().zip([1500, 400, 60]) {
+    for (family, count) in FAMILIES.into_iter().zip([1500, 400, 60, 300]) {
         let mut joined = 0;
         for _ in 0..count {
             let limit = 10f64.powf(random.between(-9.0, 6.0));

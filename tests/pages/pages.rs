@@ -16,7 +16,7 @@ fn pages() -> Vec<PathBuf> {
 /// the last: 0, or 1 where the page says so in a comment that begins with `exit 1`.
 type Line = (String, Vec<Vec<String>>, i32);
 
-/// Every line of `query`, `curve`, `path`, `join` and `export` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
+/// Every line of `query`, `curve`, `join`, `path` and `export` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
 fn commands(text: &str) -> Vec<Line> {
     let blocks = text.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     let lines = blocks.flat_map(|block| block.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
@@ -33,7 +33,7 @@ fn commands(text: &str) -> Vec<Line> {
         let commands = command.split(" | ").map(|command| one(command.trim())).collect::<Option<Vec<_>>>()?;
         Some((written, commands, i32::from(comment.trim_start().starts_with("exit 1"))))
     });
-    arguments.filter(|(_, line, _)| ["query", "curve", "path", "join", "export"].contains(&line[0][0].as_str())).collect()
+    arguments.filter(|(_, line, _)| ["query", "curve", "join", "path", "export"].contains(&line[0][0].as_str())).collect()
 }
 
 /// Runs a line in a folder.

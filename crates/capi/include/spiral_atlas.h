@@ -286,8 +286,8 @@ SpiralStatus spiral_fit(const SpiralEnd *start,
                         SpiralCurve **curve);
 
 // A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
-// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic" or "involute" (null
-// stands for "cubic"). A path longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where none was
+// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic", "trig-quintic" or
+// "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where none was
 // found: the last error says why.
 //
 // # Safety
@@ -305,7 +305,7 @@ SpiralStatus spiral_join(const SpiralEnd *start,
 // `curve` comes from spiral_fit or spiral_join and is not used any more, nor are pointers that it gave.
 void spiral_curve_close(SpiralCurve *curve);
 
-// "cubic", "ph-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null pointer. It lives as long as the curve.
+// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null pointer. It lives as long as the curve.
 //
 // # Safety
 // `curve` is null or open.

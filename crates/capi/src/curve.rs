@@ -98,8 +98,8 @@ pub unsafe extern "C" fn spiral_fit(
 }
 
 /// A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
-/// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic" or "involute" (null
-/// stands for "cubic"). A path longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where none was
+/// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic", "trig-quintic" or
+/// "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where none was
 /// found: the last error says why.
 ///
 /// # Safety
@@ -118,11 +118,15 @@ pub unsafe extern "C" fn spiral_join(
         let (start, end, slot) = unsafe { (given(start, "start")?, given(end, "end")?, place(curve, "curve")?) };
         // SAFETY: the caller's promise.
         let name = if kind.is_null() { "cubic" } else { unsafe { text(kind, "kind")? } };
-        let family = [("cubic", Family::Cubic), ("ph-quintic", Family::PhQuintic), ("involute", Family::Involute)];
-        let (_, family) = family
-            .into_iter()
-            .find(|(known, _)| *known == name)
-            .ok_or_else(|| Fault::domain(format!("the kind is `{name}`; it must be cubic, ph-quintic or involute")))?;
+        let family = [
+            ("cubic", Family::Cubic),
+            ("ph-quintic", Family::PhQuintic),
+            ("trig-quintic", Family::TrigQuintic),
+            ("involute", Family::Involute),
+        ];
+        let (_, family) = family.into_iter().find(|(known, _)| *known == name).ok_or_else(|| {
+            Fault::domain(format!("the kind is `{name}`; it must be cubic, ph-quintic, trig-quintic or involute"))
+        })?;
         let state = |e: &SpiralEnd| State { point: [e.x, e.y], direction: e.direction, curvature: e.curvature };
         let request = Request { family, longest, ..Request::new(state(start), state(end), greatest_curvature) };
         match join(&request)? {
@@ -145,7 +149,7 @@ pub unsafe extern "C" fn spiral_curve_close(curve: *mut SpiralCurve) {
     }
 }
 
-/// "cubic", "ph-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null pointer. It lives as long as the curve.
+/// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null pointer. It lives as long as the curve.
 ///
 /// # Safety
 /// `curve` is null or open.

@@ -69,7 +69,7 @@ pub struct Args {
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     greatest_curvature: Option<f64>,
     /// What kind of spirals.
-    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = parse::named::<Family>(&["cubic", "ph-quintic", "involute"]))]
+    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = parse::named::<Family>(&["cubic", "ph-quintic", "involute", "trig-quintic"]))]
     family: Family,
     /// What is to be least; a rate is |dκ/ds|, how fast the steering must turn.
     #[arg(long, value_name = "NAME", default_value = "length", value_parser = parse::named::<Objective>(&OBJECTIVES))]

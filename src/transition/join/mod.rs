@@ -1,6 +1,25 @@
 //! Joins: paths of few spirals, arcs and lines between two states, with continuous direction and curvature and a limit
 //! of curvature.
 //!
+//! ```
+//! use spiral_atlas::transition::Turn;
+//! use spiral_atlas::transition::join::{End, Request, State, join};
+//!
+//! // A robot with a least radius of 2 turns a corner.
+//! let from = State { point: [0.0, 0.0], direction: 0.0, curvature: 0.0 };
+//! let to = State { point: [8.0, 6.0], direction: 1.5, curvature: 0.1 };
+//! let found = join(&Request::new(from, to, 0.5))?;
+//! let path = found.join().expect("there is room");
+//! assert!(path.measures.greatest_curvature <= 0.5 && path.measures.length > 10.0);
+//!
+//! // From a straight line to a circle by one spiral.
+//! let line = End::Line { point: [0.0, 0.0], direction: 0.0 };
+//! let circle = End::Circle { centre: [0.0, 31.0], radius: 30.0, turn: Turn::Left };
+//! let found = join(&Request { most_pieces: 1, ..Request::new(line, circle, 1.0 / 30.0) })?;
+//! assert_eq!(found.join().map(|path| path.pieces.len()), Some(1));
+//! # Ok::<(), spiral_atlas::Error>(())
+//! ```
+//!
 //! # How it is done
 //! As Dubins paths are made of arcs and lines, these are made of *turns* and lines. A turn is a spiral from the
 //! curvature at hand to that of an arc, the arc, and a spiral to curvature 0 (Fraichard & Scheuer 2004 have it with

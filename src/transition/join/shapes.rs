@@ -154,7 +154,8 @@ impl Sought {
         let over = self.lengths(from, 0.0).into_iter().zip(self.lengths(0.0, to));
         let over = over.map(|(a, b)| Link::over_line([from, to], [a, b], 0.0));
         let (less, more) = (from.abs().min(to.abs()), from.abs().max(to.abs()));
-        if from * to > 0.0 && less <= APART * more { direct().chain(over).collect() } else { over.collect() }
+        let one = from * to > 0.0 && less <= APART * more && self.family != Family::TrigQuintic;
+        if one { direct().chain(over).collect() } else { over.collect() }
     }
 
     /// Links that lead from one node to the other: at most one of them is a line.

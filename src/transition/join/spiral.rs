@@ -10,15 +10,16 @@
 use super::super::cubic::spiral;
 use super::super::involute::involute_between;
 use super::super::ph_quintic::ph_spiral;
-use super::super::piece::{Arc, Cubic, InvoluteBetween, Line, Piece};
+use super::super::piece::{Arc, Cubic, InvoluteBetween, Line, Piece, TrigPart};
 use super::super::placement::Ends;
 use super::super::segment::{Base, Outcome, Request, Target, add_segment};
 use super::super::turn::Turn;
 use super::request::Family;
-use crate::curve::vector::{Vector, add, scale, turn};
-use crate::curve::{CubicBezier, PhQuintic};
+use crate::curve::vector::{Vector, add, length, scale, sub, turn};
+use crate::curve::{CubicBezier, PhQuintic, TrigBezier};
 use crate::error::Result;
 use crate::family::reach::{Kind, Level};
+use crate::family::trig_quintic::{SPIRAL, Scaling, Shape, flags};
 
 /// Point and direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +63,10 @@ impl Spiral {
     fn shape(&self, family: Family) -> [f64; 2] {
         let angle = self.angle().abs();
         let (flat, round) = (self.from.abs().min(self.to.abs()), self.from.abs().max(self.to.abs()));
+        if family == Family::TrigQuintic {
+            // These are as long as they are; nearly their chord.
+            return [length(self.step(family)) / self.length * (1.0 + angle * angle / 48.0), 1.0];
+        }
         if flat == 0.0 {
             return if family == Family::PhQuintic {
                 [1.0 + 12.0 * (angle - 0.95).max(0.0).powi(2), (1.6 - angle).clamp(0.6, 1.0)]
@@ -110,6 +115,11 @@ impl Spiral {
                 let tilted = |f: f64| [f * half.cos(), f * half.sin()];
                 PhQuintic::new([0.0, 0.0], [[a, 0.0], add([x, 0.0], tilted(y)), tilted(b)]).end
             }
+            Family::TrigQuintic if k0.min(k1) > 0.0 => [f64::NAN, f64::NAN],
+            Family::TrigQuintic => {
+                let [x, y] = trig_shape(angle).curve(1.0 / k0.max(k1), Scaling::Corrected).points()[5];
+                if k0 == 0.0 { [x, y] } else { turn([angle.cos(), angle.sin()], [x, -y]) }
+            }
         };
         [x, side * y]
     }
@@ -137,8 +147,30 @@ impl Spiral {
     }
 
     /// One end is straight.
+    fn trigonometric(self, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
+        let (angle, round) = (self.angle().abs(), self.from + self.to);
+        let shape = trig_shape(angle);
+        if flags(&shape)? & SPIRAL == 0 {
+            return Ok(None);
+        }
+        let curve = shape.curve(1.0 / (round.abs() * scale_by), Scaling::Corrected);
+        let mirrored = |curve: &TrigBezier| curve.mapped(curve.start, |[x, y]| [x, -y]);
+        // Run backwards it starts along θ + π and turns the other way.
+        let (curve, start) =
+            if self.from == 0.0 { (curve, 0.0) } else { (mirrored(&curve).reversed(), std::f64::consts::PI - angle) };
+        let curve = if round > 0.0 { curve } else { mirrored(&curve) };
+        let turned = at.direction - start.copysign(round);
+        let along = [turned.cos(), turned.sin()];
+        Ok(Some(Piece::TrigQuintic(TrigPart { curve: curve.mapped(at.at, |z| turn(along, z)), from: 0.0, to: 1.0 })))
+    }
+
+    /// One end is straight.
     fn straight_ended(self, family: Family, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
-        let (round, [longer, m]) = (self.from + self.to, self.shape(family));
+        let round = self.from + self.to;
+        if family == Family::TrigQuintic {
+            return self.trigonometric(at, scale_by);
+        }
+        let [longer, m] = self.shape(family);
         let request = Request {
             base: if self.from == 0.0 { Base::Line } else { Base::Circle },
             start: at.at,
@@ -156,11 +188,18 @@ impl Spiral {
     }
 }
 
+/// The shape of trigonometric spirals: a ratio of 6 gives spirals for all angles to a straight end that are used here.
+fn trig_shape(theta: f64) -> Shape {
+    Shape { ratio: 6.0, theta, m: 1.0, p: 0.0, q: 0.0 }
+}
+
 /// The family's proved spiral between two ends, if it has one.
 pub(super) fn between(family: Family, ends: &Ends) -> Result<Option<Piece>> {
     Ok(match family {
         Family::Cubic => spiral(ends)?.chosen().map(|s| s.piece()),
         Family::PhQuintic => ph_spiral(ends)?.chosen().map(|s| Piece::PhQuintic(s.curve)),
+        // Both ends would be round, or both are straight.
+        Family::TrigQuintic => None,
         Family::Involute => {
             let (found, frame) = involute_between(ends, [0, 0])?;
             InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute)
@@ -197,7 +236,9 @@ pub(super) fn reversed(piece: Piece) -> Result<Piece> {
             };
             Piece::Involute(InvoluteBetween::new(&ends, [0, 0])?)
         }
-        other @ Piece::TrigQuintic(_) => other,
+        Piece::TrigQuintic(TrigPart { curve, from, to }) => {
+            Piece::TrigQuintic(TrigPart { curve: curve.reversed(), from: 1.0 - to, to: 1.0 - from })
+        }
     })
 }
 
@@ -212,6 +253,11 @@ pub(super) fn pinned(piece: Piece, to: Vector) -> Result<Piece> {
         Piece::Involute(between) => {
             let ends = Ends { end: to, ..*between.ends() };
             Piece::Involute(InvoluteBetween::new(&ends, [0, 0])?)
+        }
+        Piece::TrigQuintic(part) => {
+            let mut curve = part.curve;
+            curve.sides[2] = add(curve.sides[2], sub(to, curve.points()[5]));
+            Piece::TrigQuintic(TrigPart { curve, ..part })
         }
         other => other,
     })

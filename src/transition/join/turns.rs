@@ -102,7 +102,7 @@ pub(super) fn turns(family: Family, at: Pose, curvature: f64, objective: Objecti
                 continue;
             }
             let (less, more) = (k.abs().min(curvature.abs()), k.abs().max(curvature.abs()));
-            if k * curvature > 0.0 && less <= APART * more {
+            if k * curvature > 0.0 && less <= APART * more && family != Family::TrigQuintic {
                 add_turn([Some(to_arc(curvature)), None], k, length);
             }
             let to_line = Spiral { from: curvature, to: 0.0, length: rungs[0].1.max(0.5 * length) };

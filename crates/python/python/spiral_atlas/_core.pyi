@@ -174,7 +174,7 @@ def join(
     end: Sequence[float] | NDArray[np.float64],
     greatest_curvature: float,
     *,
-    family: Literal["cubic", "ph-quintic", "involute"] = "cubic",
+    family: Literal["cubic", "ph-quintic", "trig-quintic", "involute"] = "cubic",
     objective: Literal["length", "greatest-curvature", "greatest-rate", "bending-energy"] = "length",
     longest: float | None = None,
     most_pieces: int | None = None,
