@@ -12,7 +12,7 @@ EXIT = ((0.0, 0.0, 0.0, 0.0), (180.0, 150.0, math.radians(100), 0.0), 1 / 60)
 
 @pytest.mark.parametrize("family", ["cubic", "ph-quintic", "trig-quintic", "involute"])
 def test_a_join_meets_its_ends_and_keeps_the_limit(family):
-    found = spiral_atlas.join(*EXIT, family=family, longest=400)
+    found = spiral_atlas.join(*EXIT, family=family, longest=600)
     assert found and found.reason is None and found.curve is not None
     curve = found.curve
     assert (curve.start, curve.kind) == ((0, 0), "path") and np.allclose(curve.end, (180, 150), atol=1e-9)
