@@ -6,7 +6,7 @@ export NODEVICE_SELECT := "1"
 swiftshader := env("XDG_CACHE_HOME", env("HOME", "") / ".cache") / "spiral-atlas/swiftshader/icd.json"
 
 # Every check and test, as continuous integration runs them
-ci: setup lint test examples python capi opendrive fuzz swiftshader
+ci: setup lint test examples python capi ompl opendrive fuzz swiftshader
 
 # Installs what the tests need
 setup:
@@ -35,6 +35,10 @@ python:
 # The C library: installed beside itself, tested with two compilers and sanitizers
 capi:
     tests/capi
+
+# Joins as motions of OMPL's planners
+ompl:
+    tests/ompl
 
 # Roads, judged by the ASAM quality checker and SUMO
 opendrive:

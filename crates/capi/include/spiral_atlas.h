@@ -41,7 +41,7 @@ typedef struct SpiralAtlas SpiralAtlas;
 // A file of certified cells, mapped into memory.
 typedef struct SpiralCells SpiralCells;
 
-// A curve between two points.
+// A curve of one or more pieces.
 typedef struct SpiralCurve SpiralCurve;
 
 // One end of a curve, in the user's unit of length.
@@ -285,20 +285,34 @@ SpiralStatus spiral_fit(const SpiralEnd *start,
                         double longest,
                         SpiralCurve **curve);
 
+// A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
+// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic", "trig-quintic" or
+// "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where none was
+// found: the last error says why.
+//
+// # Safety
+// `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
+SpiralStatus spiral_join(const SpiralEnd *start,
+                         const SpiralEnd *end,
+                         double greatest_curvature,
+                         const char *kind,
+                         double longest,
+                         SpiralCurve **curve);
+
 // Closes a curve. Null is allowed.
 //
 // # Safety
-// `curve` comes from spiral_fit and is not used any more, nor are pointers that it gave.
+// `curve` comes from spiral_fit or spiral_join and is not used any more, nor are pointers that it gave.
 void spiral_curve_close(SpiralCurve *curve);
 
-// "cubic", "ph-quintic" or "involute"; null for a null pointer. It lives as long as the curve.
+// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null pointer. It lives as long as the curve.
 //
 // # Safety
 // `curve` is null or open.
 const char *spiral_curve_kind(const SpiralCurve *curve);
 
-// All that rebuilds the curve exactly, in JSON, as `curve --json` has it under `pieces`; null for a null pointer. It
-// lives as long as the curve.
+// All that rebuilds the curve exactly, in JSON: the piece as `curve --json` has it, or {"pieces": [..]} of several; null
+// for a null pointer. It lives as long as the curve.
 //
 // # Safety
 // `curve` is null or open.
@@ -310,7 +324,8 @@ const char *spiral_curve_json(const SpiralCurve *curve);
 // `curve` is null or open.
 double spiral_curve_length(const SpiralCurve *curve);
 
-// Control points: writes at most `room` of them, and always how many there are: 0 for an involute, which has none.
+// Control points: writes at most `room` of them, and always how many there are: 0 for what has none, an involute, a line,
+// an arc, or a curve of several pieces.
 //
 // # Safety
 // `curve` is null or open; `xy` is null or has room for `room` points; `count` is null or valid for a write.

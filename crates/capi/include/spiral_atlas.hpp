@@ -271,16 +271,16 @@ inline Verdicts solve_batch(const std::string &family, View<const double> data, 
 using End = SpiralEnd;
 using Station = SpiralStation;
 
-/// A curve of monotone curvature between two ends.
+/// A curve of one or more pieces.
 class Curve {
 public:
     double length() const noexcept { return spiral_curve_length(handle_.get()); }
     std::string kind() const { return spiral_curve_kind(handle_.get()); }
 
-    /// All that rebuilds it exactly, as `curve --json` has it under `pieces`.
+    /// All that rebuilds it exactly: the piece as `curve --json` has it, or {"pieces": [..]} of several.
     std::string json() const { return spiral_curve_json(handle_.get()); }
 
-    /// Control points; an involute has none.
+    /// Control points; an involute, a line, an arc and a curve of several pieces have none.
     std::vector<std::array<double, 2>> control_points() const {
         std::size_t count = 0;
         detail::check(spiral_curve_control_points(handle_.get(), nullptr, 0, &count));
@@ -299,6 +299,7 @@ public:
 
 private:
     friend std::optional<Curve> fit(const End &, const End &, const std::string &, double, std::string *);
+    friend std::optional<Curve> join(const End &, const End &, double, const std::string &, double, std::string *);
     explicit Curve(SpiralCurve *curve) : handle_(curve) {}
     detail::Handle<SpiralCurve, spiral_curve_close> handle_;
 };
@@ -310,6 +311,20 @@ inline std::optional<Curve> fit(const End &start, const End &end, const std::str
                                 double longest = std::numeric_limits<double>::infinity(), std::string *reason = nullptr) {
     SpiralCurve *curve = nullptr;
     const SpiralStatus status = spiral_fit(&start, &end, kind.c_str(), longest, &curve);
+    if (status == SPIRAL_NONE) {
+        if (reason != nullptr) *reason = spiral_last_error();
+        return std::nullopt;
+    }
+    detail::check(status);
+    return Curve(curve);
+}
+
+/// A path from one state to another by proved spirals, arcs and lines, with continuous curvature that never exceeds
+/// `greatest_curvature`; the shortest of those tried, or none; then `reason`, where it is given, says why.
+inline std::optional<Curve> join(const End &start, const End &end, double greatest_curvature, const std::string &kind = "cubic",
+                                 double longest = std::numeric_limits<double>::infinity(), std::string *reason = nullptr) {
+    SpiralCurve *curve = nullptr;
+    const SpiralStatus status = spiral_join(&start, &end, greatest_curvature, kind.c_str(), longest, &curve);
     if (status == SPIRAL_NONE) {
         if (reason != nullptr) *reason = spiral_last_error();
         return std::nullopt;

@@ -1,15 +1,35 @@
 //! Curves between two ends in the user's units.
 
-use crate::{Fault, SpiralStatus, given, place, results, status::guard, text};
+use crate::atlas::c_text;
+use crate::{Fault, Result, SpiralStatus, given, place, results, status::guard, text};
 use spiral_atlas::Error;
+use spiral_atlas::transition::join::{Family, Outcome, Request, State, join};
 use spiral_atlas::transition::{Ends, Kind, Piece, fit, stations};
 use std::ffi::{CString, c_char};
 
-/// A curve between two points.
+/// A curve of one or more pieces.
 pub struct SpiralCurve {
-    piece: Piece,
+    /// At least one.
+    pieces: Vec<Piece>,
     kind: CString,
     json: CString,
+}
+
+/// Several pieces in JSON.
+#[derive(serde::Serialize)]
+struct Pieces<'a> {
+    pieces: &'a [Piece],
+}
+
+impl SpiralCurve {
+    fn new(pieces: Vec<Piece>) -> Result<SpiralCurve> {
+        let (kind, json) = match &pieces[..] {
+            [piece] => (piece.kind().name(), serde_json::to_string(piece)),
+            pieces => ("path", serde_json::to_string(&Pieces { pieces })),
+        };
+        let json = json.map_err(|e| Fault(SpiralStatus::SPIRAL_INTERNAL, e.to_string()))?;
+        Ok(SpiralCurve { kind: c_text(kind), json: c_text(&json), pieces })
+    }
 }
 
 /// One end of a curve, in the user's unit of length.
@@ -72,11 +92,47 @@ pub unsafe extern "C" fn spiral_fit(
         };
         let mut found = fit(&ends, kind, longest)?;
         let chosen = found.outcome.map_err(|why| Fault(SpiralStatus::SPIRAL_NONE, why))?;
-        let piece = found.solutions.swap_remove(chosen);
-        let json = serde_json::to_string(&piece).map_err(|e| Fault(SpiralStatus::SPIRAL_INTERNAL, e.to_string()))?;
-        let json = CString::new(json).unwrap_or_default();
-        let kind = CString::new(piece.kind().name()).unwrap_or_default();
-        *slot = Box::into_raw(Box::new(SpiralCurve { piece, kind, json }));
+        *slot = Box::into_raw(Box::new(SpiralCurve::new(vec![found.solutions.swap_remove(chosen)])?));
+        Ok(())
+    })
+}
+
+/// A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
+/// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic", "trig-quintic" or
+/// "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where none was
+/// found: the last error says why.
+///
+/// # Safety
+/// `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn spiral_join(
+    start: *const SpiralEnd,
+    end: *const SpiralEnd,
+    greatest_curvature: f64,
+    kind: *const c_char,
+    longest: f64,
+    curve: *mut *mut SpiralCurve,
+) -> SpiralStatus {
+    guard(|| {
+        // SAFETY: the caller's promises.
+        let (start, end, slot) = unsafe { (given(start, "start")?, given(end, "end")?, place(curve, "curve")?) };
+        // SAFETY: the caller's promise.
+        let name = if kind.is_null() { "cubic" } else { unsafe { text(kind, "kind")? } };
+        let family = [
+            ("cubic", Family::Cubic),
+            ("ph-quintic", Family::PhQuintic),
+            ("trig-quintic", Family::TrigQuintic),
+            ("involute", Family::Involute),
+        ];
+        let (_, family) = family.into_iter().find(|(known, _)| *known == name).ok_or_else(|| {
+            Fault::domain(format!("the kind is `{name}`; it must be cubic, ph-quintic, trig-quintic or involute"))
+        })?;
+        let state = |e: &SpiralEnd| State { point: [e.x, e.y], direction: e.direction, curvature: e.curvature };
+        let request = Request { family, longest, ..Request::new(state(start), state(end), greatest_curvature) };
+        match join(&request)? {
+            Outcome::Join(found) => *slot = Box::into_raw(Box::new(SpiralCurve::new(found.pieces)?)),
+            Outcome::None(why) => return Err(Fault(SpiralStatus::SPIRAL_NONE, why)),
+        }
         Ok(())
     })
 }
@@ -84,7 +140,7 @@ pub unsafe extern "C" fn spiral_fit(
 /// Closes a curve. Null is allowed.
 ///
 /// # Safety
-/// `curve` comes from spiral_fit and is not used any more, nor are pointers that it gave.
+/// `curve` comes from spiral_fit or spiral_join and is not used any more, nor are pointers that it gave.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_curve_close(curve: *mut SpiralCurve) {
     if !curve.is_null() {
@@ -93,7 +149,7 @@ pub unsafe extern "C" fn spiral_curve_close(curve: *mut SpiralCurve) {
     }
 }
 
-/// "cubic", "ph-quintic" or "involute"; null for a null pointer. It lives as long as the curve.
+/// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null pointer. It lives as long as the curve.
 ///
 /// # Safety
 /// `curve` is null or open.
@@ -103,8 +159,8 @@ pub unsafe extern "C" fn spiral_curve_kind(curve: *const SpiralCurve) -> *const 
     unsafe { curve.as_ref() }.map_or(std::ptr::null(), |curve| curve.kind.as_ptr())
 }
 
-/// All that rebuilds the curve exactly, in JSON, as `curve --json` has it under `pieces`; null for a null pointer. It
-/// lives as long as the curve.
+/// All that rebuilds the curve exactly, in JSON: the piece as `curve --json` has it, or {"pieces": [..]} of several; null
+/// for a null pointer. It lives as long as the curve.
 ///
 /// # Safety
 /// `curve` is null or open.
@@ -121,10 +177,11 @@ pub unsafe extern "C" fn spiral_curve_json(curve: *const SpiralCurve) -> *const 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_curve_length(curve: *const SpiralCurve) -> f64 {
     // SAFETY: the caller's promise.
-    unsafe { curve.as_ref() }.map_or(f64::NAN, |curve| curve.piece.length())
+    unsafe { curve.as_ref() }.map_or(f64::NAN, |curve| curve.pieces.iter().map(Piece::length).sum())
 }
 
-/// Control points: writes at most `room` of them, and always how many there are: 0 for an involute, which has none.
+/// Control points: writes at most `room` of them, and always how many there are: 0 for what has none, an involute, a line,
+/// an arc, or a curve of several pieces.
 ///
 /// # Safety
 /// `curve` is null or open; `xy` is null or has room for `room` points; `count` is null or valid for a write.
@@ -138,7 +195,10 @@ pub unsafe extern "C" fn spiral_curve_control_points(
     guard(|| {
         // SAFETY: the caller's promises.
         let (curve, xy, slot) = unsafe { (given(curve, "curve")?, results(xy, room, "xy")?, place(count, "count")?) };
-        let points = curve.piece.control_points().unwrap_or_default();
+        let points = match &curve.pieces[..] {
+            [piece] => piece.control_points().unwrap_or_default(),
+            _ => Vec::new(),
+        };
         *slot = points.len();
         xy.iter_mut().zip(points).for_each(|(slot, point)| *slot = point);
         Ok(())
@@ -157,7 +217,7 @@ pub unsafe extern "C" fn spiral_curve_stations(curve: *const SpiralCurve, out: *
             place(out, "out")?;
             (given(curve, "curve")?, results(out, count, "out")?)
         };
-        let found = stations(std::slice::from_ref(&curve.piece), count).map_err(|e: Error| Fault::from(e))?;
+        let found = stations(&curve.pieces, count).map_err(|e: Error| Fault::from(e))?;
         for (slot, at) in out.iter_mut().zip(found) {
             *slot = SpiralStation { station: at.station, x: at.x, y: at.y, heading: at.heading, curvature: at.curvature };
         }

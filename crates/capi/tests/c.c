@@ -132,12 +132,35 @@ static void curves(void) {
     CHECK(spiral_fit(&nan, &end, NULL, INFINITY, &curve) == SPIRAL_DOMAIN && says("NaN"));
 }
 
+static void joins(void) {
+    const SpiralEnd start = {0, 0, 0, 0}, end = {180, 150, 1.7, 0};
+    const char *kinds[] = {"cubic", "ph-quintic", "involute", NULL};
+    SpiralCurve *curve = NULL;
+    for (size_t i = 0; i < 4; i++) {
+        CHECK(spiral_join(&start, &end, 0.0166, kinds[i], 1e4, &curve) == SPIRAL_OK);
+        CHECK(strcmp(spiral_curve_kind(curve), "path") == 0 && strstr(spiral_curve_json(curve), "{\"pieces\":[") == spiral_curve_json(curve));
+        SpiralStation stations[501];
+        size_t count = 9;
+        CHECK(spiral_curve_stations(curve, stations, 501) == SPIRAL_OK);
+        CHECK(spiral_curve_control_points(curve, NULL, 0, &count) == SPIRAL_OK && count == 0);
+        for (size_t k = 0; k < 501; k++) CHECK(fabs(stations[k].curvature) < 0.0166 * (1 + 1e-9));
+        CHECK(fabs(stations[500].x - 180) < 1e-9 && fabs(stations[500].heading - 1.7) < 1e-9);
+        CHECK(fabs(stations[500].station - spiral_curve_length(curve)) < 1e-9);
+        spiral_curve_close(curve);
+        curve = NULL;
+    }
+    CHECK(spiral_join(&start, &end, 0.0166, NULL, 100, &curve) == SPIRAL_NONE && says("100") && curve == NULL);
+    CHECK(spiral_join(&start, &end, 0, NULL, INFINITY, &curve) == SPIRAL_DOMAIN && says("greatest curvature"));
+    CHECK(spiral_join(&start, &end, 0.0166, "arc", INFINITY, &curve) == SPIRAL_DOMAIN && says("`arc`"));
+}
+
 int main(int count, char **arguments) {
     CHECK(count == 3 && strlen(spiral_version()) > 4 && strlen(spiral_last_error()) == 0);
     atlases(arguments[1]);
     cells(arguments[2]);
     answers();
     curves();
+    joins();
     puts("C: all as it should be");
     return 0;
 }

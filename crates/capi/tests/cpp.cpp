@@ -84,6 +84,9 @@ int main(int, char **arguments) {
     const auto curve = sa::fit({0, 0, -0.7, 0.004}, {200, 0, 1.4, 0.04});
     CHECK(curve && curve->kind() == "cubic" && curve->control_points().size() == 4 && curve->stations(11)[10].x == 200);
     CHECK(!sa::fit({0, 0, 0.7, 0.004}, {200, 0, 1.4, 0.04}, "involute", 1e300, &reason) && !reason.empty());
+    const auto ramp = sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166);
+    CHECK(ramp && ramp->kind() == "path" && std::abs(ramp->stations(3)[2].y - 150) < 1e-9);
+    CHECK(!sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166, "cubic", 100, &reason));
     throws(SPIRAL_DOMAIN, "NaN", [] { sa::fit({std::nan(""), 0, 0, 0}, {1, 0, 0, 0}); });
     std::puts("C++: all as it should be");
 }

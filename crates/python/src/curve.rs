@@ -5,12 +5,25 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyImportError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde::Deserialize;
+use spiral_atlas::path::Course;
 use spiral_atlas::transition::{self, Ends, Kind, Piece, Station, direction_of, stations};
 
-/// A curve between two points, in your own unit of length. Made by `fit` and `Curve.from_dict`.
+/// A curve of one or more pieces, in your own unit of length. Made by `fit`, `join` and `Curve.from_dict`.
 #[pyclass(frozen, eq, module = "spiral_atlas")]
 #[derive(PartialEq)]
-pub struct Curve(Piece);
+pub struct Curve {
+    /// At least one.
+    pub pieces: Vec<Piece>,
+}
+
+/// A curve as a dictionary, of either form.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Pieces { pieces: Vec<Piece> },
+    Piece(Box<Piece>),
+}
 
 type Points<'py> = PyResult<Bound<'py, PyArray2<f64>>>;
 
@@ -18,53 +31,81 @@ fn array<'py>(py: Python<'py>, points: &[[f64; 2]]) -> Points<'py> {
     points.as_flattened().to_vec().into_pyarray(py).reshape([points.len(), 2])
 }
 
+impl From<Piece> for Curve {
+    fn from(piece: Piece) -> Curve {
+        Curve { pieces: vec![piece] }
+    }
+}
+
 impl Curve {
     fn at_equal_lengths(&self, py: Python<'_>, n: usize) -> PyResult<Vec<Station>> {
-        py.detach(|| stations(std::slice::from_ref(&self.0), n)).map_err(raise)
+        py.detach(|| stations(&self.pieces, n)).map_err(raise)
     }
 }
 
 #[pymethods]
 impl Curve {
-    /// Makes a curve of what `to_dict`, or `curve --json` under `pieces`, says.
+    /// Makes a curve of what `to_dict`, `curve --json` under `pieces`, or `join` says: one piece, or {"pieces": [..]}.
     #[staticmethod]
-    fn from_dict(piece: &Bound<'_, PyAny>) -> PyResult<Curve> {
-        pythonize::depythonize(piece).map(Curve).map_err(|e| PyValueError::new_err(e.to_string()))
+    fn from_dict(dict: &Bound<'_, PyAny>) -> PyResult<Curve> {
+        let wrong = |what: String| PyValueError::new_err(format!("this is no curve: {what}"));
+        let pieces = match pythonize::depythonize(dict).map_err(|e| wrong(e.to_string()))? {
+            Written::Pieces { pieces } => pieces,
+            Written::Piece(piece) => vec![*piece],
+        };
+        // A course is a path whose pieces join.
+        let course = Course::new(pieces).map_err(|e| wrong(e.to_string()))?;
+        Ok(Curve { pieces: course.pieces().to_vec() })
     }
 
-    /// All that rebuilds the curve exactly, as JSON has it.
+    /// All that rebuilds the curve exactly, as JSON has it: the piece, or {"pieces": [..]} of several.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(pythonize::pythonize(py, &self.0)?)
+        match &self.pieces[..] {
+            [piece] => Ok(pythonize::pythonize(py, piece)?),
+            pieces => {
+                let dict = PyDict::new(py);
+                dict.set_item("pieces", pythonize::pythonize(py, pieces)?)?;
+                Ok(dict.into_any())
+            }
+        }
     }
 
-    /// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc".
+    /// Its pieces, each a curve.
+    #[getter]
+    fn pieces(&self) -> Vec<Curve> {
+        self.pieces.iter().cloned().map(Curve::from).collect()
+    }
+
+    /// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces.
     #[getter]
     fn kind(&self) -> &'static str {
-        self.0.kind().name()
+        if let [piece] = &self.pieces[..] { piece.kind().name() } else { "path" }
     }
 
     /// Arc length.
     #[getter]
     fn length(&self) -> f64 {
-        self.0.length()
+        self.pieces.iter().map(Piece::length).sum()
     }
 
     /// Where it starts: (x, y).
     #[getter]
     fn start(&self) -> (f64, f64) {
-        self.0.start().into()
+        self.pieces[0].start().into()
     }
 
     /// Where it ends: (x, y).
     #[getter]
     fn end(&self) -> (f64, f64) {
-        self.0.end().into()
+        self.pieces[self.pieces.len() - 1].end().into()
     }
 
-    /// The control points, a float64 array of shape (degree + 1, 2); None for what has none (involute, line, arc).
+    /// The control points, a float64 array of shape (degree + 1, 2); None for what has none: an involute, a line, an arc,
+    /// and a curve of several pieces.
     #[getter]
     fn control_points<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
-        self.0.control_points().map(|points| array(py, &points)).transpose()
+        let [piece] = &self.pieces[..] else { return Ok(None) };
+        piece.control_points().map(|points| array(py, &points)).transpose()
     }
 
     /// `n` points at equal arc lengths, both ends included: a float64 array of shape (n, 2).
@@ -123,7 +164,7 @@ impl Curve {
     }
 
     fn __repr__(&self) -> String {
-        let (start, end) = (self.0.start(), self.0.end());
+        let (start, end) = (self.start(), self.end());
         format!("<spiral_atlas.Curve {} from {start:?} to {end:?}, length {:?}>", self.kind(), self.length())
     }
 }
@@ -211,7 +252,7 @@ pub fn fit(
     let kind = Kind::by_name(family)
         .ok_or_else(|| PyValueError::new_err(format!("the family is `{family}`; it must be cubic, ph-quintic or involute")))?;
     let found = py.detach(|| transition::fit(&ends, kind, longest.unwrap_or(f64::INFINITY))).map_err(raise)?;
-    let solutions: Vec<Py<Curve>> = found.solutions.into_iter().map(|p| Py::new(py, Curve(p))).collect::<PyResult<_>>()?;
+    let solutions: Vec<Py<Curve>> = found.solutions.into_iter().map(|p| Py::new(py, Curve::from(p))).collect::<PyResult<_>>()?;
     let (curve, reason) = match found.outcome {
         Ok(i) => (solutions.get(i).map(|curve| curve.clone_ref(py)), None),
         Err(why) => (None, Some(why)),

@@ -6,6 +6,7 @@ mod curve;
 mod error;
 mod family;
 mod generate;
+mod join;
 
 use pyo3::prelude::*;
 
@@ -19,9 +20,11 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<cells::Cells>()?;
     module.add_class::<curve::Curve>()?;
     module.add_class::<curve::Fit>()?;
+    module.add_class::<join::Join>()?;
     module.add_function(wrap_pyfunction!(atlas::open, module)?)?;
     module.add_function(wrap_pyfunction!(cells::open_cells, module)?)?;
     module.add_function(wrap_pyfunction!(curve::fit, module)?)?;
+    module.add_function(wrap_pyfunction!(join::join, module)?)?;
     module.add_function(wrap_pyfunction!(family::families, module)?)?;
     module.add_function(wrap_pyfunction!(family::solve, module)?)?;
     module.add_function(wrap_pyfunction!(family::solve_batch, module)?)?;

@@ -16,12 +16,14 @@ __all__ = [
     "Cells",
     "Curve",
     "Fit",
+    "Join",
     "NoPathError",
     "UndecidedError",
     "__version__",
     "families",
     "fit",
     "generate",
+    "join",
     "open",
     "open_cells",
     "solve",
@@ -92,10 +94,12 @@ class Cells:
 @final
 class Curve:
     @staticmethod
-    def from_dict(piece: dict[str, Any]) -> Curve: ...
+    def from_dict(dict: dict[str, Any]) -> Curve: ...
     def to_dict(self) -> dict[str, Any]: ...
     @property
-    def kind(self) -> Literal["cubic", "ph-quintic", "trig-quintic", "involute", "line", "arc"]: ...
+    def pieces(self) -> list[Curve]: ...
+    @property
+    def kind(self) -> Literal["cubic", "ph-quintic", "trig-quintic", "involute", "line", "arc", "path"]: ...
     @property
     def length(self) -> float: ...
     @property
@@ -120,6 +124,22 @@ class Fit:
     def solutions(self) -> list[Curve]: ...
     @property
     def spirals(self) -> list[bool]: ...
+    @property
+    def reason(self) -> str | None: ...
+    def __bool__(self) -> bool: ...
+
+@final
+class Join:
+    @property
+    def curve(self) -> Curve | None: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def curvature_range(self) -> tuple[float, float]: ...
+    @property
+    def rate_range(self) -> tuple[float, float]: ...
+    @property
+    def bending_energy(self) -> float: ...
     @property
     def reason(self) -> str | None: ...
     def __bool__(self) -> bool: ...
@@ -149,3 +169,13 @@ def generate(
     threads: int | None = None,
     progress: Callable[[str, int, int | None], object] | None = None,
 ) -> list[Atlas | Cells]: ...
+def join(
+    start: Sequence[float] | NDArray[np.float64],
+    end: Sequence[float] | NDArray[np.float64],
+    greatest_curvature: float,
+    *,
+    family: Literal["cubic", "ph-quintic", "trig-quintic", "involute"] = "cubic",
+    objective: Literal["length", "greatest-curvature", "greatest-rate", "bending-energy"] = "length",
+    longest: float | None = None,
+    most_pieces: int | None = None,
+) -> Join: ...
