@@ -40,41 +40,14 @@ mod root;
 
 use super::poly::side;
 use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
-use crate::family::region::{Facts, Region};
-use crate::num::bernstein::{Quintic, halve, least};
+use crate::family::region::{Facts, Known, Region, add_pull, and, or, positive, unit_sign};
 use crate::num::{Form, Number};
-use angles::{Angles, centred};
+use angles::Angles;
 use root::{Root, span};
 use std::cell::Cell;
 
 /// A form in φ0, φ1, κ0, κ1.
 type Four = Form<4, 10>;
-
-/// What is known of a condition all over a box: it holds, it fails, or neither is known.
-type Known = Option<bool>;
-
-fn and(a: Known, b: Known) -> Known {
-    match (a, b) {
-        (Some(false), _) | (_, Some(false)) => Some(false),
-        (Some(true), Some(true)) => Some(true),
-        _ => None,
-    }
-}
-
-fn or(a: Known, b: Known) -> Known {
-    and(a.map(|a| !a), b.map(|b| !b)).map(|both| !both)
-}
-
-/// Whether a form is positive, or negative, all over the box.
-fn positive(form: &Four) -> Known {
-    if form.low() > 0.0 {
-        Some(true)
-    } else if form.high() < 0.0 {
-        Some(false)
-    } else {
-        None
-    }
-}
 
 /// Whether a root exists, and Theorem 3.1 and the exact test at it, wherever it exists.
 #[derive(Clone, Copy)]
@@ -128,22 +101,17 @@ impl Region for Cubic {
 fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     let mut facts = Facts::default();
     let (any, pull) = any::any(sides);
-    let note = |facts: &mut Facts, flags: u8, known: Known| match known {
-        Some(true) => facts.inside |= flags & wanted,
-        Some(false) => facts.outside |= flags & wanted,
-        None => {}
-    };
-    note(&mut facts, ANY_SPIRAL, any);
+    facts.note(wanted & ANY_SPIRAL, any);
     if any.is_none() && wanted & ANY_SPIRAL != 0 {
         facts.pull = pull;
     }
     let curves = THEOREM31 | THEOREM31_ANY | SPIRAL;
     if any == Some(false) {
-        note(&mut facts, curves, Some(false));
+        facts.note(wanted & curves, Some(false));
     }
     let [phi0, phi1, kappa0, kappa1] = *sides;
     if kappa0[1] <= 0.0 || kappa1[1] <= 0.0 {
-        note(&mut facts, curves | SOLVABLE, Some(false));
+        facts.note(wanted & (curves | SOLVABLE), Some(false));
     }
     let open = wanted & !(facts.inside | facts.outside);
     if open & (curves | SOLVABLE) == 0 {
@@ -159,7 +127,7 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     // What holds of some datum only where it has roots needs both curvatures positive.
     let rooted = kappa0[0] > 0.0 && kappa1[0] > 0.0;
     let sure = |known: Known| if rooted { known } else { known.filter(|holds| !holds) };
-    note(&mut facts, SOLVABLE, sure(solvable));
+    facts.note(wanted & SOLVABLE, sure(solvable));
     if open & SOLVABLE != 0 && solvable.is_none() {
         data.pull_edges(&mut facts.pull);
     }
@@ -170,9 +138,9 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
             or(or(left, middle), right)
         };
         let first = and(solvable, and(branches[1].exists, branches[1].theorem));
-        note(&mut facts, SPIRAL, sure(and(any, some(|b| b.spiral))));
-        note(&mut facts, THEOREM31_ANY, sure(and(any, some(|b| b.theorem))));
-        note(&mut facts, THEOREM31, sure(and(any, first)));
+        facts.note(wanted & SPIRAL, sure(and(any, some(|b| b.spiral))));
+        facts.note(wanted & THEOREM31_ANY, sure(and(any, some(|b| b.theorem))));
+        facts.note(wanted & THEOREM31, sure(and(any, first)));
     }
     facts
 }
@@ -191,8 +159,8 @@ struct Data {
 
 impl Data {
     fn new(angles: Angles, kappa0: [f64; 2], kappa1: [f64; 2]) -> Data {
-        let a = angles.curve0.mul(&centred(kappa0, 2));
-        let k = angles.curve1.mul(&centred(kappa1, 3));
+        let a = angles.curve0.mul(&Four::centred(kappa0, 2));
+        let k = angles.curve1.mul(&Four::centred(kappa1, 3));
         let above = [&a, &k].map(|x| positive(&x.times(3.0).plus(-1.0)));
         let ak = a.mul(&k);
         let delta = ak.mul(&ak.times(768.0).sub(&a.add(&k).times(256.0)).plus(96.0)).plus(-1.0);
@@ -290,14 +258,6 @@ impl Data {
     }
 }
 
-/// Adds how much each coordinate moves a form, for its size.
-fn add_pull(pull: &mut [f64; 4], form: &Four) {
-    let size = form.value.abs() + form.slope.iter().map(|s| s.abs()).sum::<f64>();
-    if size > 0.0 && size.is_finite() {
-        pull.iter_mut().zip(form.slope).for_each(|(pull, slope)| *pull += slope.abs() / size);
-    }
-}
-
 /// One half of Theorem 3.1: `B0 >= 0, B2 >= 0, B1 >= 0 or B1² <= 8 w B0 B2`.
 fn half(b: &[Four; 3], w: &Four) -> Known {
     let outer = and(positive(&b[0]), positive(&b[2]));
@@ -328,32 +288,5 @@ fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Known {
         x.mul(&end[1]),
         x.mul(x).mul(&end[0]).times(5.0),
     ];
-    let middle: Quintic<f64> = quintic.map(|form| form.value);
-    let (value, t) = least(&middle);
-    if value < 0.0 {
-        return (at(&quintic, t).high() < 0.0).then_some(false);
-    }
-    above(&quintic, 6).then_some(true)
-}
-
-/// The quintic at t times a positive number: Horner's rule in `s = t / (1 - t)`, or in 1/s from the other end. Any s
-/// is some t, so its rounding does not matter.
-fn at(c: &Quintic<Four>, t: f64) -> Four {
-    const BINOMIALS: [f64; 6] = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
-    let back = t > 0.5;
-    let s = if back { (1.0 - t) / t } else { t / (1.0 - t) };
-    let term = |i: usize| c[if back { i } else { 5 - i }].times(BINOMIALS[i]);
-    (1..6).fold(term(0), |sum, i| sum.times(s).add(&term(i)))
-}
-
-/// Whether the quintic is positive on [0, 1] all over the box, by halving.
-fn above(c: &Quintic<Four>, depth: u32) -> bool {
-    if c.iter().all(|form| form.low() > 0.0) {
-        return true;
-    }
-    if depth == 0 || c[0].low() <= 0.0 || c[5].low() <= 0.0 {
-        return false;
-    }
-    let (left, right) = halve(c);
-    above(&left, depth - 1) && above(&right, depth - 1)
+    unit_sign(&quintic)
 }
