@@ -9,7 +9,7 @@ use spiral_atlas::family::cubic::{self, Cubic};
 const SUBJECT: Subject<4> = Subject { family: &Cubic, chart: 0, draw };
 
 /// A box of random size somewhere: ordinary ones, and those that touch or cross where the flags have an end.
-fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
+pub fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
     let scale = 10f64.powf(-r.uniform(0.3, 4.0));
     let mut side = |low: f64, high: f64| {
         let middle = r.uniform(low, high);

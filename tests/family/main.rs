@@ -9,6 +9,7 @@ mod cubic_vectors;
 mod oracle;
 mod ph_oracle;
 mod ph_path;
+mod ph_region;
 mod ph_vectors;
 mod reach_oracle;
 mod reach_region;

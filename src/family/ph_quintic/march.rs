@@ -59,7 +59,8 @@ impl<N: Real> March<N> {
         self.curves.cos.bits()
     }
 
-    fn knot(&self, t: N) -> Option<Knot<N>> {
+    /// Both curves at t.
+    pub fn knot(&self, t: N) -> Option<Knot<N>> {
         count();
         let (near, exact) = (self.fast.at(&t.approx()), self.curves.at(&t));
         let side = |i: usize| {
@@ -188,7 +189,7 @@ impl<N: Real> March<N> {
     }
 
     /// About where D is 0: Newton's method for D as a function of ln t, kept between the knots.
-    fn guess(&self, a: &Knot<N>, b: &Knot<N>) -> f64 {
+    pub fn guess(&self, a: &Knot<N>, b: &Knot<N>) -> f64 {
         let (mut low, mut high) = (a.t.approx(), b.t.approx());
         let side = a.gap.approx() > 0.0;
         let mut t = (low * high).sqrt();

@@ -63,7 +63,6 @@ impl<const K: usize, const H: usize> Form<K, H> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::noise::Noise;
     use crate::num::{Interval, Quadratic};
     use std::f64::consts::PI;

@@ -6,7 +6,7 @@
 //! closed box. Outside the domain nothing is said, and a datum is judged by the module `cubic`: no root where a or k
 //! is not positive, no spiral where ANY_SPIRAL fails.
 //!
-//! - ANY_SPIRAL: closed forms (`any.rs`).
+//! - ANY_SPIRAL: closed forms (`family/outer_region.rs`).
 //! - SOLVABLE: the signs of 3k - 1, 3a - 1 and Δ, as in the module `cubic`.
 //! - A flag that asks for *some* root with a property (SPIRAL, THEOREM31_ANY) holds over the box when one enclosed
 //!   root (`root.rs`) lies in the open square and has it, over the whole box. Which root that is does not matter.
@@ -35,11 +35,12 @@
 //! one, which lies in the span).
 
 mod angles;
-mod any;
 mod root;
 
 use super::poly::side;
 use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
+use crate::family::hermite::holds_box;
+use crate::family::outer_region::any;
 use crate::family::region::{Facts, Known, Region, add_pull, and, or, positive, unit_sign};
 use crate::num::{Form, Number};
 use angles::Angles;
@@ -89,18 +90,13 @@ impl Region for Cubic {
             return Facts::default();
         }
         let sides: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
-        let [phi0, phi1, ..] = sides;
-        let inside = phi0[0] > 0.0 && phi1[0] > 0.0 && crate::num::sines::sum_below_pi(phi0[1], phi1[1]);
-        if !inside || !sides.iter().flatten().all(|x| x.is_finite()) {
-            return Facts::default();
-        }
-        prove(&sides, wanted)
+        if holds_box(&sides) { prove(&sides, wanted) } else { Facts::default() }
     }
 }
 
 fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     let mut facts = Facts::default();
-    let (any, pull) = any::any(sides);
+    let (any, pull) = any(sides);
     facts.note(wanted & ANY_SPIRAL, any);
     if any.is_none() && wanted & ANY_SPIRAL != 0 {
         facts.pull = pull;

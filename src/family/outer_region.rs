@@ -1,4 +1,4 @@
-//! ANY_SPIRAL over a box.
+//! The outer bound, ANY_SPIRAL of `cubic` and `ph-quintic`, over a box.
 //!
 //! The flag is `φ0 < φ1`, `u = sin φ0 - κ0 > 0`, `v = κ1 - sin φ1 > 0` and `f = u v - sin²((φ1-φ0)/2) > 0`
 //! (`outer.rs`). There φ0 < π/2.
