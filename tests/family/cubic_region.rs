@@ -7,6 +7,7 @@ use crate::oracle::random::Random;
 use spiral_atlas::family::cubic::{self, Cubic};
 
 const SUBJECT: Subject<4> = Subject { family: &Cubic, chart: 0, draw };
+const NORMALISED: Subject<4> = Subject { family: &Cubic, chart: 1, draw: draw_normalised };
 
 /// A box of random size somewhere: ordinary ones, and those that touch or cross where the flags have an end.
 pub fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
@@ -32,6 +33,24 @@ pub fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
         _ => {}
     }
     [phi0, phi1, kappa0, kappa1]
+}
+
+/// The same in the chart (a, k), by the middle of the angles; and boxes around the triple root a = k = 1/4.
+fn draw_normalised(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
+    let [phi0, phi1, kappa0, kappa1] = draw(r, round);
+    let [p0, p1] = [phi0, phi1].map(|side| 0.5 * (side[0] + side[1]));
+    let (s0, s1, sum) = (p0.sin(), p1.sin(), (p0 + p1).sin());
+    let [a, k] = [s1 * s1 / (sum * sum * s0), s0 * s0 / (sum * sum * s1)];
+    if round % 8 == 5 {
+        let half = 0.25 * (phi0[1] - phi0[0]);
+        return [phi0, phi1, [0.25 - half, 0.25], [0.25, 0.25 + half]];
+    }
+    [phi0, phi1, kappa0.map(|x| x * a), kappa1.map(|x| x * k)]
+}
+
+#[test]
+fn no_point_of_a_normalised_box_contradicts_it() {
+    NORMALISED.attack(5, 4_000, 1, 1_000_000, 10);
 }
 
 #[test]

@@ -5,15 +5,15 @@
 //! falling curvature exists exactly when this is so of the mirror image, all four numbers with the other sign. Both
 //! exclude each other by the sign of ω.
 //!
-//! u, v and f are forms of second order in the four coordinates (`num/form.rs`), so their signs are proofs for every
-//! real point of the box. Where ω has one sign all over the box, its kind of spiral decides. Where it changes the
+//! Their signs are proved over a box by forms (`family/outer_region.rs`). Where ω has one sign all over the box, its kind of spiral decides. Where it changes the
 //! sign, or touches 0, EXISTS can only be refuted, by refuting both kinds.
 //!
 //! RISING is a comparison of k1 and k2, and INFLECTION is EXISTS where their signs differ.
 
 use super::{AnySpiral, EXISTS, INFLECTION, RISING};
-use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, positive};
-use crate::num::{Form, Number};
+use crate::family::outer_region::rising;
+use crate::family::region::{Facts, Known, MOST_SIDES, Region, and};
+use crate::num::Form;
 use std::f64::consts::PI;
 
 /// A form in φ0, φ1, κ0, κ1.
@@ -24,18 +24,9 @@ fn negative([low, high]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Whether a spiral of rising curvature exists, wherever `φ0 < φ1`.
-fn rising([phi0, phi1, kappa0, kappa1]: [[f64; 2]; 4], pull: &mut [f64; MOST_SIDES]) -> Known {
-    let (first, second) = (Four::centred(phi0, 0), Four::centred(phi1, 1));
-    let u = first.sine().sub(&Four::centred(kappa0, 2));
-    let v = Four::centred(kappa1, 3).sub(&second.sine());
-    // Halving is exact, but for what underflows: there the halves differ from the truth by less than the least double.
-    let half = second.times(0.5).sine_of_sum(&first.times(-0.5));
-    let f = u.mul(&v).sub(&half.mul(&half));
-    let known = and(and(positive(&u), positive(&v)), positive(&f));
-    if known.is_none() {
-        [u, v, f].iter().filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));
-    }
-    known
+fn side(data: [[f64; 2]; 4], pull: &mut [f64; MOST_SIDES]) -> Known {
+    let forms: [Four; 4] = std::array::from_fn(|i| Four::centred(data[i], i));
+    rising(&forms, pull)
 }
 
 /// Whether `a < b`, for every a and b of two ranges.
@@ -84,10 +75,10 @@ impl Region for AnySpiral {
             let data = [phi0, phi1, kappa0, kappa1];
             let mut pull = [0.0; MOST_SIDES];
             let exists = match (below(phi0, phi1), below(phi1, phi0)) {
-                (Some(true), _) => rising(data, &mut pull),
-                (_, Some(true)) => rising(data.map(negative), &mut pull),
+                (Some(true), _) => side(data, &mut pull),
+                (_, Some(true)) => side(data.map(negative), &mut pull),
                 (up, down) => {
-                    let refuted = |side: Known, data, pull: &mut _| side == Some(false) || rising(data, pull) == Some(false);
+                    let refuted = |sign: Known, data, pull: &mut _| sign == Some(false) || side(data, pull) == Some(false);
                     let none = refuted(up, data, &mut pull) && refuted(down, data.map(negative), &mut pull);
                     if !none {
                         // The angles alone may part the two.

@@ -1,4 +1,4 @@
-//! What is proved of the cubic over boxes of (φ0, φ1, κ0, κ1).
+//! What is proved of the cubic over boxes of (φ0, φ1, κ0, κ1) or of (φ0, φ1, a, k).
 //!
 //! # How it is done
 //! Everything is a form of second order in the four coordinates of the box (`num/form.rs`), which holds its own
@@ -40,8 +40,8 @@ mod root;
 use super::poly::side;
 use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::family::hermite::holds_box;
-use crate::family::outer_region::any;
-use crate::family::region::{Facts, Known, Region, add_pull, and, or, positive, unit_sign};
+use crate::family::outer_region::{any, rising};
+use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
 use crate::num::{Form, Number};
 use angles::Angles;
 use root::{Root, span};
@@ -81,22 +81,41 @@ fn angles_of(phi0: [f64; 2], phi1: [f64; 2]) -> Option<Angles> {
 
 impl Region for Cubic {
     fn covers(&self, chart: &str) -> bool {
-        chart == super::CHARTS[0].name
+        super::CHARTS.iter().any(|c| c.name == chart)
     }
 
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
         let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else { return Facts::default() };
-        if chart != 0 {
-            return Facts::default();
-        }
         let sides: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
-        if holds_box(&sides) { prove(&sides, wanted) } else { Facts::default() }
+        if holds_box(&sides) { prove(chart == 1, &sides, wanted) } else { Facts::default() }
     }
 }
 
-fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
+/// ANY_SPIRAL of the chart (a, k): κ0 and κ1 follow from a, k and the angles.
+fn any_normalised(sides: &[[f64; 2]; 4]) -> (Known, [f64; MOST_SIDES]) {
+    let [phi0, phi1, a, k] = *sides;
+    let mut pull = [0.0; MOST_SIDES];
+    if phi0[0] >= phi1[1] {
+        return (Some(false), pull);
+    }
+    let forms = || {
+        let angles = angles_of(phi0, phi1)?;
+        let (kappa0, kappa1) = (angles.curve0.inverse()?, angles.curve1.inverse()?);
+        let [first, second, a, k]: [Four; 4] = std::array::from_fn(|i| Four::centred([phi0, phi1, a, k][i], i));
+        Some([first, second, a.mul(&kappa0), k.mul(&kappa1)])
+    };
+    let known = forms().and_then(|forms| rising(&forms, &mut pull));
+    if phi0[1] < phi1[0] {
+        return (known, pull);
+    }
+    pull[0] += phi0[1] - phi0[0];
+    pull[1] += phi1[1] - phi1[0];
+    (known.filter(|holds| !holds), pull)
+}
+
+fn prove(normalised: bool, sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     let mut facts = Facts::default();
-    let (any, pull) = any(sides);
+    let (any, pull) = if normalised { any_normalised(sides) } else { any(sides) };
     facts.note(wanted & ANY_SPIRAL, any);
     if any.is_none() && wanted & ANY_SPIRAL != 0 {
         facts.pull = pull;
@@ -118,7 +137,8 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
         facts.pull = sides.map(|[low, high]| (high - low) / (low.abs() + high.abs()));
         return facts;
     };
-    let data = Data::new(angles, kappa0, kappa1);
+    let ends = [Four::centred(kappa0, 2), Four::centred(kappa1, 3)];
+    let data = Data::new(angles, if normalised { ends } else { [angles.curve0.mul(&ends[0]), angles.curve1.mul(&ends[1])] });
     let solvable = data.solvable();
     // What holds of some datum only where it has roots needs both curvatures positive.
     let rooted = kappa0[0] > 0.0 && kappa1[0] > 0.0;
@@ -154,9 +174,7 @@ struct Data {
 }
 
 impl Data {
-    fn new(angles: Angles, kappa0: [f64; 2], kappa1: [f64; 2]) -> Data {
-        let a = angles.curve0.mul(&Four::centred(kappa0, 2));
-        let k = angles.curve1.mul(&Four::centred(kappa1, 3));
+    fn new(angles: Angles, [a, k]: [Four; 2]) -> Data {
         let above = [&a, &k].map(|x| positive(&x.times(3.0).plus(-1.0)));
         let ak = a.mul(&k);
         let delta = ak.mul(&ak.times(768.0).sub(&a.add(&k).times(256.0)).plus(96.0)).plus(-1.0);
