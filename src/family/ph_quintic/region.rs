@@ -7,8 +7,12 @@
 //! order, makes the guess, and the residual bounds what it is off, as for any number ([`Curves`]).
 //!
 //! **One solution.** Between two knots D changes its sign once, for every datum. A form T, made by Newton's method in
-//! the same way, and a number e: where D has the sign of the first knot at T - e and the other at T + e, both between
-//! the knots, the solution's t is within e of T at each place of the box. Its Z is then the height at T ± e.
+//! the same way, and a number e: where D has the sign of the first knot at T - e and the other at T + e, the first
+//! before the last knot and the other behind the first one, the solution's t is within e of T at each place of the box:
+//! a datum whose T - e lies before the first knot has its solution behind both. Its Z is then the height at T ± e.
+//!
+//! **Knots** are where halving leads. Where some data have a solution just there, no sign is certain; another place is
+//! taken ([`March::brackets`]).
 //!
 //! **SPIRAL** holds where ANY_SPIRAL does and the quintic of some solution is positive; it fails where that of every
 //! solution is negative somewhere. ANY_SPIRAL is `family/outer_region.rs`. No solution has a negative curvature, and
@@ -58,7 +62,7 @@ fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four
     let sign = |t: Four| march.knot(t)?.gap.certain_sign(0.0);
     for _ in 0..4 {
         let (left, right) = (t.plus(-reach), t.plus(reach));
-        if !(left.sub(&a.t).is_positive() && b.t.sub(&right).is_positive()) {
+        if !(left.is_positive() && b.t.sub(&left).is_positive() && right.sub(&a.t).is_positive()) {
             return None;
         }
         if sign(left) == Some(side) && sign(right) == Some(side.reverse()) {
