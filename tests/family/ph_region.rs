@@ -66,9 +66,6 @@ fn small_boxes_are_decided() {
         counted += 1;
         let left = |facts: spiral_atlas::family::Facts| (facts.inside | facts.outside) & (SPIRAL | SOLVABLE) != SPIRAL | SOLVABLE;
         open += u32::from(left(facts));
-        if left(facts) {
-            println!("{point:?} {facts:?} {:?}", judge(point).curves.len());
-        }
         coarse += u32::from(left(SUBJECT.facts(&side(1.0))));
     }
     println!("of {counted} small boxes {open} are open, of as many cells of 1/64 {coarse}");
