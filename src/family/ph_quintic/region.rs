@@ -112,7 +112,10 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     };
     facts.note(open & SOLVABLE, Some(!brackets.is_empty()));
     if open & SPIRAL != 0 {
-        let spiral = brackets.iter().fold(Some(false), |known, (a, b)| or(known, rises(&march, a, b, &mut facts.pull)));
+        let mut spiral = Some(false);
+        for (a, b) in &brackets {
+            spiral = or(spiral, rises(&march, a, b, &mut facts.pull));
+        }
         facts.note(SPIRAL, and(any, spiral));
         if facts.pull == [0.0; MOST_SIDES] {
             facts.pull = widths;
