@@ -40,7 +40,7 @@ impl<const N: usize> Subject<N> {
     /// The flags of all nodes of a product of values, by the ladder.
     fn flags(&self, values: &[Vec<f64>; N]) -> Vec<u8> {
         let names = self.family.charts()[self.chart].axes;
-        let axes = names.iter().zip(values).map(|(name, values)| Axis::new(*name, Spacing::Values(values.clone())).unwrap());
+        let axes = names.iter().zip(values).map(|(name, values)| Axis::new(name, Spacing::Values(values.clone())).unwrap());
         let grid = Grid::new(axes.collect()).unwrap();
         let table = self.family.table(&grid).unwrap_or_else(|e| panic!("{values:?}: {e}"));
         let mut codes = vec![Code::UNDECIDED; grid.len() as usize];
