@@ -5,8 +5,8 @@
 //! falling curvature exists exactly when this is so of the mirror image, all four numbers with the other sign. Both
 //! exclude each other by the sign of ω.
 //!
-//! Their signs are proved over a box by forms (`family/outer_region.rs`). Where ω has one sign all over the box, its kind of spiral decides. Where it changes the
-//! sign, or touches 0, EXISTS can only be refuted, by refuting both kinds.
+//! Their signs are proved over a box by forms (`family/outer_region.rs`). Where ω has one sign all over the box, its
+//! kind of spiral decides. Where it changes the sign, or touches 0, EXISTS can only be refuted, by refuting both kinds.
 //!
 //! RISING is a comparison of k1 and k2, and INFLECTION is EXISTS where their signs differ.
 
