@@ -50,7 +50,7 @@ fn draw_normalised(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
 
 #[test]
 fn no_point_of_a_normalised_box_contradicts_it() {
-    NORMALISED.attack(5, 3_000, 1, 1_000_000, 8);
+    NORMALISED.attack(5, 3_000, 1, 1_000_000, 5);
 }
 
 #[test]
