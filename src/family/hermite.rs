@@ -47,6 +47,12 @@ pub(super) fn check(datum: [(&str, f64); 4]) -> Result<()> {
     check_angles(datum[0].1, datum[1].1)
 }
 
+/// Whether a box lies in the domain.
+pub(super) fn holds_box(sides: &[[f64; 2]; 4]) -> bool {
+    let [phi0, phi1, ..] = sides;
+    phi0[0] > 0.0 && phi1[0] > 0.0 && sum_below_pi(phi0[1], phi1[1]) && sides.iter().flatten().all(|x| x.is_finite())
+}
+
 /// A grid whose first two axes are φ0 and φ1.
 pub(super) fn check_grid(grid: &Grid) -> Result<()> {
     let (phi0, phi1) = (&grid.axes()[0], &grid.axes()[1]);

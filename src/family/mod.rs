@@ -9,6 +9,7 @@ pub mod cubic;
 mod hermite;
 mod kernel;
 mod outer;
+mod outer_region;
 pub mod ph_path;
 pub mod ph_quintic;
 pub mod reach;

@@ -1,5 +1,8 @@
 //! What a family can prove of its flags over a whole box of data.
 
+use crate::num::bernstein::{Quintic, halve, least};
+use crate::num::{Form, Number};
+
 /// Most coordinates of a box.
 pub const MOST_SIDES: usize = 4;
 
@@ -31,4 +34,84 @@ pub trait Region: Sync {
     ///   high`.
     /// - `wanted`: the flags that matter; others may be left open.
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts;
+}
+
+/// What is known of a condition all over a box: it holds, it fails, or neither is known.
+pub(super) type Known = Option<bool>;
+
+/// Whether both hold.
+pub(super) fn and(a: Known, b: Known) -> Known {
+    match (a, b) {
+        (Some(false), _) | (_, Some(false)) => Some(false),
+        (Some(true), Some(true)) => Some(true),
+        _ => None,
+    }
+}
+
+/// Whether one of both holds.
+pub(super) fn or(a: Known, b: Known) -> Known {
+    and(a.map(|a| !a), b.map(|b| !b)).map(|both| !both)
+}
+
+/// Whether a form is positive, or negative, all over the box.
+pub(super) fn positive<const K: usize, const H: usize>(form: &Form<K, H>) -> Known {
+    if form.low() > 0.0 {
+        Some(true)
+    } else if form.high() < 0.0 {
+        Some(false)
+    } else {
+        None
+    }
+}
+
+/// Adds how much each coordinate moves a form, for its size.
+pub(super) fn add_pull<const K: usize, const H: usize>(pull: &mut [f64; MOST_SIDES], form: &Form<K, H>) {
+    let size = form.value.abs() + form.slope.iter().map(|s| s.abs()).sum::<f64>();
+    if size > 0.0 && size.is_finite() {
+        pull.iter_mut().zip(form.slope).for_each(|(pull, slope)| *pull += slope.abs() / size);
+    }
+}
+
+impl Facts {
+    /// Notes what is known of some flags.
+    pub(super) fn note(&mut self, flags: u8, known: Known) {
+        match known {
+            Some(true) => self.inside |= flags,
+            Some(false) => self.outside |= flags,
+            None => {}
+        }
+    }
+}
+
+/// Whether a quintic in Bernstein's form is positive on [0, 1] all over the box, or negative somewhere on [0, 1] at
+/// each place of it.
+pub(super) fn unit_sign<const K: usize, const H: usize>(quintic: &Quintic<Form<K, H>>) -> Known {
+    let middle: Quintic<f64> = quintic.map(|form| form.value);
+    let (value, t) = least(&middle);
+    if value < 0.0 {
+        return (at(quintic, t).high() < 0.0).then_some(false);
+    }
+    above(quintic, 6).then_some(true)
+}
+
+/// The quintic at t times a positive number: Horner's rule in `s = t / (1 - t)`, or in 1/s from the other end. Any s
+/// is some t, so its rounding does not matter.
+fn at<const K: usize, const H: usize>(c: &Quintic<Form<K, H>>, t: f64) -> Form<K, H> {
+    const BINOMIALS: [f64; 6] = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
+    let back = t > 0.5;
+    let s = if back { (1.0 - t) / t } else { t / (1.0 - t) };
+    let term = |i: usize| c[if back { i } else { 5 - i }].times(BINOMIALS[i]);
+    (1..6).fold(term(0), |sum, i| sum.times(s).add(&term(i)))
+}
+
+/// Whether the quintic is positive on [0, 1] all over the box, by halving.
+fn above<const K: usize, const H: usize>(c: &Quintic<Form<K, H>>, depth: u32) -> bool {
+    if c.iter().all(|form| form.low() > 0.0) {
+        return true;
+    }
+    if depth == 0 || c[0].low() <= 0.0 || c[5].low() <= 0.0 {
+        return false;
+    }
+    let (left, right) = halve(c);
+    above(&left, depth - 1) && above(&right, depth - 1)
 }

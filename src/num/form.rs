@@ -7,6 +7,7 @@
 //! Every operation adds to the error what its roundings and the terms that it cuts off can do. So a form holds the
 //! truth at every place of the symbols, whatever was computed with it.
 
+mod angle;
 mod real;
 
 use super::{Ball, Number, Real};

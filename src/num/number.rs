@@ -94,7 +94,7 @@ impl<S: Simd> Lanes<S> {
 }
 
 /// Enclosed numbers of some precision: what a family computes with once, for doubles and for the top of the ladder.
-pub trait Real: super::bernstein::Certain {
+pub trait Real: super::bernstein::Certain + Sized {
     /// A double, exactly, with results rounded to `bits`.
     fn of(x: f64, bits: usize) -> Self;
     /// The precision of results.
@@ -111,6 +111,12 @@ pub trait Real: super::bernstein::Certain {
     fn most(&self) -> f64;
     /// A number in its middle, exactly: a good guess.
     fn middle(&self) -> Self;
+    /// Newton's steps from a double that add orders of a dependence, for numbers that depend on something.
+    const ORDERS: usize = 0;
+    /// The best guess of what it stands for: its middle, or for a form the form without its error.
+    fn guess(&self) -> Self {
+        self.middle()
+    }
     /// The double next to its middle: a guess.
     fn approx(&self) -> f64;
     /// 2 to any power that the arithmetic has.

@@ -61,7 +61,8 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
         regions: regions.collect(),
         outlines: Vec::new(),
         marks: plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect(),
-        note: "each node is a cell: INSIDE is proved at every point of it; MIXED is not known, or true in a part of it".into(),
+        note: "INSIDE is proved at every point of a cell; MIXED is not known, or true in a part of it".into(),
+        counted: "cell",
     };
     plot::slice_png(&slice, sheet(&plan.look, SLICE_SIZE))
 }

@@ -225,7 +225,16 @@ fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Resul
     } else {
         (chosen(&plan.regions), chosen(&plan.outlines))
     };
-    Ok(Slice { title: String::new(), x: view(x), y: view(y), regions, outlines, marks: Vec::new(), note: String::new() })
+    Ok(Slice {
+        title: String::new(),
+        x: view(x),
+        y: view(y),
+        regions,
+        outlines,
+        marks: Vec::new(),
+        note: String::new(),
+        counted: "node",
+    })
 }
 
 /// Where a scalar is at most each level, on the plane through one node of each other axis: the largest first.

@@ -70,6 +70,8 @@ pub struct Slice {
     pub marks: Vec<Mark>,
     /// Small print below the heading; may be empty.
     pub note: String,
+    /// What a point of the plane is, for the legend that counts them: `node`.
+    pub counted: &'static str,
 }
 
 /// An axis name as a formula: `phi0` becomes `φ₀`, `kappa1` becomes `κ₁`; unknown names stay.

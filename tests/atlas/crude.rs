@@ -73,6 +73,7 @@ pub fn cubic_slice(p0: f64, p1: f64, x: AxisView, y: AxisView) -> Slice {
         outlines: vec![region(4)],
         marks: Vec::new(),
         note: "Which end curvatures can be joined with monotone curvature; ends at (−1, 0) and (1, 0).".into(),
+        counted: "node",
         x,
         y,
     }

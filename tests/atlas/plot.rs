@@ -39,6 +39,7 @@ fn pattern() -> Slice {
         outlines: Vec::new(),
         marks: Vec::new(),
         note: String::new(),
+        counted: "node",
         x,
         y,
     }

@@ -79,7 +79,6 @@ fn mistakes_in_recipes_of_cells_are_named() {
         ("kind = \"cells\"", "kind = \"nodes\"", "`resolution` belongs to"),
         ("kind = \"cells\"", "kind = \"cell\"", "did you mean `cells`?"),
         ("[0.68, 0.7] }", "[0.68, 0.7], count = 3 }", "axis `phi0` of cells takes"),
-        ("family = \"cubic\"", "family = \"ph-quintic\"", "no proofs over boxes"),
         ("kind = \"slice\"", "kind = \"multiples\"", "of the kind `slice`"),
     ];
     for (from, to, what) in cases {

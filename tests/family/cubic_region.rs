@@ -1,37 +1,16 @@
 //! Verdicts over boxes: no point of a box, and no corner, face or neighbour of one inside it, has another verdict
 //! than its box.
 
+use crate::boxes::{Subject, place};
 use crate::oracle::judge;
 use crate::oracle::random::Random;
 use spiral_atlas::family::cubic::{self, Cubic};
-use spiral_atlas::family::{Code, Facts, Family, by_name};
-use spiral_atlas::grid::{Axis, Grid, Spacing};
 
-const NAMES: [&str; 4] = ["phi0", "phi1", "kappa0", "kappa1"];
-
-/// The flags of all nodes of a product of values, by the ladder; `None` where a node leaves the domain.
-fn flags(values: [Vec<f64>; 4]) -> Option<Vec<u8>> {
-    let axes = NAMES.into_iter().zip(values).map(|(name, values)| Axis::new(name, Spacing::Values(values)).unwrap());
-    let grid = Grid::new(axes.collect()).unwrap();
-    let table = by_name("cubic").unwrap().table(&grid).ok()?;
-    let mut codes = vec![Code::UNDECIDED; grid.len() as usize];
-    table.filter(0, &mut codes);
-    let exact = |(i, code): (usize, Code)| if code == Code::UNDECIDED { table.exact(i as u64).unwrap().0 } else { code };
-    Some(codes.into_iter().enumerate().map(exact).map(|code| code.flags()).collect())
-}
-
-/// Both ends, their neighbours inside, and so many numbers between them, increasing.
-fn places(r: &mut Random, [low, high]: [f64; 2], between: usize) -> Vec<f64> {
-    let mut all = vec![low, low.next_up(), high.next_down(), high];
-    all.extend((0..between).map(|_| r.uniform(low, high)));
-    all.retain(|x| (low..=high).contains(x));
-    all.sort_by(f64::total_cmp);
-    all.dedup();
-    all
-}
+const SUBJECT: Subject<4> = Subject { family: &Cubic, chart: 0, draw };
+const NORMALISED: Subject<4> = Subject { family: &Cubic, chart: 1, draw: draw_normalised };
 
 /// A box of random size somewhere: ordinary ones, and those that touch or cross where the flags have an end.
-fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
+pub fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
     let scale = 10f64.powf(-r.uniform(0.3, 4.0));
     let mut side = |low: f64, high: f64| {
         let middle = r.uniform(low, high);
@@ -56,36 +35,27 @@ fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
     [phi0, phi1, kappa0, kappa1]
 }
 
-fn facts(sides: &[[f64; 2]; 4]) -> Facts {
-    let [low, high] = [0, 1].map(|end| sides.map(|side| side[end]));
-    Cubic.region().unwrap().facts(0, &low, &high, u8::MAX)
+/// The same in the chart (a, k), by the middle of the angles; and boxes around the triple root a = k = 1/4.
+fn draw_normalised(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
+    let [phi0, phi1, kappa0, kappa1] = draw(r, round);
+    let [p0, p1] = [phi0, phi1].map(|side| 0.5 * (side[0] + side[1]));
+    let (s0, s1, sum) = (p0.sin(), p1.sin(), (p0 + p1).sin());
+    let [a, k] = [s1 * s1 / (sum * sum * s0), s0 * s0 / (sum * sum * s1)];
+    if round % 8 == 5 {
+        let half = 0.25 * (phi0[1] - phi0[0]);
+        return [phi0, phi1, [0.25 - half, 0.25], [0.25, 0.25 + half]];
+    }
+    [phi0, phi1, kappa0.map(|x| x * a), kappa1.map(|x| x * k)]
+}
+
+#[test]
+fn no_point_of_a_normalised_box_contradicts_it() {
+    NORMALISED.attack(5, 3_000, 1, 1_000_000, 5);
 }
 
 #[test]
 fn no_point_of_a_box_contradicts_it() {
-    let mut r = Random(1);
-    let (mut points, mut inside, mut outside) = (0, [0u64; 5], [0u64; 5]);
-    for round in 0..12_000 {
-        let sides = draw(&mut r, round);
-        let facts = facts(&sides);
-        assert_eq!(facts.inside & facts.outside, 0);
-        let known = facts.inside | facts.outside;
-        for bit in 0..5 {
-            inside[bit] += u64::from(facts.inside >> bit & 1);
-            outside[bit] += u64::from(facts.outside >> bit & 1);
-        }
-        if known == 0 {
-            continue;
-        }
-        let values = sides.map(|side| places(&mut r, side, 1));
-        let Some(found) = flags(values.clone()) else { panic!("{sides:?} leaves the domain") };
-        for (i, flags) in found.iter().enumerate() {
-            assert!(flags & known == facts.inside, "{sides:?} node {i} of {values:?}: {flags:#b}, but {facts:?}");
-        }
-        points += found.len();
-    }
-    println!("{points} points; inside {inside:?}, outside {outside:?}");
-    assert!(points > 4_000_000 && inside.iter().chain(&outside).all(|n| *n > 40), "{points} {inside:?} {outside:?}");
+    SUBJECT.attack(1, 12_000, 1, 4_000_000, 40);
 }
 
 /// The judge of the tests' own, at random points of a thousand boxes.
@@ -95,17 +65,13 @@ fn the_oracle_confirms_boxes() {
     while judged < 1000 {
         round += 1;
         let sides = draw(&mut r, round);
-        let facts = facts(&sides);
+        let facts = SUBJECT.facts(&sides);
         let known = facts.inside | facts.outside;
         if known & cubic::SPIRAL == 0 || facts.outside & cubic::ANY_SPIRAL != 0 && judged % 4 != 0 {
             continue;
         }
         for _ in 0..2 {
-            let [phi0, phi1, kappa0, kappa1] = sides.map(|side| match r.below(4) {
-                0 => side[0],
-                1 => side[1],
-                _ => r.uniform(side[0], side[1]),
-            });
+            let [phi0, phi1, kappa0, kappa1] = place(&mut r, &sides);
             let verdict = judge(phi0, phi1, kappa0, kappa1);
             assert!(
                 verdict.flags & known == facts.inside,
@@ -120,11 +86,11 @@ fn the_oracle_confirms_boxes() {
 #[test]
 fn nothing_is_said_outside_the_domain() {
     let all = [[0.7, 0.71], [1.4, 1.41], [0.4, 0.41], [4.0, 4.1]];
-    assert_eq!((facts(&all).inside | facts(&all).outside).count_ones(), 5);
+    assert_eq!((SUBJECT.facts(&all).inside | SUBJECT.facts(&all).outside).count_ones(), 5);
     for (which, side) in [(0, [-0.1, 0.6]), (0, [0.0, 0.6]), (1, [0.9, 2.7]), (2, [f64::NAN, 0.2]), (3, [4.0, f64::INFINITY])] {
         let mut sides = all;
         sides[which] = side;
-        let facts = facts(&sides);
+        let facts = SUBJECT.facts(&sides);
         assert_eq!((facts.inside, facts.outside), (0, 0), "{side:?}");
     }
 }

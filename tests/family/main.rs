@@ -1,6 +1,7 @@
 //! Every family against independent oracles, published numbers and reference data; and what places its curves in the user's plane.
 
 mod any_spiral;
+mod boxes;
 mod cubic_oracle;
 mod cubic_properties;
 mod cubic_region;
@@ -8,8 +9,10 @@ mod cubic_vectors;
 mod oracle;
 mod ph_oracle;
 mod ph_path;
+mod ph_region;
 mod ph_vectors;
 mod reach_oracle;
+mod reach_region;
 mod reach_vectors;
 mod transition;
 mod trig_oracle;

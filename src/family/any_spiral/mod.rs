@@ -11,6 +11,7 @@
 //!   end curvatures are met to a rounding. Each half has the width of its own peak of speed as unit, so that nothing leaves the range of doubles.
 //!   The turns of a direction are a closed form. `track.rs` tabulates the length once, over the logarithm of the parameter.
 //! - No work depends on how near the data are to a limit: `involute/steps.rs` counts precision, evaluations and pieces there.
+//! - `region.rs` proves the flags over boxes.
 //! - `involute/turns.rs` is the rule for turns about the ends, which the paper does not have.
 
 mod arc;
@@ -19,6 +20,7 @@ mod exact;
 mod fast;
 mod involute;
 mod pair;
+mod region;
 mod shader;
 mod shape;
 mod table;
@@ -26,7 +28,7 @@ mod table;
 pub use bound::least_end_curvature;
 pub use involute::{Chord, GREATEST, Involute, InvolutePoint, Outcome as InvoluteOutcome, Spiral, Split, WhyNone, involute};
 
-use super::{Answer, Chart, Code, Count, Family, Flag, Scalar, Table, coordinates, verdict};
+use super::{Answer, Chart, Code, Count, Family, Flag, Region, Scalar, Table, coordinates, verdict};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -117,6 +119,9 @@ impl Family for AnySpiral {
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::AnyTable::new(grid)?))
+    }
+    fn region(&self) -> Option<&dyn Region> {
+        Some(self)
     }
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;

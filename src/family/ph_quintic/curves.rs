@@ -58,11 +58,15 @@ impl<N: Real> Curves<N> {
     pub fn of(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Curves<N>> {
         let quarter = pair.sin.times(4.0);
         let bend = |kappa: f64| N::of(kappa, quarter.bits()).over(&quarter);
-        let bend = [bend(kappa[0])?, bend(kappa[1])?];
+        Some(Curves::bent([bend(kappa[0])?, bend(kappa[1])?], pair.cos.clone(), pair.right.clone(), pair.skew.clone()))
+    }
+
+    /// The same from α, β and what the angles give.
+    pub fn bent(bend: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
         let scale = [scale(bend[0].approx()), scale(bend[1].approx())];
         let cubed = |x: &N, p: f64| x.times(p).times(p).times(p);
         let bend = [cubed(&bend[0], scale[0]), cubed(&bend[1], scale[1])];
-        Some(Curves::new(scale, bend, pair.cos.clone(), pair.right.clone(), pair.skew.clone()))
+        Curves::new(scale, bend, cos, right, skew)
     }
 
     /// About the same in doubles, for guesses.
@@ -192,13 +196,13 @@ impl<N: Real> Cubic<N> {
         let [c0, c1, c2] = &self.c;
         let value = |z: &N| c2.mul(z).add(c1).mul(z).add(c0).mul(z);
         let rise = |z: &N| c2.mul(z).times(3.0).add(&c1.times(2.0)).mul(z).add(c0);
-        let newton = |z: &N| Some(z.sub(&value(z).sub(right).over(&rise(z))?).middle());
+        let newton = |z: &N| Some(z.sub(&value(z).sub(right).over(&rise(z))?).guess());
         let mut z = if guess.is_normal() && guess > 0.0 { N::of(guess, right.bits()) } else { self.start(right)? };
-        for _ in 0..polishing(right.bits()) {
+        for _ in 0..polishing(right.bits()).max(N::ORDERS) {
             z = newton(&z)?;
         }
         let off = value(&z).sub(right).over(right)?.size();
-        off.plus(-1.0 / 64.0).times(-1.0).is_positive().then(|| z.add(&z.mul(&off).times(1.05)))
+        (off.plus(-1.0 / 64.0).times(-1.0).is_positive() && z.is_positive()).then(|| z.add(&z.mul(&off).times(1.05)))
     }
 
     /// About where the cubic reaches `right`, when coefficients or heights are no doubles: none of their size, only logarithms and the

@@ -65,7 +65,8 @@ impl<N: Real> March<N> {
         self.curves.cos.bits()
     }
 
-    fn knot(&self, t: N) -> Option<Knot<N>> {
+    /// Both curves at t.
+    pub fn knot(&self, t: N) -> Option<Knot<N>> {
         count();
         let (near, exact) = (self.fast.at(&t.approx()), self.curves.at(&t));
         let side = |i: usize| {
@@ -111,12 +112,21 @@ impl<N: Real> March<N> {
                     a = b;
                 }
                 None => {
-                    let between = self.knot(between(&a.t, &b.t)?)?;
-                    waiting.push(between);
+                    let knot = self.knot(between(&a.t, &b.t)?)?;
+                    let vague = N::ORDERS > 0 && knot.gap.certain_sign(0.0).is_none();
+                    let knot = if vague { self.aside(&a, b)? } else { knot };
+                    waiting.push(knot);
                 }
             }
         }
         None
+    }
+
+    /// A knot elsewhere between two, for data that vary, some of which have a solution where halving led.
+    fn aside(&self, a: &Knot<N>, b: &Knot<N>) -> Option<Knot<N>> {
+        let (low, ratio) = (a.t.approx(), b.t.approx() / a.t.approx());
+        let knot = |share: f64| self.knot(N::of(low * ratio.powf(share), self.bits()));
+        [0.3, 0.7, 0.15, 0.85, 0.05, 0.95].into_iter().find_map(|share| knot(share).filter(|k| k.gap.certain_sign(0.0).is_some()))
     }
 
     /// A knot before which there is no solution.
@@ -194,7 +204,7 @@ impl<N: Real> March<N> {
     }
 
     /// About where D is 0: Newton's method for D as a function of ln t, kept between the knots.
-    fn guess(&self, a: &Knot<N>, b: &Knot<N>) -> f64 {
+    pub fn guess(&self, a: &Knot<N>, b: &Knot<N>) -> f64 {
         let (mut low, mut high) = (a.t.approx(), b.t.approx());
         let side = a.gap.approx() > 0.0;
         let mut t = (low * high).sqrt();

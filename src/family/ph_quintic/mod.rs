@@ -6,6 +6,7 @@
 //!   halves until one of them holds. No resultant of degree 18, nothing cancels, and f32, f64 and intervals run the same steps.
 //! - `num::Ball` is a double with its error; `num::Real` is what it shares with `Interval`, so the algorithm is written once. The shader is its twin.
 //! - `narrow.rs` has more certificates for nearly parallel tangents, where both equations almost coincide.
+//! - `region.rs` runs the same march over boxes of data.
 //! - Curvature is positive for A, B > 0, so a spiral is the sign of one quintic, as in `cubic`. Energies are Taylor series on pieces with a remainder bound.
 
 mod curves;
@@ -14,6 +15,7 @@ mod knot;
 mod march;
 mod narrow;
 mod pair;
+mod region;
 mod shader;
 mod shape;
 mod solve;
@@ -23,7 +25,7 @@ mod truth;
 pub use super::cubic::Datum;
 pub use solve::{Quintic, Solutions, flags, solve};
 
-use super::{Answer, Chart, Count, Family, Flag, Scalar, Table, coordinates};
+use super::{Answer, Chart, Count, Family, Flag, Region, Scalar, Table, coordinates};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -118,6 +120,9 @@ impl Family for PhQuintic {
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::PhTable::new(grid)?))
+    }
+    fn region(&self) -> Option<&dyn Region> {
+        Some(self)
     }
     fn compute(&self, _chart: usize, point: &[f64]) -> Result<Answer> {
         solve::answer(coordinates(point)?)

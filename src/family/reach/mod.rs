@@ -7,19 +7,21 @@
 //! - The cubic's inverse is explicit. That of the PH quintic is one root of a function that is monotone where m > -0.37 (proof in `poly.rs`), so one certified
 //!   bracket both finds and counts it.
 //! - The four terms of the theorems are `c0..c3 >= 0`; the exact test is the sign of the same quintic, as in `cubic`.
+//! - `region.rs` proves the flags over boxes.
 //! - Cases 3 and 4 are unions over angles: a kind of picture (`union`), not flags, because a flag must be a fact about its node.
 
 mod angle;
 mod exact;
 mod filter;
 mod poly;
+mod region;
 mod shader;
 mod solve;
 mod table;
 
 pub use solve::{Datum, Level, Reached, Segment, level_of_shape, solve};
 
-use super::{Answer, Chart, Count, Family, Flag, Scalar, Table, Value, coordinates, verdict};
+use super::{Answer, Chart, Count, Family, Flag, Region, Scalar, Table, Value, coordinates, verdict};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -157,6 +159,9 @@ impl Family for Reach {
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::ReachTable::new(self.0, grid)?))
+    }
+    fn region(&self) -> Option<&dyn Region> {
+        Some(self)
     }
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;

@@ -51,6 +51,10 @@ impl<const K: usize, const H: usize> Real for Form<K, H> {
     fn middle(&self) -> Form<K, H> {
         Form::of(self.value, 53)
     }
+    const ORDERS: usize = 2;
+    fn guess(&self) -> Form<K, H> {
+        Form { error: 0.0, ..*self }
+    }
     fn approx(&self) -> f64 {
         self.value
     }

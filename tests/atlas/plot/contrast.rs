@@ -36,6 +36,7 @@ fn bands(regions: usize, outlines: usize) -> Slice {
         outlines: (0..outlines).map(outline).collect(),
         marks: Vec::new(),
         note: String::new(),
+        counted: "node",
     }
 }
 

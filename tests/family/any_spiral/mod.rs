@@ -4,6 +4,7 @@ mod cross;
 mod curves;
 mod figures;
 mod judge;
+mod region;
 mod scalars;
 mod verdicts;
 

@@ -1,4 +1,4 @@
-//! What is proved of the cubic over boxes of (φ0, φ1, κ0, κ1).
+//! What is proved of the cubic over boxes of (φ0, φ1, κ0, κ1) or of (φ0, φ1, a, k).
 //!
 //! # How it is done
 //! Everything is a form of second order in the four coordinates of the box (`num/form.rs`), which holds its own
@@ -6,7 +6,7 @@
 //! closed box. Outside the domain nothing is said, and a datum is judged by the module `cubic`: no root where a or k
 //! is not positive, no spiral where ANY_SPIRAL fails.
 //!
-//! - ANY_SPIRAL: closed forms (`any.rs`).
+//! - ANY_SPIRAL: closed forms (`family/outer_region.rs`).
 //! - SOLVABLE: the signs of 3k - 1, 3a - 1 and Δ, as in the module `cubic`.
 //! - A flag that asks for *some* root with a property (SPIRAL, THEOREM31_ANY) holds over the box when one enclosed
 //!   root (`root.rs`) lies in the open square and has it, over the whole box. Which root that is does not matter.
@@ -35,46 +35,20 @@
 //! one, which lies in the span).
 
 mod angles;
-mod any;
 mod root;
 
 use super::poly::side;
 use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
-use crate::family::region::{Facts, Region};
-use crate::num::bernstein::{Quintic, halve, least};
+use crate::family::hermite::holds_box;
+use crate::family::outer_region::{any, rising};
+use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
 use crate::num::{Form, Number};
-use angles::{Angles, centred};
+use angles::Angles;
 use root::{Root, span};
 use std::cell::Cell;
 
 /// A form in φ0, φ1, κ0, κ1.
 type Four = Form<4, 10>;
-
-/// What is known of a condition all over a box: it holds, it fails, or neither is known.
-type Known = Option<bool>;
-
-fn and(a: Known, b: Known) -> Known {
-    match (a, b) {
-        (Some(false), _) | (_, Some(false)) => Some(false),
-        (Some(true), Some(true)) => Some(true),
-        _ => None,
-    }
-}
-
-fn or(a: Known, b: Known) -> Known {
-    and(a.map(|a| !a), b.map(|b| !b)).map(|both| !both)
-}
-
-/// Whether a form is positive, or negative, all over the box.
-fn positive(form: &Four) -> Known {
-    if form.low() > 0.0 {
-        Some(true)
-    } else if form.high() < 0.0 {
-        Some(false)
-    } else {
-        None
-    }
-}
 
 /// Whether a root exists, and Theorem 3.1 and the exact test at it, wherever it exists.
 #[derive(Clone, Copy)]
@@ -107,43 +81,52 @@ fn angles_of(phi0: [f64; 2], phi1: [f64; 2]) -> Option<Angles> {
 
 impl Region for Cubic {
     fn covers(&self, chart: &str) -> bool {
-        chart == super::CHARTS[0].name
+        super::CHARTS.iter().any(|c| c.name == chart)
     }
 
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
         let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else { return Facts::default() };
-        if chart != 0 {
-            return Facts::default();
-        }
         let sides: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
-        let [phi0, phi1, ..] = sides;
-        let inside = phi0[0] > 0.0 && phi1[0] > 0.0 && crate::num::sines::sum_below_pi(phi0[1], phi1[1]);
-        if !inside || !sides.iter().flatten().all(|x| x.is_finite()) {
-            return Facts::default();
-        }
-        prove(&sides, wanted)
+        if holds_box(&sides) { prove(chart == 1, &sides, wanted) } else { Facts::default() }
     }
 }
 
-fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
-    let mut facts = Facts::default();
-    let (any, pull) = any::any(sides);
-    let note = |facts: &mut Facts, flags: u8, known: Known| match known {
-        Some(true) => facts.inside |= flags & wanted,
-        Some(false) => facts.outside |= flags & wanted,
-        None => {}
+/// ANY_SPIRAL of the chart (a, k): κ0 and κ1 follow from a, k and the angles.
+fn any_normalised(sides: &[[f64; 2]; 4]) -> (Known, [f64; MOST_SIDES]) {
+    let [phi0, phi1, a, k] = *sides;
+    let mut pull = [0.0; MOST_SIDES];
+    if phi0[0] >= phi1[1] {
+        return (Some(false), pull);
+    }
+    let forms = || {
+        let angles = angles_of(phi0, phi1)?;
+        let (kappa0, kappa1) = (angles.curve0.inverse()?, angles.curve1.inverse()?);
+        let [first, second, a, k]: [Four; 4] = std::array::from_fn(|i| Four::centred([phi0, phi1, a, k][i], i));
+        Some([first, second, a.mul(&kappa0), k.mul(&kappa1)])
     };
-    note(&mut facts, ANY_SPIRAL, any);
+    let known = forms().and_then(|forms| rising(&forms, &mut pull));
+    if phi0[1] < phi1[0] {
+        return (known, pull);
+    }
+    pull[0] += phi0[1] - phi0[0];
+    pull[1] += phi1[1] - phi1[0];
+    (known.filter(|holds| !holds), pull)
+}
+
+fn prove(normalised: bool, sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
+    let mut facts = Facts::default();
+    let (any, pull) = if normalised { any_normalised(sides) } else { any(sides) };
+    facts.note(wanted & ANY_SPIRAL, any);
     if any.is_none() && wanted & ANY_SPIRAL != 0 {
         facts.pull = pull;
     }
     let curves = THEOREM31 | THEOREM31_ANY | SPIRAL;
     if any == Some(false) {
-        note(&mut facts, curves, Some(false));
+        facts.note(wanted & curves, Some(false));
     }
     let [phi0, phi1, kappa0, kappa1] = *sides;
     if kappa0[1] <= 0.0 || kappa1[1] <= 0.0 {
-        note(&mut facts, curves | SOLVABLE, Some(false));
+        facts.note(wanted & (curves | SOLVABLE), Some(false));
     }
     let open = wanted & !(facts.inside | facts.outside);
     if open & (curves | SOLVABLE) == 0 {
@@ -154,12 +137,13 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
         facts.pull = sides.map(|[low, high]| (high - low) / (low.abs() + high.abs()));
         return facts;
     };
-    let data = Data::new(angles, kappa0, kappa1);
+    let ends = [Four::centred(kappa0, 2), Four::centred(kappa1, 3)];
+    let data = Data::new(angles, if normalised { ends } else { [angles.curve0.mul(&ends[0]), angles.curve1.mul(&ends[1])] });
     let solvable = data.solvable();
     // What holds of some datum only where it has roots needs both curvatures positive.
     let rooted = kappa0[0] > 0.0 && kappa1[0] > 0.0;
     let sure = |known: Known| if rooted { known } else { known.filter(|holds| !holds) };
-    note(&mut facts, SOLVABLE, sure(solvable));
+    facts.note(wanted & SOLVABLE, sure(solvable));
     if open & SOLVABLE != 0 && solvable.is_none() {
         data.pull_edges(&mut facts.pull);
     }
@@ -170,9 +154,9 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
             or(or(left, middle), right)
         };
         let first = and(solvable, and(branches[1].exists, branches[1].theorem));
-        note(&mut facts, SPIRAL, sure(and(any, some(|b| b.spiral))));
-        note(&mut facts, THEOREM31_ANY, sure(and(any, some(|b| b.theorem))));
-        note(&mut facts, THEOREM31, sure(and(any, first)));
+        facts.note(wanted & SPIRAL, sure(and(any, some(|b| b.spiral))));
+        facts.note(wanted & THEOREM31_ANY, sure(and(any, some(|b| b.theorem))));
+        facts.note(wanted & THEOREM31, sure(and(any, first)));
     }
     facts
 }
@@ -190,9 +174,7 @@ struct Data {
 }
 
 impl Data {
-    fn new(angles: Angles, kappa0: [f64; 2], kappa1: [f64; 2]) -> Data {
-        let a = angles.curve0.mul(&centred(kappa0, 2));
-        let k = angles.curve1.mul(&centred(kappa1, 3));
+    fn new(angles: Angles, [a, k]: [Four; 2]) -> Data {
         let above = [&a, &k].map(|x| positive(&x.times(3.0).plus(-1.0)));
         let ak = a.mul(&k);
         let delta = ak.mul(&ak.times(768.0).sub(&a.add(&k).times(256.0)).plus(96.0)).plus(-1.0);
@@ -290,14 +272,6 @@ impl Data {
     }
 }
 
-/// Adds how much each coordinate moves a form, for its size.
-fn add_pull(pull: &mut [f64; 4], form: &Four) {
-    let size = form.value.abs() + form.slope.iter().map(|s| s.abs()).sum::<f64>();
-    if size > 0.0 && size.is_finite() {
-        pull.iter_mut().zip(form.slope).for_each(|(pull, slope)| *pull += slope.abs() / size);
-    }
-}
-
 /// One half of Theorem 3.1: `B0 >= 0, B2 >= 0, B1 >= 0 or B1² <= 8 w B0 B2`.
 fn half(b: &[Four; 3], w: &Four) -> Known {
     let outer = and(positive(&b[0]), positive(&b[2]));
@@ -328,32 +302,5 @@ fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Known {
         x.mul(&end[1]),
         x.mul(x).mul(&end[0]).times(5.0),
     ];
-    let middle: Quintic<f64> = quintic.map(|form| form.value);
-    let (value, t) = least(&middle);
-    if value < 0.0 {
-        return (at(&quintic, t).high() < 0.0).then_some(false);
-    }
-    above(&quintic, 6).then_some(true)
-}
-
-/// The quintic at t times a positive number: Horner's rule in `s = t / (1 - t)`, or in 1/s from the other end. Any s
-/// is some t, so its rounding does not matter.
-fn at(c: &Quintic<Four>, t: f64) -> Four {
-    const BINOMIALS: [f64; 6] = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
-    let back = t > 0.5;
-    let s = if back { (1.0 - t) / t } else { t / (1.0 - t) };
-    let term = |i: usize| c[if back { i } else { 5 - i }].times(BINOMIALS[i]);
-    (1..6).fold(term(0), |sum, i| sum.times(s).add(&term(i)))
-}
-
-/// Whether the quintic is positive on [0, 1] all over the box, by halving.
-fn above(c: &Quintic<Four>, depth: u32) -> bool {
-    if c.iter().all(|form| form.low() > 0.0) {
-        return true;
-    }
-    if depth == 0 || c[0].low() <= 0.0 || c[5].low() <= 0.0 {
-        return false;
-    }
-    let (left, right) = halve(c);
-    above(&left, depth - 1) && above(&right, depth - 1)
+    unit_sign(&quintic)
 }

@@ -1,4 +1,4 @@
-//! ANY_SPIRAL over a box.
+//! The outer bound, ANY_SPIRAL of `cubic` and `ph-quintic`, over a box.
 //!
 //! The flag is `φ0 < φ1`, `u = sin φ0 - κ0 > 0`, `v = κ1 - sin φ1 > 0` and `f = u v - sin²((φ1-φ0)/2) > 0`
 //! (`outer.rs`). There φ0 < π/2.
@@ -12,11 +12,15 @@
 //! when it holds at the opposite corner, and nowhere when it does not hold at this one. For κ0 < 0 and φ1 > π/2 this
 //! is not so.
 //!
+//! **Forms.** Where the curvatures depend on the angles, or the domain is larger, u, v and f are forms of second order
+//! in the four coordinates (`num/form.rs`), whose signs are proofs for every real point of the box.
+//!
 //! **Factors.** Always, u, v and the square lie between the values that their own coordinates allow.
 
+use super::region::{Known, MOST_SIDES, add_pull, and, positive};
 use crate::num::bernstein::Certain;
 use crate::num::sines::{SIN_ERROR, sin};
-use crate::num::{Ball, Number};
+use crate::num::{Ball, Form, Number};
 use std::cmp::Ordering::{Greater, Less};
 use std::f64::consts::FRAC_PI_2;
 
@@ -84,4 +88,17 @@ pub(super) fn any(box_: &[[f64; 2]; 4]) -> (Option<bool>, [f64; 4]) {
     let (u, v) = (u_most.value.max(0.0), v_most.value.max(0.0));
     let width = |side: [f64; 2]| side[1] - side[0];
     (None, [width(phi0) * v, width(phi1) * u, width(kappa0) * v, width(kappa1) * u])
+}
+
+/// Whether a spiral of rising curvature exists, wherever `φ0 < φ1`, for forms of φ0, φ1, κ0, κ1.
+pub(super) fn rising([phi0, phi1, kappa0, kappa1]: &[Form<4, 10>; 4], pull: &mut [f64; MOST_SIDES]) -> Known {
+    let (u, v) = (phi0.sine().sub(kappa0), kappa1.sub(&phi1.sine()));
+    // Halving is exact but for what underflows, which the forms' errors cover.
+    let half = phi1.times(0.5).sine_of_sum(&phi0.times(-0.5));
+    let f = u.mul(&v).sub(&half.mul(&half));
+    let known = and(and(positive(&u), positive(&v)), positive(&f));
+    if known.is_none() {
+        [u, v, f].iter().filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));
+    }
+    known
 }

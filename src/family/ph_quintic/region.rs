@@ -1,0 +1,137 @@
+//! What is proved of PH quintics over boxes of (φ0, φ1, κ0, κ1).
+//!
+//! The march of [`super::march`] runs on forms of second order in the four coordinates (`num/form.rs`) as it does on
+//! other numbers. A sign that is certain there is that of every datum of the box. So each of its certificates holds
+//! for all of them, and where it ends it has counted the solutions of each datum, between knots that all share. Only
+//! the heights of the curves need more than for plain numbers: Newton's method in forms, whose steps each add an
+//! order, makes the guess, and the residual bounds what it is off, as for any number ([`Curves`]).
+//!
+//! **One solution.** Between two knots D changes its sign once, for every datum. A form T, made by Newton's method in
+//! the same way, and a number e: where D has the sign of the first knot at T - e and the other at T + e, the first
+//! before the last knot and the other behind the first one, the solution's t is within e of T at each place of the box:
+//! a datum whose T - e lies before the first knot has its solution behind both. Its Z is then the height at T ± e.
+//!
+//! **Knots** are where halving leads. Where some data have a solution just there, no sign is certain; another place is
+//! taken ([`March::brackets`]).
+//!
+//! **SPIRAL** holds where ANY_SPIRAL does and the quintic of some solution is positive; it fails where that of every
+//! solution is negative somewhere. ANY_SPIRAL is `family/outer_region.rs`. No solution has a negative curvature, and
+//! nothing is said of a box that a curvature of 0 cuts. Where two solutions merge inside the box, the march does not
+//! end, and SOLVABLE and SPIRAL stay open unless ANY_SPIRAL fails.
+
+use super::curves::Curves;
+use super::knot::Knot;
+use super::march::{March, Root};
+use super::shape::Shape;
+use super::{ANY_SPIRAL, PhQuintic, SOLVABLE, SPIRAL};
+use crate::family::hermite::holds_box;
+use crate::family::outer_region::any;
+use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
+use crate::num::bernstein::Certain;
+use crate::num::{Form, Number, Real};
+
+/// A form in φ0, φ1, κ0, κ1.
+type Four = Form<4, 10>;
+
+/// The equations over a box; `None` where it comes too near to the end of the domain.
+fn curves([phi0, phi1, kappa0, kappa1]: &[[f64; 2]; 4]) -> Option<Curves<Four>> {
+    let (first, second) = (Four::centred(*phi0, 0), Four::centred(*phi1, 1));
+    let (half0, half1) = (first.times(0.5), second.times(0.5));
+    let ((s0, c0), (s1, c1)) = ((half0.sine(), half0.cosine()), (half1.sine(), half1.cosine()));
+    let (sin, cos) = (half0.sine_of_sum(&half1), c0.mul(&c1).sub(&s0.mul(&s1)));
+    (positive(&cos) == Some(true)).then_some(())?;
+    let inverse = sin.inverse()?;
+    let over = |x: &Four, k: f64| x.mul(&inverse).times(k);
+    let bend = [over(&Four::centred(*kappa0, 2), 0.25), over(&Four::centred(*kappa1, 3), 0.25)];
+    let right = [over(&first.sine(), 30.0), over(&second.sine(), 30.0)];
+    Some(Curves::bent(bend, cos, right, over(&s1.mul(&c0).sub(&s0.mul(&c1)), 30.0)))
+}
+
+/// The one solution between two knots.
+fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four>> {
+    let side = a.gap.certain_sign(0.0)?;
+    let moved = |t: &Four| {
+        let knot = march.knot(*t)?;
+        Some(t.mul(&knot.gap.over(&knot.s[1].sub(&knot.s[0]))?))
+    };
+    let mut t = Four::of(march.guess(a, b), 53);
+    for _ in 0..Four::ORDERS {
+        t = t.sub(&moved(&t)?).guess();
+    }
+    let mut reach = 2.0 * moved(&t)?.most() + 1e-15 * t.value;
+    let sign = |t: Four| march.knot(t)?.gap.certain_sign(0.0);
+    for _ in 0..4 {
+        let (left, right) = (t.plus(-reach), t.plus(reach));
+        if !(left.is_positive() && b.t.sub(&left).is_positive() && right.sub(&a.t).is_positive()) {
+            return None;
+        }
+        if sign(left) == Some(side) && sign(right) == Some(side.reverse()) {
+            let t = t.off(reach);
+            return Some(Root { t, z: march.knot(t)?.z[0] });
+        }
+        reach *= 4.0;
+    }
+    None
+}
+
+/// Whether the curvature of a solution rises all along, over the box.
+fn rises(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>, pull: &mut [f64; MOST_SIDES]) -> Known {
+    let root = root(march, a, b)?;
+    let quintic = Shape::new(&march.curves, &root)?.quintic();
+    let known = unit_sign(&quintic);
+    if known.is_none() {
+        quintic.iter().filter(|form| positive(form).is_none()).chain([&root.t, &root.z]).for_each(|form| add_pull(pull, form));
+    }
+    known
+}
+
+fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
+    let mut facts = Facts::default();
+    let (any, pull) = any(sides);
+    facts.note(wanted & ANY_SPIRAL, any);
+    if any == Some(false) {
+        facts.note(wanted & SPIRAL, any);
+    }
+    let [_, _, kappa0, kappa1] = sides;
+    if kappa0[1] < 0.0 || kappa1[1] < 0.0 {
+        facts.note(wanted & (SOLVABLE | SPIRAL), Some(false));
+    }
+    if any.is_none() && wanted & ANY_SPIRAL != 0 {
+        facts.pull = pull;
+    }
+    let open = wanted & (SOLVABLE | SPIRAL) & !facts.outside;
+    if open == 0 {
+        return facts;
+    }
+    // Where nothing better is known: what is widest for its size.
+    let widths = sides.map(|[low, high]| (high - low) / (low.abs() + high.abs()).max(f64::MIN_POSITIVE));
+    let march = curves(sides).filter(|_| kappa0[0] >= 0.0 && kappa1[0] >= 0.0).map(March::new);
+    let Some((march, brackets)) = march.and_then(|march| march.brackets().map(|found| (march, found))) else {
+        facts.pull = widths;
+        return facts;
+    };
+    facts.note(open & SOLVABLE, Some(!brackets.is_empty()));
+    if open & SPIRAL != 0 {
+        let mut spiral = Some(false);
+        for (a, b) in &brackets {
+            spiral = or(spiral, rises(&march, a, b, &mut facts.pull));
+        }
+        facts.note(SPIRAL, and(any, spiral));
+        if facts.pull == [0.0; MOST_SIDES] {
+            facts.pull = widths;
+        }
+    }
+    facts
+}
+
+impl Region for PhQuintic {
+    fn covers(&self, _: &str) -> bool {
+        true
+    }
+
+    fn facts(&self, _: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
+        let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else { return Facts::default() };
+        let sides: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
+        if holds_box(&sides) { prove(&sides, wanted) } else { Facts::default() }
+    }
+}

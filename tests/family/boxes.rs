@@ -1,0 +1,80 @@
+//! What tests of verdicts over boxes share: no point of a box, and no corner, face or neighbour of one inside it, may
+//! have another verdict than its box.
+
+use crate::oracle::random::Random;
+use spiral_atlas::family::{Code, Facts, Family};
+use spiral_atlas::grid::{Axis, Grid, Spacing};
+
+/// A family in one of its charts, with boxes of all kinds, by a running number.
+pub struct Subject<const N: usize> {
+    pub family: &'static dyn Family,
+    pub chart: usize,
+    pub draw: fn(&mut Random, u64) -> [[f64; 2]; N],
+}
+
+/// Both ends, their neighbours inside, and so many numbers between them, increasing.
+fn places(r: &mut Random, [low, high]: [f64; 2], between: usize) -> Vec<f64> {
+    let mut all = vec![low, low.next_up(), high.next_down(), high];
+    all.extend((0..between).map(|_| r.uniform(low, high)));
+    all.retain(|x| (low..=high).contains(x));
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
+/// A point of a box: each coordinate is an end or anywhere.
+pub fn place<const N: usize>(r: &mut Random, sides: &[[f64; 2]; N]) -> [f64; N] {
+    sides.map(|side| match r.below(4) {
+        0 => side[0],
+        1 => side[1],
+        _ => r.uniform(side[0], side[1]),
+    })
+}
+
+impl<const N: usize> Subject<N> {
+    pub fn facts(&self, sides: &[[f64; 2]; N]) -> Facts {
+        let [low, high] = [0, 1].map(|end| sides.map(|side| side[end]));
+        self.family.region().unwrap().facts(self.chart, &low, &high, u8::MAX)
+    }
+
+    /// The flags of all nodes of a product of values, by the ladder.
+    fn flags(&self, values: &[Vec<f64>; N]) -> Vec<u8> {
+        let names = self.family.charts()[self.chart].axes;
+        let axes = names.iter().zip(values).map(|(name, values)| Axis::new(name, Spacing::Values(values.clone())).unwrap());
+        let grid = Grid::new(axes.collect()).unwrap();
+        let table = self.family.table(&grid).unwrap_or_else(|e| panic!("{values:?}: {e}"));
+        let mut codes = vec![Code::UNDECIDED; grid.len() as usize];
+        table.filter(0, &mut codes);
+        let exact = |(i, code): (usize, Code)| if code == Code::UNDECIDED { table.exact(i as u64).unwrap().0 } else { code };
+        codes.into_iter().enumerate().map(exact).map(|code| code.flags()).collect()
+    }
+
+    /// Draws boxes and compares what is said of them with the flags at their corners, on their faces, beside both and
+    /// inside. So many points must have been met at least, and each flag so often INSIDE and OUTSIDE.
+    pub fn attack(&self, seed: u64, boxes: u64, between: usize, least: usize, each: u64) {
+        let mut r = Random(seed);
+        let count = self.family.flags().len();
+        let (mut points, mut inside, mut outside) = (0, vec![0u64; count], vec![0u64; count]);
+        for round in 0..boxes {
+            let sides = (self.draw)(&mut r, round);
+            let facts = self.facts(&sides);
+            assert_eq!(facts.inside & facts.outside, 0, "{sides:?}");
+            let known = facts.inside | facts.outside;
+            for bit in 0..count {
+                inside[bit] += u64::from(facts.inside >> bit & 1);
+                outside[bit] += u64::from(facts.outside >> bit & 1);
+            }
+            if known == 0 {
+                continue;
+            }
+            let values = sides.map(|side| places(&mut r, side, between));
+            let found = self.flags(&values);
+            for (i, flags) in found.iter().enumerate() {
+                assert!(flags & known == facts.inside, "{sides:?} node {i} of {values:?}: {flags:#b}, but {facts:?}");
+            }
+            points += found.len();
+        }
+        println!("{}: {points} points; {boxes} boxes, inside {inside:?}, outside {outside:?}", self.family.name());
+        assert!(points >= least && inside.iter().chain(&outside).all(|n| *n > each), "{points} {inside:?} {outside:?}");
+    }
+}
