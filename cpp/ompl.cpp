@@ -6,6 +6,8 @@
 
 #include "spiral_atlas_ompl.hpp"
 
+#include "../crates/capi/tests/check.hpp"
+
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
@@ -23,14 +25,6 @@
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 namespace sa = spiral_atlas;
-
-#define CHECK(condition)                                                                  \
-    do {                                                                                  \
-        if (!(condition)) {                                                               \
-            std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition); \
-            std::exit(1);                                                                 \
-        }                                                                                 \
-    } while (0)
 
 using Point = std::array<double, 2>;
 using Polygon = std::vector<Point>;

@@ -23,6 +23,19 @@ pub fn stdout_error(source: io::Error) -> Error {
     Error::Io { path: "(standard output)".into(), source }
 }
 
+/// Before any work, whether a figure can be what its name says.
+pub fn check_figure(figure: Option<&Path>) -> Result<()> {
+    match figure.filter(|path| !has_extension(path, "png")) {
+        None => Ok(()),
+        Some(path) => Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display()))),
+    }
+}
+
+/// Whether a file's name ends so, in letters of either size.
+pub fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
+}
+
 /// Prints a value as JSON with indents.
 pub fn print_json(value: &impl Serialize) -> Result<()> {
     print(&(to_json(value)? + "\n"))

@@ -31,6 +31,16 @@ pub(crate) fn turn(a: Vector, b: Vector) -> Vector {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
+/// The vector of length 1 at an angle from the x axis.
+pub(crate) fn unit(angle: f64) -> Vector {
+    [angle.cos(), angle.sin()]
+}
+
+/// The angle from the x axis, in [-π, π].
+pub(crate) fn angle_of(a: Vector) -> f64 {
+    a[1].atan2(a[0])
+}
+
 pub(crate) fn length(a: Vector) -> f64 {
     a[0].hypot(a[1])
 }

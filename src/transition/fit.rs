@@ -1,6 +1,6 @@
 //! One question for all families: the spiral between two ends in the user's units, or why there is none.
 
-use super::{Ends, InvoluteBetween, Kind, NoSpiral, Outcome, PhOutcome, Piece, involute_between, ph_spiral, spiral};
+use super::{Ends, InvoluteBetween, Kind, Outcome, PhOutcome, Piece, involute_between, ph_spiral, spiral, why_no_spiral};
 use crate::error::{Error, Result};
 use crate::family::any_spiral::InvoluteOutcome;
 
@@ -66,11 +66,7 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
             let outcome = match found.outcome {
                 InvoluteOutcome::Curve { .. } if length <= longest => Ok(0),
                 InvoluteOutcome::Curve { .. } => Err(format!("the spiral is {length:?} long, longer than {longest:?}")),
-                // In the user's units; within rounding of a boundary, in those of the chord's frame.
-                InvoluteOutcome::None(why) => {
-                    let why = NoSpiral::of(ends)?.map_or_else(|| why.to_string(), |why| why.to_string());
-                    Err(format!("no spiral of any kind joins these ends: {why}"))
-                }
+                InvoluteOutcome::None(_) => Err(why_no_spiral(ends, &found).unwrap_or_default()),
             };
             Ok(Fit { spirals: vec![true; solutions.len()], solutions, outcome })
         }

@@ -1,10 +1,12 @@
 //! The image of an involute between two ends anywhere in the plane.
 
+use super::none::NoSpiral;
 use super::placement::Ends;
 use crate::curve::vector::{Vector, add, turn};
 use crate::error::{Error, Result};
-use crate::family::any_spiral::{GREATEST, Spiral, involute};
+use crate::family::any_spiral::{GREATEST, Involute, InvoluteOutcome, InvolutePoint, Spiral, involute};
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// [`involute`] for ends anywhere in the plane, with what places the result there.
 ///
@@ -38,5 +40,72 @@ impl Frame {
     pub fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let (near, origin): (Vector, f64) = if x <= 0.0 { (self.start, -1.0) } else { (self.end, 1.0) };
         add(near, turn(self.half_chord, [x - origin, y]))
+    }
+}
+
+/// Why no spiral of any kind joins two ends, in a sentence; `None` where one does. In the user's units; within rounding of
+/// a boundary, in those of the chord's frame.
+pub fn why_no_spiral(ends: &Ends, found: &Spiral) -> Option<String> {
+    let InvoluteOutcome::None(why) = &found.outcome else { return None };
+    let why = NoSpiral::of(ends).ok().flatten().map_or_else(|| why.to_string(), |why| why.to_string());
+    Some(format!("no spiral of any kind joins these ends: {why}"))
+}
+
+/// Points of a curve to draw it by, with the lengths up to them, in its own frame. Between neighbours it turns by a degree and a half or less and is no
+/// longer than its 400th part, unless it would need more than 100,000 points for that: then turns are seen as rings.
+pub fn polyline(curve: &Involute) -> Vec<(InvolutePoint, f64)> {
+    const MOST: usize = 100_000;
+    let turns: f64 = curve.turns().into_iter().map(f64::from).sum();
+    let turn = 0.025f64.max(TAU * (turns + 2.0) / MOST as f64 * 2.0);
+    let longest = curve.length() / 400.0;
+    let at = |f: f64| (curve.at(f), curve.length_to(f));
+    // So many pieces that an inflection lies within few.
+    let mut waiting: Vec<_> = (0..32).rev().map(|i| (at(f64::from(i) / 32.0), at(f64::from(i + 1) / 32.0))).collect();
+    let mut all = vec![at(0.0)];
+    while let Some((from, to)) = waiting.pop() {
+        let middle = 0.5 * (from.0.f + to.0.f);
+        let near = (to.0.direction - from.0.direction).abs() <= turn && to.1 - from.1 <= longest;
+        if near || all.len() + waiting.len() >= MOST || middle <= from.0.f || middle >= to.0.f {
+            all.push(to);
+        } else {
+            let middle = at(middle);
+            waiting.extend([(middle, to), (from, middle)]);
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From a circle that it turns about many times, and without turns from a tight circle to a nearly straight end.
+    #[test]
+    fn figures_show_the_curve() {
+        let turning = Ends {
+            start: [0.0, 0.0],
+            end: [200.0, 0.0],
+            start_direction: -0.7,
+            end_direction: 1.4,
+            start_curvature: -0.003,
+            end_curvature: 0.06,
+        };
+        let wide = Ends {
+            start: [-1.0, 0.0],
+            end: [1.0, 0.0],
+            start_direction: -3.111120516395333,
+            end_direction: 3.09052202872047,
+            start_curvature: 1.4644171020186707,
+            end_curvature: 0.0018417801985307334,
+        };
+        for (ends, turns) in
+            [(turning, [0, 0]), (turning, [10, 10]), (turning, [200, 200]), (turning, [1000, 1000]), (wide, [0, 0])]
+        {
+            let (found, _) = involute_between(&ends, turns).unwrap();
+            let points = polyline(found.curve().unwrap());
+            assert!(points.len() > 400 && points.len() < 110_000, "{turns:?}: {} points", points.len());
+            let most = points.windows(2).map(|w| (w[1].0.direction - w[0].0.direction).abs()).fold(0.0, f64::max);
+            assert!(most < 0.3 && points.windows(2).all(|w| w[0].1 < w[1].1), "{turns:?}: {most}");
+        }
     }
 }

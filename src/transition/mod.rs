@@ -41,7 +41,7 @@ mod words;
 pub use cubic::{Answer, Outcome, Solution, spiral};
 pub use figure::{EndCircle, Figure, Sample};
 pub use fit::{Fit, fit};
-pub use involute::{Frame, involute_between};
+pub use involute::{Frame, involute_between, polyline, why_no_spiral};
 pub use none::{Bound, Need, NoSpiral};
 pub use ph_quintic::{PhAnswer, PhOutcome, PhSolution, ph_spiral};
 pub use piece::{Arc, At, Cubic, InvoluteBetween, Kind, Line, Piece, TrigPart};

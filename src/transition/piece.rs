@@ -328,6 +328,6 @@ fn at(jet: &Jet) -> At {
 }
 
 /// The same direction within [-π, π].
-fn principal(direction: f64) -> f64 {
+pub(super) fn principal(direction: f64) -> f64 {
     direction.sin().atan2(direction.cos())
 }

@@ -26,6 +26,12 @@ impl Random {
         low + (high - low) * self.next()
     }
 
+    /// A multiple of a number, from -2 to 2 times, or something at a distance from one of 1e-17 to 1.
+    fn near_multiple(&mut self, whole: f64) -> f64 {
+        let off = 10f64.powf(self.between(-17.0, 0.0)) * self.between(-1.0, 1.0);
+        whole * (self.between(-2.0, 3.0).floor()) + if self.next() < 0.5 { off } else { 0.0 }
+    }
+
     fn state(&mut self, size: f64) -> State {
         let mut place = || size * self.between(-0.5, 0.5);
         let point = [place(), place()];
@@ -178,10 +184,7 @@ fn nearly_degenerate_states_of_all_sizes() {
         let mut joined = 0;
         for _ in 0..count {
             let limit = 10f64.powf(random.between(-9.0, 6.0));
-            let mut near = |whole: f64| {
-                let off = 10f64.powf(random.between(-17.0, 0.0)) * random.between(-1.0, 1.0);
-                whole * (random.between(-2.0, 3.0).floor()) + if random.next() < 0.5 { off } else { 0.0 }
-            };
+            let mut near = |whole: f64| random.near_multiple(whole);
             let mut state = || {
                 let point = [near(2.0), near(2.0)].map(|x| x / limit);
                 State { point, direction: near(FRAC_PI_2), curvature: near(0.5).clamp(-1.0, 1.0) * limit }

@@ -173,10 +173,7 @@ fn nearly_degenerate_shapes_of_all_sizes() {
         let mut joined = 0;
         for _ in 0..count {
             let limit = 10f64.powf(random.between(-9.0, 6.0));
-            let mut near = |whole: f64| {
-                let off = 10f64.powf(random.between(-17.0, 0.0)) * random.between(-1.0, 1.0);
-                whole * (random.between(-2.0, 3.0).floor()) + if random.next() < 0.5 { off } else { 0.0 }
-            };
+            let mut near = |whole: f64| random.near_multiple(whole);
             let mut shape = || {
                 let point = [near(1.0), near(1.0)].map(|x| x / limit);
                 match near(1.0) {

@@ -58,6 +58,23 @@ pub struct SpiralStation {
     pub curvature: f64,
 }
 
+/// What spiral_fit and spiral_join are given: both ends, the name of a kind, and where the curve goes.
+///
+/// # Safety
+/// All are null or valid for as long as `'a`; `kind` ends with a zero byte.
+unsafe fn asked<'a>(
+    start: *const SpiralEnd,
+    end: *const SpiralEnd,
+    kind: *const c_char,
+    curve: *mut *mut SpiralCurve,
+) -> Result<(&'a SpiralEnd, &'a SpiralEnd, &'a str, &'a mut *mut SpiralCurve)> {
+    // SAFETY: the caller's promises.
+    unsafe {
+        let name = if kind.is_null() { "cubic" } else { text(kind, "kind")? };
+        Ok((given(start, "start")?, given(end, "end")?, name, place(curve, "curve")?))
+    }
+}
+
 /// The curve of monotone curvature between two ends anywhere in the plane.
 ///
 /// `kind` is "cubic" (of several spirals the one with the largest margin), "ph-quintic" (that of least bending energy) or
@@ -77,9 +94,7 @@ pub unsafe extern "C" fn spiral_fit(
 ) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
-        let (start, end, slot) = unsafe { (given(start, "start")?, given(end, "end")?, place(curve, "curve")?) };
-        // SAFETY: the caller's promise.
-        let name = if kind.is_null() { "cubic" } else { unsafe { text(kind, "kind")? } };
+        let (start, end, name, slot) = unsafe { asked(start, end, kind, curve)? };
         let kind = Kind::by_name(name)
             .ok_or_else(|| Fault::domain(format!("the kind is `{name}`; it must be cubic, ph-quintic or involute")))?;
         let ends = Ends {
@@ -115,9 +130,7 @@ pub unsafe extern "C" fn spiral_join(
 ) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
-        let (start, end, slot) = unsafe { (given(start, "start")?, given(end, "end")?, place(curve, "curve")?) };
-        // SAFETY: the caller's promise.
-        let name = if kind.is_null() { "cubic" } else { unsafe { text(kind, "kind")? } };
+        let (start, end, name, slot) = unsafe { asked(start, end, kind, curve)? };
         let family = [
             ("cubic", Family::Cubic),
             ("ph-quintic", Family::PhQuintic),

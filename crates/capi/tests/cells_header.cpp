@@ -6,6 +6,8 @@
 
 #include "spiral_atlas_cells.hpp"
 
+#include "check.hpp"
+
 #include <spiral_atlas.h>
 
 #include <chrono>
@@ -13,14 +15,6 @@
 #include <random>
 
 using spiral_atlas::CellsFile;
-
-#define CHECK(condition)                                                                  \
-    do {                                                                                  \
-        if (!(condition)) {                                                               \
-            std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition); \
-            std::exit(1);                                                                 \
-        }                                                                                 \
-    } while (0)
 
 static std::vector<unsigned char> bytes_of(const std::string &path) {
     std::ifstream file(path, std::ios::binary);

@@ -2,20 +2,14 @@
 
 #include <spiral_atlas.hpp>
 
+#include "check.hpp"
+
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
 
 namespace sa = spiral_atlas;
-
-#define CHECK(condition)                                                                  \
-    do {                                                                                  \
-        if (!(condition)) {                                                               \
-            std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition); \
-            std::exit(1);                                                                 \
-        }                                                                                 \
-    } while (0)
 
 template <typename Call> static void throws(SpiralStatus status, const std::string &word, Call call) {
     try {

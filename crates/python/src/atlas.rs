@@ -1,11 +1,12 @@
 //! Atlas files as objects with NumPy arrays over the mapped memory.
 
 use crate::error::raise;
-use numpy::ndarray::{ArrayView, CowArray, Ix2, IxDyn};
+use numpy::ndarray::{ArrayView, ArrayView2, CowArray, Ix2, IxDyn};
 use numpy::{AllowTypeChange, Element, IntoPyArray, PyArray, PyArrayLike2};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
+use spiral_atlas::grid::Grid;
 use std::path::PathBuf;
 
 /// An atlas file, mapped into memory. Made by `open` and `generate`.
@@ -33,6 +34,15 @@ fn view<'py, T: Element>(owner: &Bound<'py, Atlas>, shape: &[usize], values: &[T
     let array = unsafe { PyArray::borrow_from_array(&array, owner.clone().into_any()) }.into_any();
     array.call_method("setflags", (), Some(&[("write", false)].into_py_dict(owner.py())?))?;
     Ok(array)
+}
+
+/// The number of axes of a grid, which is that of columns.
+pub fn columns(points: &ArrayView2<'_, f64>, grid: &Grid, whose: &str) -> PyResult<usize> {
+    let axes = grid.axes().len();
+    if points.ncols() == axes {
+        return Ok(axes);
+    }
+    Err(PyValueError::new_err(format!("the points have {} columns; {whose} {axes} axes", points.ncols())))
 }
 
 /// Rows as slices, of an array as it lies in memory (`as_standard_layout` copies one that has strides).
@@ -151,11 +161,7 @@ impl Atlas {
     ///     half a step, whose bytes are 0.
     fn lookup<'py>(&self, py: Python<'py>, points: PyArrayLike2<'py, f64, AllowTypeChange>) -> PyResult<Bound<'py, PyTuple>> {
         let points = points.as_array();
-        let axes = self.0.grid().axes().len();
-        if points.ncols() != axes {
-            let what = format!("the points have {} columns; the atlas has {axes} axes", points.ncols());
-            return Err(PyValueError::new_err(what));
-        }
+        let axes = columns(&points, self.0.grid(), "the atlas has")?;
         let points = points.as_standard_layout();
         let (nodes, flags, solutions) = py.detach(|| {
             let n = points.nrows();

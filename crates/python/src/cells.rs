@@ -1,10 +1,8 @@
 //! Certified cells: verdicts at every point of a box.
 
-use crate::atlas::rows;
+use crate::atlas::{columns, rows};
 use crate::error::{raise, raise_row};
-use numpy::ndarray::ArrayView2;
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike2};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 use std::path::PathBuf;
@@ -27,16 +25,6 @@ pub fn open_cells(path: PathBuf) -> PyResult<Cells> {
 }
 
 type Masks<'py> = Bound<'py, PyArray1<u8>>;
-
-impl Cells {
-    fn columns(&self, points: &ArrayView2<'_, f64>) -> PyResult<usize> {
-        let axes = self.0.grid().axes().len();
-        if points.ncols() == axes {
-            return Ok(axes);
-        }
-        Err(PyValueError::new_err(format!("the points have {} columns; the cells have {axes} axes", points.ncols())))
-    }
-}
 
 #[pymethods]
 impl Cells {
@@ -85,7 +73,7 @@ impl Cells {
         points: PyArrayLike2<'py, f64, AllowTypeChange>,
     ) -> PyResult<(Masks<'py>, Masks<'py>)> {
         let points = points.as_array();
-        let axes = self.columns(&points)?;
+        let axes = columns(&points, self.0.grid(), "the cells have")?;
         let (inside, outside): (Vec<u8>, Vec<u8>) = py.detach(|| {
             let known = |point| self.0.lookup(point).unwrap_or_default();
             rows(&points.as_standard_layout(), axes).map(known).map(|known| (known.inside, known.outside)).unzip()
@@ -108,7 +96,7 @@ impl Cells {
     #[pyo3(signature = (points, flags = 255))]
     fn verdict<'py>(&self, py: Python<'py>, points: PyArrayLike2<'py, f64, AllowTypeChange>, flags: u8) -> PyResult<Masks<'py>> {
         let points = points.as_array();
-        let axes = self.columns(&points)?;
+        let axes = columns(&points, self.0.grid(), "the cells have")?;
         let held: Result<Vec<u8>, _> = py.detach(|| {
             let truth = |(i, point)| self.0.verdict(point, flags).map_err(|e| (i, e));
             rows(&points.as_standard_layout(), axes).enumerate().map(truth).collect()

@@ -4,9 +4,8 @@ use super::{Found, end_circles};
 use serde::Serialize;
 use spiral_atlas::family::any_spiral::{Involute, InvoluteOutcome, InvolutePoint, Spiral, Split};
 use spiral_atlas::plot::{CurveFigure, Graph};
-use spiral_atlas::transition::{Ends, Frame, InvoluteBetween, NoSpiral, Piece, involute_between};
+use spiral_atlas::transition::{Ends, Frame, InvoluteBetween, Piece, involute_between, polyline, why_no_spiral};
 use spiral_atlas::{Error, Result};
-use std::f64::consts::TAU;
 
 /// What is known of two ends, and the curve in the user's units.
 #[derive(Debug, Serialize)]
@@ -50,32 +49,8 @@ impl Answer {
             point: self.frame.point(point),
             curvature: curvature / unit,
         };
-        near_each_other(curve).into_iter().map(drawn).collect()
+        polyline(curve).into_iter().map(drawn).collect()
     }
-}
-
-/// Points of a curve, with the lengths up to them. Between neighbours it turns by a degree and a half or less and is no
-/// longer than its 400th part, unless it would need more than 100,000 points for that: then turns are seen as rings.
-fn near_each_other(curve: &Involute) -> Vec<(InvolutePoint, f64)> {
-    const MOST: usize = 100_000;
-    let turns: f64 = curve.turns().into_iter().map(f64::from).sum();
-    let turn = 0.025f64.max(TAU * (turns + 2.0) / MOST as f64 * 2.0);
-    let longest = curve.length() / 400.0;
-    let at = |f: f64| (curve.at(f), curve.length_to(f));
-    // So many pieces that an inflection lies within few.
-    let mut waiting: Vec<_> = (0..32).rev().map(|i| (at(f64::from(i) / 32.0), at(f64::from(i + 1) / 32.0))).collect();
-    let mut all = vec![at(0.0)];
-    while let Some((from, to)) = waiting.pop() {
-        let middle = 0.5 * (from.0.f + to.0.f);
-        let near = (to.0.direction - from.0.direction).abs() <= turn && to.1 - from.1 <= longest;
-        if near || all.len() + waiting.len() >= MOST || middle <= from.0.f || middle >= to.0.f {
-            all.push(to);
-        } else {
-            let middle = at(middle);
-            waiting.extend([(middle, to), (from, middle)]);
-        }
-    }
-    all
 }
 
 impl Found for Answer {
@@ -83,13 +58,7 @@ impl Found for Answer {
         if let Some(between) = InvoluteBetween::of(&self.ends, &self.spiral, &self.frame) {
             return Ok(vec![Piece::Involute(between)]);
         }
-        // In the user's units; within rounding of a boundary, in those of the chord's frame.
-        let why = match (NoSpiral::of(&self.ends), &self.spiral.outcome) {
-            (Ok(Some(why)), _) => why.to_string(),
-            (_, InvoluteOutcome::None(why)) => why.to_string(),
-            _ => String::new(),
-        };
-        Err(format!("no spiral of any kind joins these ends: {why}"))
+        Err(why_no_spiral(&self.ends, &self.spiral).unwrap_or_default())
     }
 
     fn ends(&self) -> Option<&Ends> {
@@ -149,40 +118,5 @@ impl Found for Answer {
             derivative: Graph { label: "Δκ/Δs".into(), points: samples.windows(2).map(slope).collect() },
             joints: Vec::new(),
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// From a circle that it turns about many times, and without turns from a tight circle to a nearly straight end.
-    #[test]
-    fn figures_show_the_curve() {
-        let turning = Ends {
-            start: [0.0, 0.0],
-            end: [200.0, 0.0],
-            start_direction: -0.7,
-            end_direction: 1.4,
-            start_curvature: -0.003,
-            end_curvature: 0.06,
-        };
-        let wide = Ends {
-            start: [-1.0, 0.0],
-            end: [1.0, 0.0],
-            start_direction: -3.111120516395333,
-            end_direction: 3.09052202872047,
-            start_curvature: 1.4644171020186707,
-            end_curvature: 0.0018417801985307334,
-        };
-        for (ends, turns) in
-            [(turning, [0, 0]), (turning, [10, 10]), (turning, [200, 200]), (turning, [1000, 1000]), (wide, [0, 0])]
-        {
-            let found = find(&ends, turns).unwrap();
-            let points = near_each_other(found.spiral.curve().unwrap());
-            assert!(points.len() > 400 && points.len() < 110_000, "{turns:?}: {} points", points.len());
-            let most = points.windows(2).map(|w| (w[1].0.direction - w[0].0.direction).abs()).fold(0.0, f64::max);
-            assert!(most < 0.3 && points.windows(2).all(|w| w[0].1 < w[1].1), "{turns:?}: {most}");
-        }
     }
 }

@@ -177,9 +177,7 @@ trait Found: Serialize {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
-    if let Some(path) = args.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
-        return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
-    }
+    output::check_figure(args.figure.as_deref())?;
     if let Some(path) = &args.points {
         if !matches!(args.family, Family::Cubic | Family::PhQuintic | Family::Involute) {
             super::refuse("`--points` is for the families `cubic`, `ph-quintic` and `involute`");

@@ -1,12 +1,12 @@
 //! What every family of `curve` reports alike: paths, reasons, other families, samples.
 
 use super::super::{Outcome, output};
-use super::{Family, Found, involute, reach};
+use super::{Family, Found, reach};
 use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::Kind;
 use spiral_atlas::path::{Course, Summary};
 use spiral_atlas::transition::segment::Request;
-use spiral_atlas::transition::{Ends, Piece, Station, ph_spiral, spiral};
+use spiral_atlas::transition::{self, Ends, Fit, Piece, Station, fit};
 use spiral_atlas::{Error, Result};
 
 /// An answer as JSON.
@@ -141,22 +141,23 @@ impl Others {
     /// fails counts as none. Where no involute exists no spiral does, so that nobody is asked.
     fn new(ends: &Ends, wish: Wish) -> Others {
         let longest = wish.longest();
-        let found = involute::find(ends, [0, 0]);
-        if found.as_ref().is_ok_and(|found| found.spirals().is_err()) {
+        let involute = fit(ends, transition::Kind::Involute, longest);
+        if involute.as_ref().is_ok_and(|found| found.solutions.is_empty()) {
             return Others::default();
         }
-        let short = |pieces: std::result::Result<Vec<Piece>, String>| {
-            pieces.is_ok_and(|pieces| pieces.iter().map(Piece::length).sum::<f64>() <= longest)
+        let has = |found: Result<Fit>| found.is_ok_and(|found| found.outcome.is_ok());
+        let asked = |family: Family| match family {
+            Family::Cubic => has(fit(ends, transition::Kind::Cubic, longest)),
+            Family::PhQuintic => has(fit(ends, transition::Kind::PhQuintic, longest)),
+            _ => involute.as_ref().is_ok_and(|found| found.outcome.is_ok()),
         };
-        let cubic = || spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
-        let ph = || ph_spiral(ends).is_ok_and(|found| short(found.no_longer_than(longest).spirals()));
-        let involute = || found.as_ref().is_ok_and(|found| short(found.spirals()));
-        let all: [(Family, &dyn Fn() -> bool); 3] =
-            [(Family::Cubic, &cubic), (Family::PhQuintic, &ph), (Family::Involute, &involute)];
-        let families = all.into_iter().filter(|(family, has)| *family != wish.family && has()).map(|(family, _)| family.name());
+        let others = [Family::Cubic, Family::PhQuintic, Family::Involute].into_iter().filter(|family| *family != wish.family);
+        let families = others.filter(|family| asked(*family)).map(|family| family.name());
         let segment = Request::between(ends).ok().flatten();
         let added = |kind: Kind| {
-            let request = segment.filter(|request| reach::find(kind, request).is_ok_and(|found| short(found.spirals())))?;
+            let short = |pieces: Vec<Piece>| pieces.iter().map(Piece::length).sum::<f64>() <= longest;
+            let found = |request: &Request| reach::find(kind, request).is_ok_and(|found| found.spirals().is_ok_and(short));
+            let request = segment.filter(found)?;
             Some(reach::command(kind, &request, ends.end))
         };
         Others { families: families.collect(), segments: [Kind::Cubic, Kind::Ph].into_iter().filter_map(added).collect() }

@@ -3,16 +3,13 @@
 mod parse;
 mod request;
 
+use super::path::figure::{SAMPLES, drawn};
 use super::{Outcome, output, points};
 use parse::{COLUMNS, states};
-use spiral_atlas::plot::{self, Lines, PathsFigure};
+use spiral_atlas::Result;
 use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
-use spiral_atlas::transition::{Piece, Station, stations};
-use spiral_atlas::{Error, Result};
+use spiral_atlas::transition::{Station, stations};
 use std::path::PathBuf;
-
-const SIZE: (u32, u32) = (1500, 900);
-const SAMPLES: usize = 2000;
 
 /// Join two states, or two lines and circles, by few spirals, arcs and lines, within a limit of curvature.
 ///
@@ -106,9 +103,7 @@ struct Told<'a> {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
-    if let Some(path) = args.figure.as_ref().filter(|p| !p.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))) {
-        return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
-    }
+    output::check_figure(args.figure.as_deref())?;
     if let Some(path) = &args.points {
         // A limit or a length that is none spoils every row alike: it is told once.
         let nowhere = State { point: [0.0, 0.0], direction: 0.0, curvature: 0.0 };
@@ -158,21 +153,11 @@ fn figure(join: &Join) -> Result<Vec<u8>> {
     let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
     let (lines, arcs) = (kinds("line"), kinds("arc"));
     let spirals = join.pieces.len() - lines - arcs;
-    plot::paths_png(
-        &PathsFigure {
-            title: format!("A join of length {:.6}", join.measures.length),
-            note: format!("dots: where pieces start; spirals: {spirals}, arcs: {arcs}, lines: {lines}"),
-            paths: std::iter::once(all.iter().map(|s| [s.x, s.y]).collect())
-                .chain(join.pieces.iter().skip(1).map(|p: &Piece| vec![p.start()]))
-                .collect(),
-            graph: Lines {
-                across: "s".into(),
-                up: "κ".into(),
-                lines: vec![all.iter().map(|s| [s.station, s.curvature]).collect()],
-            },
-            level: None,
-            backdrop: None,
-        },
-        SIZE,
+    drawn(
+        vec![all.iter().map(|s| [s.x, s.y]).collect()],
+        vec![all.iter().map(|s| [s.station, s.curvature]).collect()],
+        join.pieces.iter().skip(1).map(|piece| vec![piece.start()]).collect(),
+        &format!("A join of length {:.6}", join.measures.length),
+        &format!("dots: where pieces start; spirals: {spirals}, arcs: {arcs}, lines: {lines}"),
     )
 }

@@ -10,7 +10,7 @@ use spiral_atlas::{Error, Result};
 const SIZE: (u32, u32) = (1500, 900);
 const TALL: (u32, u32) = (1300, 1300);
 /// Samples of a path, about.
-const SAMPLES: usize = 2000;
+pub const SAMPLES: usize = 2000;
 
 type Line = Vec<[f64; 2]>;
 
@@ -75,7 +75,7 @@ fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &s
 }
 
 /// Points of paths, their curvatures over the length, and points of other curves.
-fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Vec<u8>> {
+pub fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Vec<u8>> {
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
         return Err(Error::Domain("a path stands still somewhere, where it has no curvature".into()));
     }

@@ -1,7 +1,7 @@
 //! `path`: path planning with Pythagorean-hodograph quintics. JSON in, JSON out, and a picture.
 
 mod equal_length;
-mod figure;
+pub(super) mod figure;
 mod hermite;
 pub(super) mod input;
 mod least_curvature;
@@ -86,7 +86,7 @@ impl Source {
     /// What stands in the input.
     fn read<T: DeserializeOwned>(&self) -> Result<T> {
         let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
-        input::parse(&text, has_extension(&self.input, "toml")).map_err(|e| self.blame(Error::Domain(e)))
+        input::parse(&text, output::has_extension(&self.input, "toml")).map_err(|e| self.blame(Error::Domain(e)))
     }
 
     /// The paths in the input.
@@ -117,21 +117,13 @@ struct Files {
 impl Files {
     /// What stands in the input.
     fn read<T: DeserializeOwned>(&self) -> Result<T> {
-        self.check()?;
+        output::check_figure(self.figure.as_deref())?;
         self.source.read()
-    }
-
-    /// Before any work, whether the figure can be what its name says.
-    fn check(&self) -> Result<()> {
-        if let Some(path) = self.figure.as_ref().filter(|p| !has_extension(p, "png")) {
-            return Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())));
-        }
-        Ok(())
     }
 
     /// The paths in the input.
     fn courses(&self) -> Result<Vec<Course>> {
-        self.check()?;
+        output::check_figure(self.figure.as_deref())?;
         self.source.courses()
     }
 
@@ -154,10 +146,6 @@ impl Files {
         }
         Ok(Outcome::Fine)
     }
-}
-
-fn has_extension(path: &Path, extension: &str) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }
 
 /// A path as it is printed.

@@ -18,6 +18,7 @@
 //! What is said of c0..c3 and of the quintic belongs to a segment, so it counts together with a > 0 and m > 0.
 
 use super::angle::check;
+use super::filter::least_drawn_m;
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, Reach, THEOREM};
 use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
@@ -152,14 +153,11 @@ fn ph_root(alpha: &Three, beta: &Three, g: &Three) -> Option<Three> {
     None
 }
 
-/// Whether `m >= m*`, which is `2(√6 - 1)/5` or `2(√30 - 3)/7` and known within 16 units: a root to half a unit, of
-/// at most four times the difference, and three more operations.
+/// Whether `m >= m*`. Its double and the sum with the slack are each off by at most a quarter of 2^-52, and the slack is
+/// more than half of that.
 fn drawn(kind: Kind, m: &Three) -> Known {
-    let least = match kind {
-        Kind::Cubic => 2.0 * (6f64.sqrt() - 1.0) / 5.0,
-        Kind::Ph => 2.0 * (30f64.sqrt() - 3.0) / 7.0,
-    };
-    let slack = 8.0 * f64::EPSILON * least;
+    let least = least_drawn_m(kind);
+    let slack = f64::EPSILON * least;
     if m.low() > least + slack {
         Some(true)
     } else if m.high() < least - slack {

@@ -8,7 +8,7 @@ use super::super::piece::{Arc, Line, Piece};
 use super::request::{Family, Objective, Request};
 use super::spiral::{Pose, Spiral, pinned};
 use super::turns::wrapped;
-use crate::curve::vector::{Vector, add, dot, scale, sub, turn};
+use crate::curve::vector::{Vector, add, angle_of, dot, scale, sub, turn, unit};
 use crate::error::Result;
 use crate::num::roots::find;
 
@@ -93,14 +93,6 @@ pub(super) fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
     differ.then(|| find(f, low, high, 1e-17 * high))
 }
 
-pub(super) fn unit(direction: f64) -> Vector {
-    [direction.cos(), direction.sin()]
-}
-
-pub(super) fn angle_of(v: Vector) -> f64 {
-    v[1].atan2(v[0])
-}
-
 /// A chain that is laid out.
 #[derive(Debug, Clone)]
 pub(super) struct Chain {
@@ -172,10 +164,10 @@ impl Chain {
         match objective {
             Objective::Length => self.length(family),
             Objective::GreatestCurvature => spirals().map(|s| s.from.abs().max(s.to.abs())).fold(0.0, f64::max),
-            Objective::GreatestRate => spirals().map(|s| (s.to - s.from).abs() / s.length).fold(0.0, f64::max),
+            Objective::GreatestRate => spirals().map(|s| s.rate()).fold(0.0, f64::max),
             Objective::BendingEnergy => {
-                let bent = |s: Spiral| s.length * (s.from * s.from + s.from * s.to + s.to * s.to) / 3.0;
-                spirals().map(bent).sum::<f64>() + self.arcs.iter().map(|(k, round)| round * k.abs()).sum::<f64>()
+                spirals().map(|s| s.bending_energy()).sum::<f64>()
+                    + self.arcs.iter().map(|(k, round)| round * k.abs()).sum::<f64>()
             }
         }
     }

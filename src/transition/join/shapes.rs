@@ -1,19 +1,18 @@
 //! Joins of lines and circles: the J, U, C and S shapes, circles in circles, and what leads around where those do not
 //! fit.
 
+use super::super::piece::principal;
 use super::best::Best;
-use super::link::{Chain, Link, Node, SHORTEST, angle_of, root, unit};
+use super::link::{Chain, Link, Node, SHORTEST, root};
 use super::request::{End, Family, Objective, Request};
 use super::spiral::{Pose, Spiral};
-use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
+use crate::curve::vector::{Vector, add, angle_of, cross, dot, length, scale, sub, turn, unit};
 use crate::error::Result;
 
 /// Curvatures of arcs between, in units of the limit.
 const PEAKS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// How far spirals turn that may be long, radians.
 const ANGLES: [f64; 3] = [0.3, 0.6, 1.0];
-/// A spiral leads at least this factor from one curvature to the other.
-const APART: f64 = 0.55;
 /// How far a line goes beyond the least distance: nearly square to it, at 45° and at 30°.
 const SLANTS: [f64; 3] = [1.02, 1.4, 2.0];
 /// Directions that differ by less, radians, are parallel: well below what joins are exact to.
@@ -153,9 +152,7 @@ impl Sought {
         }
         let over = self.lengths(from, 0.0).into_iter().zip(self.lengths(0.0, to));
         let over = over.map(|(a, b)| Link::over_line([from, to], [a, b], 0.0));
-        let (less, more) = (from.abs().min(to.abs()), from.abs().max(to.abs()));
-        let one = from * to > 0.0 && less <= APART * more && self.family != Family::TrigQuintic;
-        if one { direct().chain(over).collect() } else { over.collect() }
+        if Spiral::between_round(self.family, from, to) { direct().chain(over).collect() } else { over.collect() }
     }
 
     /// Links that lead from one node to the other: at most one of them is a line.
@@ -257,7 +254,7 @@ impl Sought {
     /// Two spirals round the corner of two lines, without an arc.
     fn corners(&self, [a, b]: [Pose; 2], corner: Vector, all: &mut Vec<Chain>) {
         let turned = b.direction - a.direction;
-        let angle = turned.sin().atan2(turned.cos());
+        let angle = principal(turned);
         let gentle = angle.abs() / 0.4;
         for peak in PEAKS.into_iter().chain((gentle < PEAKS[3]).then_some(gentle)) {
             let long = angle.abs() / peak;

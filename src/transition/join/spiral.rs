@@ -15,11 +15,14 @@ use super::super::placement::Ends;
 use super::super::segment::{Base, Outcome, Request, Target, add_segment};
 use super::super::turn::Turn;
 use super::request::Family;
-use crate::curve::vector::{Vector, add, length, scale, sub, turn};
+use crate::curve::vector::{Vector, add, length, scale, sub, turn, unit};
 use crate::curve::{CubicBezier, PhQuintic, TrigBezier};
 use crate::error::Result;
 use crate::family::reach::{Kind, Level};
 use crate::family::trig_quintic::{SPIRAL, Scaling, Shape, flags};
+
+/// A spiral leads at least this factor from one curvature to the other.
+const APART: f64 = 0.55;
 
 /// Point and direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +34,7 @@ pub(super) struct Pose {
 impl Pose {
     /// The vector that (1, 0) is turned to.
     pub fn along(&self) -> Vector {
-        [self.direction.cos(), self.direction.sin()]
+        unit(self.direction)
     }
 }
 
@@ -47,6 +50,23 @@ impl Spiral {
     /// How far it turns, with its sign.
     pub fn angle(&self) -> f64 {
         0.5 * (self.from + self.to) * self.length
+    }
+
+    /// |dκ/ds|, were it a clothoid.
+    pub fn rate(&self) -> f64 {
+        (self.to - self.from).abs() / self.length
+    }
+
+    /// ∫ κ² ds, were it a clothoid.
+    pub fn bending_energy(&self) -> f64 {
+        self.length * (self.from * self.from + self.from * self.to + self.to * self.to) / 3.0
+    }
+
+    /// Whether the family has a spiral between two curvatures, neither of them 0: of one sign, and apart by a factor at
+    /// least. Nearer ones are no spirals but for arcs.
+    pub fn between_round(family: Family, from: f64, to: f64) -> bool {
+        let (less, more) = (from.abs().min(to.abs()), from.abs().max(to.abs()));
+        from * to > 0.0 && less <= APART * more && family != Family::TrigQuintic
     }
 
     /// The most that a spiral of [`Spiral::step`] between two curvatures turns, radians.
@@ -160,7 +180,7 @@ impl Spiral {
             if self.from == 0.0 { (curve, 0.0) } else { (mirrored(&curve).reversed(), std::f64::consts::PI - angle) };
         let curve = if round > 0.0 { curve } else { mirrored(&curve) };
         let turned = at.direction - start.copysign(round);
-        let along = [turned.cos(), turned.sin()];
+        let along = unit(turned);
         Ok(Some(Piece::TrigQuintic(TrigPart { curve: curve.mapped(at.at, |z| turn(along, z)), from: 0.0, to: 1.0 })))
     }
 

@@ -1,13 +1,13 @@
 //! The join of two states.
 
-use super::super::piece::{Arc, Line, Piece};
+use super::super::piece::{Arc, Line, Piece, principal};
 use super::super::placement::Ends;
 use super::best::Best;
-use super::link::{SHORTEST, add_arc, root, unit};
+use super::link::{SHORTEST, add_arc, root};
 use super::request::{Family, Objective, Request, State};
 use super::spiral::{Pose, Spiral, between, pinned, reversed};
 use super::turns::{Turn, reach, turns, wrapped};
-use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
+use crate::curve::vector::{Vector, add, angle_of, cross, dot, length, scale, sub, turn, unit};
 use crate::error::Result;
 use std::f64::consts::PI;
 
@@ -88,11 +88,11 @@ fn simple(family: Family, [from, to]: [&State; 2]) -> Result<Vec<Piece>> {
     if apart == 0.0 {
         return Ok(all);
     }
-    let turned = wrapped_even(to.direction - from.direction);
+    let turned = principal(to.direction - from.direction);
     if from.curvature == to.curvature {
         let k = from.curvature;
         if k == 0.0 {
-            let along = [from.direction.cos(), from.direction.sin()];
+            let along = unit(from.direction);
             let off = length(sub(across, scale(along, apart)));
             if off <= 4.0 * f64::EPSILON * apart && turned.abs() <= 4.0 * f64::EPSILON {
                 all.push(Piece::Line(Line { start: from.point, end: to.point }));
@@ -126,7 +126,7 @@ fn simple(family: Family, [from, to]: [&State; 2]) -> Result<Vec<Piece>> {
 /// that the direction between the ends is right; then the size is.
 fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece>>> {
     let Request { greatest_curvature: most, family, .. } = *request;
-    let turned = wrapped_even(to.direction - from.direction);
+    let turned = principal(to.direction - from.direction);
     let (angle, side) = (turned.abs(), turned.signum());
     let across = turn(unit(-from.direction), scale(sub(to.point, from.point), most));
     if from.curvature != 0.0 || to.curvature != 0.0 || angle == 0.0 || length(across) == 0.0 {
@@ -154,11 +154,6 @@ fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece
     Ok(Some(vec![first, pinned(second, to.point)?]))
 }
 
-/// An angle within a half turn to either side.
-fn wrapped_even(angle: f64) -> f64 {
-    angle.sin().atan2(angle.cos())
-}
-
 /// Two turns with a line between.
 fn by_line(a: &Turn, b: &Turn, objective: Objective) -> Option<Way> {
     let (across, reach) = (sub(b.centre, a.centre), add(a.reach, b.reach));
@@ -167,7 +162,7 @@ fn by_line(a: &Turn, b: &Turn, objective: Objective) -> Option<Way> {
     if line.is_nan() || line < LEAST_LINE {
         return None;
     }
-    let direction = across[1].atan2(across[0]) - reach[1].atan2(along);
+    let direction = angle_of(across) - reach[1].atan2(along);
     let arcs = [a.arc(direction), b.arc(direction + PI)];
     let length = a.length(arcs[0]) + line + b.length(arcs[1]);
     let cost = together(objective, [a.cost(arcs[0], objective), b.cost(arcs[1], objective)]);
@@ -215,9 +210,8 @@ fn by_turn(objective: Objective, middles: &[Middle; 2], a: &Turn, b: &Turn) -> [
         let x = (apart * apart + r * r - s * s) / (2.0 * apart);
         let y = flank * (r * r - x * x).max(0.0).sqrt();
         let centre = add(a.centre, scale(turn(across, [x, y]), 1.0 / apart));
-        let angle = |v: Vector| v[1].atan2(v[0]);
-        let first = angle(sub(centre, a.centre)) - angle(into);
-        let second = angle(sub(b.centre, centre)) - angle(out);
+        let first = angle_of(sub(centre, a.centre)) - angle_of(into);
+        let second = angle_of(sub(b.centre, centre)) - angle_of(out);
         let arc = wrapped(side * (second - first) - 2.0 * exit.angle().abs());
         let arcs = [a.arc(first), b.arc(second + PI)];
         let model = Turn { before: [Some(exit), None], curvature: side, ..*a };

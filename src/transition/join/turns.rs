@@ -2,7 +2,7 @@
 
 use super::request::{Family, Objective};
 use super::spiral::{Pose, Spiral};
-use crate::curve::vector::{Vector, add, scale, turn};
+use crate::curve::vector::{Vector, add, scale, turn, unit};
 use std::f64::consts::TAU;
 
 /// Curvatures of arcs in units of the limit, and lengths of spirals in units of the least radius, for the shortest
@@ -11,8 +11,6 @@ const SHORT: &[(f64, f64)] = &[(1.0, 0.4), (1.0, 0.8), (0.5, 0.4), (0.25, 0.8), 
 /// The same for gentle joins. A spiral turns by at most 0.6 rad, where both families' are proved.
 const GENTLE: &[(f64, f64)] =
     &[(1.0, 0.4), (1.0, 1.2), (0.5, 0.8), (0.5, 2.4), (0.25, 0.8), (0.25, 2.4), (0.25, 4.8), (0.125, 2.4), (0.125, 4.8)];
-/// A spiral leads at least this factor from one curvature to the other: nearer ones are no spirals but for arcs.
-const APART: f64 = 0.55;
 /// Below this an arc goes on about a centre too far away to be of use.
 const HELD: f64 = 1.0 / 64.0;
 /// An arc of less than this, radians, is a rounding.
@@ -53,11 +51,8 @@ impl Turn {
         match objective {
             Objective::Length => self.length(arc),
             Objective::GreatestCurvature => self.curvature.abs(),
-            Objective::GreatestRate => spirals().map(|s| (s.to - s.from).abs() / s.length).fold(0.0, f64::max),
-            Objective::BendingEnergy => {
-                let bent = |s: &Spiral| s.length * (s.from * s.from + s.from * s.to + s.to * s.to) / 3.0;
-                spirals().map(bent).sum::<f64>() + arc * self.curvature.abs()
-            }
+            Objective::GreatestRate => spirals().map(Spiral::rate).fold(0.0, f64::max),
+            Objective::BendingEnergy => spirals().map(Spiral::bending_energy).sum::<f64>() + arc * self.curvature.abs(),
         }
     }
 
@@ -87,7 +82,7 @@ pub(super) fn turns(family: Family, at: Pose, curvature: f64, objective: Objecti
     let mut add_turn = |before: [Option<Spiral>; 2], k: f64, length: f64| {
         let (mut place, mut heading) = (at.at, at.direction);
         for spiral in before.iter().flatten() {
-            place = add(place, turn([heading.cos(), heading.sin()], spiral.step(family)));
+            place = add(place, turn(unit(heading), spiral.step(family)));
             heading += spiral.angle();
         }
         let centre = add(place, scale([-heading.sin(), heading.cos()], 1.0 / k));
@@ -101,8 +96,7 @@ pub(super) fn turns(family: Family, at: Pose, curvature: f64, objective: Objecti
                 add_turn([Some(to_arc(0.0)), None], k, length);
                 continue;
             }
-            let (less, more) = (k.abs().min(curvature.abs()), k.abs().max(curvature.abs()));
-            if k * curvature > 0.0 && less <= APART * more && family != Family::TrigQuintic {
+            if Spiral::between_round(family, k, curvature) {
                 add_turn([Some(to_arc(curvature)), None], k, length);
             }
             let to_line = Spiral { from: curvature, to: 0.0, length: rungs[0].1.max(0.5 * length) };
