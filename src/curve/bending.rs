@@ -4,7 +4,7 @@ use super::PhQuintic;
 use super::energy::energy as energy_integral;
 use super::extrema::derivative;
 use super::quintic::changes;
-use crate::num::{Ball, Interval, Number, Real};
+use crate::num::{Ball, Interval, Number, Real, formula};
 use crate::steps::step;
 
 /// Bits with which σ and h are rewritten from where the curve is slow. Of a regular curve w is at least 1e-6 of its size, so coefficients
@@ -58,10 +58,10 @@ impl PhQuintic {
         let (one, [a, b]) = (of(1.0), [a, b].map(of));
         let polar = |s: &Interval, t: &Interval| {
             let (left, right) = (&one - s, &one - t);
-            let weights = [&left * &right, &(&left * t) + &(s * &right), s * t];
+            let weights = [&left * &right, formula!(left * t + s * right), s * t];
             [0, 1].map(|k| {
                 let terms = [0, 1, 2].map(|i| &weights[i] * &of(self.preimage[i][k]));
-                &(&terms[0] + &terms[1]) + &terms[2]
+                formula!(terms[0] + terms[1] + terms[2])
             })
         };
         [polar(&a, &a), polar(&a, &b), polar(&b, &b)]
@@ -72,13 +72,13 @@ impl PhQuintic {
 type Rates<N> = ([N; 5], [N; 3]);
 
 fn rates<N: Real>(w: &[[N; 2]; 3]) -> Option<Rates<N>> {
-    let re = |i: usize, j: usize| w[i][0].mul(&w[j][0]).add(&w[i][1].mul(&w[j][1]));
+    let re = |i: usize, j: usize| formula!(w[i][0] * w[j][0] + w[i][1] * w[j][1]);
     // By the difference, which for nearly straight curves is small and exact.
     let im = |i: usize, j: usize| {
         let step = [0, 1].map(|k| w[j][k].sub(&w[i][k]));
-        w[i][0].mul(&step[1]).sub(&w[i][1].mul(&step[0]))
+        formula!(w[i][0] * step[1] - w[i][1] * step[0])
     };
-    let middle = re(1, 1).times(2.0).add(&re(0, 2)).over(&N::of(3.0, w[0][0].bits()))?;
+    let middle = formula!(2.0 * re(1, 1) + re(0, 2)).over(&N::of(3.0, w[0][0].bits()))?;
     let speed = [re(0, 0), re(0, 1), middle, re(1, 2), re(2, 2)];
     Some((speed, [im(0, 1).times(4.0), im(0, 2).times(2.0), im(1, 2).times(4.0)]))
 }
@@ -90,7 +90,7 @@ fn energy<N: Real>((speed, turn): &Rates<N>) -> Option<N> {
     let most = turn.iter().fold(f64::MIN_POSITIVE, |most, h| h.most().max(most));
     let half = most.log2().floor() * 0.5;
     let (first, last) = (half.floor().exp2(), half.ceil().exp2());
-    let energy = energy_integral(speed, &turn.clone().map(|h| h.times(1.0 / first).times(1.0 / last)))?;
+    let energy = energy_integral(speed, &turn.clone().map(|h| formula!(h * { 1.0 / first } * { 1.0 / last })))?;
     Some([first, last, first, last].iter().fold(energy, |energy, factor| energy.times(*factor)))
 }
 

@@ -6,7 +6,7 @@
 //! `(m + 1) y_{m+1} = -Σ c_j (m + 1 + 2j) y_{m+1-j}`. Other pieces are halved.
 
 use crate::num::bernstein::halve;
-use crate::num::{Number, Real};
+use crate::num::{Number, Real, formula};
 use crate::steps::step;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -135,9 +135,9 @@ fn series<N: Real>(speed: &[N; 5], c: &[N; 4], turn: &[N; 3]) -> Option<N> {
     // h² in powers of u.
     let e = [
         h[0].mul(&h[0]),
-        h[0].mul(&h[1]).times(2.0),
-        h[1].mul(&h[1]).add(&h[0].mul(&h[2]).times(2.0)),
-        h[1].mul(&h[2]).times(2.0),
+        formula!(2.0 * (h[0] * h[1])),
+        formula!(h[1] * h[1] + 2.0 * (h[0] * h[2])),
+        formula!(2.0 * (h[1] * h[2])),
         h[2].mul(&h[2]),
     ];
     let number = |x: f64| N::of(x, bits);
@@ -148,10 +148,10 @@ fn series<N: Real>(speed: &[N; 5], c: &[N; 4], turn: &[N; 3]) -> Option<N> {
     for m in 0..=terms {
         // ∫ u^m over [-1, 1], halved, times the coefficient of u^m of h² y.
         if m % 2 == 0 {
-            let part = (1..5).fold(e[0].mul(&y[0]), |part, i| part.add(&e[i].mul(&y[i])));
+            let part = (1..5).fold(e[0].mul(&y[0]), |part, i| formula!(part + e[i] * y[i]));
             sum = sum.add(&part.over(&number((m + 1) as f64))?);
         }
-        let next = (1..5).fold(number(0.0), |next, j| next.sub(&c[j - 1].mul(&y[j - 1]).times((m + 1 + 2 * j) as f64)));
+        let next = (1..5).fold(number(0.0), |next, j| formula!(next - c[j - 1] * y[j - 1] * { (m + 1 + 2 * j) as f64 }));
         let next = next.over(&number((m + 1) as f64))?;
         let [y0, y1, y2, y3, _] = y;
         y = [next, y0, y1, y2, y3];
@@ -161,7 +161,7 @@ fn series<N: Real>(speed: &[N; 5], c: &[N; 4], turn: &[N; 3]) -> Option<N> {
     let tail =
         (0..terms).step_by(500).fold(most.times(1024.0), |tail, from| tail.times(2f64.powi(-(500.min(terms - from) as i32))));
     let c0 = middle(speed);
-    sum.add(&tail).over(&c0.mul(&c0).mul(&c0))
+    sum.add(&tail).over(&formula!(c0 * c0 * c0))
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! Likewise Q < 0 and κ0 < κ1 leave no other signs of the factors.
 
 use crate::num::bernstein::Certain;
+use crate::num::formula;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase};
 use std::cmp::Ordering::Greater;
@@ -37,5 +38,5 @@ pub(super) fn holds<N: Certain>(sines: &Sines<N>, kappa0: &N, kappa1: &N) -> Opt
     if !positive(&room0)? || !positive(&room1)? {
         return Some(false);
     }
-    positive(&room0.mul(&room1).sub(&sines[2]))
+    positive(&formula!(room0 * room1 - sines[2]))
 }

@@ -20,7 +20,7 @@
 use super::region::{Known, MOST_SIDES, add_pull, and, positive};
 use crate::num::bernstein::Certain;
 use crate::num::sines::{SIN_ERROR, sin};
-use crate::num::{Ball, Form, Number};
+use crate::num::{Ball, Form, Number, formula};
 use std::cmp::Ordering::{Greater, Less};
 use std::f64::consts::FRAC_PI_2;
 
@@ -33,7 +33,7 @@ fn sine(x: f64) -> Ball {
 /// One unit is for the rounding of δ, which the square doubles.
 fn compare(u: &Ball, v: &Ball, delta: f64) -> (bool, bool) {
     let half = Ball::near(sin(0.5 * delta.max(0.0)), SIN_ERROR + 2.0);
-    let over = u.mul(v).sub(&half.mul(&half));
+    let over = formula!(u * v - half * half);
     let sign = |x: &Ball| x.certain_sign(0.0);
     let [u_positive, v_positive] = [u, v].map(|x| sign(x) == Some(Greater));
     let negative = sign(u) == Some(Less) || sign(v) == Some(Less);
@@ -95,7 +95,7 @@ pub(super) fn rising([phi0, phi1, kappa0, kappa1]: &[Form<4, 10>; 4], pull: &mut
     let (u, v) = (phi0.sine().sub(kappa0), kappa1.sub(&phi1.sine()));
     // Halving is exact but for what underflows, which the forms' errors cover.
     let half = phi1.times(0.5).sine_of_sum(&phi0.times(-0.5));
-    let f = u.mul(&v).sub(&half.mul(&half));
+    let f = formula!(u * v - half * half);
     let known = and(and(positive(&u), positive(&v)), positive(&f));
     if known.is_none() {
         [u, v, f].iter().filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));

@@ -1,7 +1,7 @@
 //! What a family can prove of its flags over a whole box of data.
 
 use crate::num::bernstein::{Quintic, halve, least};
-use crate::num::{Form, Number};
+use crate::num::{Form, Number, formula};
 
 /// Most coordinates of a box.
 pub const MOST_SIDES: usize = 4;
@@ -101,7 +101,7 @@ fn at<const K: usize, const H: usize>(c: &Quintic<Form<K, H>>, t: f64) -> Form<K
     let back = t > 0.5;
     let s = if back { (1.0 - t) / t } else { t / (1.0 - t) };
     let term = |i: usize| c[if back { i } else { 5 - i }].times(BINOMIALS[i]);
-    (1..6).fold(term(0), |sum, i| sum.times(s).add(&term(i)))
+    (1..6).fold(term(0), |sum, i| formula!(sum * { s } + term(i)))
 }
 
 /// Whether the quintic is positive on [0, 1] all over the box, by halving.

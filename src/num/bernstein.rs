@@ -1,5 +1,6 @@
 //! Signs of polynomials and least values of quintics in Bernstein form on [0, 1], with proof.
 
+use super::formula::formula;
 use super::{Interval, Number};
 use crate::steps::step;
 use std::cmp::Ordering;
@@ -91,7 +92,7 @@ pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
     for step in 1..K {
         left[step - 1] = right[0].clone();
         for i in 0..K - step {
-            right[i] = right[i].add(&right[i + 1]).times(0.5);
+            right[i] = formula!(0.5 * (right[i] + right[i + 1]));
         }
     }
     left[K - 1] = right[0].clone();
@@ -197,8 +198,8 @@ pub fn least_interval(c: &Quintic<Interval>) -> Interval {
     let min = |a: Interval, b: Interval| if less(&b, &a) { b } else { a };
     let size = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &v.size().upper());
     // Halving widens no coefficient but by roundings, which are far below the first term.
-    let width = c.iter().fold(Interval::new(0.0, bits), |sum, v| &sum + &(&v.upper() - &v.lower()));
-    let tolerance = &(&size * &Interval::power_of_two(-(bits as isize) / 2, bits)) + &width.scale(2.0);
+    let width = c.iter().fold(Interval::new(0.0, bits), |sum, v| formula!(sum + (v.upper() - v.lower())));
+    let tolerance = formula!(size * Interval::power_of_two(-(bits as isize) / 2, bits) + 2.0 * width);
     let lowest = |c: &Quintic<Interval>| c[1..].iter().fold(c[0].lower(), |low, v| min(low, v.lower()));
     let mut ceiling = min(c[0].upper(), c[5].upper());
     let mut floor = ceiling.clone();

@@ -10,6 +10,7 @@
 mod angle;
 mod real;
 
+use super::formula::formula;
 use super::{Ball, Number, Real};
 
 /// Unit roundoff.
@@ -150,12 +151,12 @@ impl<const K: usize, const H: usize> Form<K, H> {
     /// `1 / self`: with a double r near `1 / value` and `self r = 1 + u` that is `r (1 - u + u² - u³ / (1 + u))`.
     pub fn inverse(&self) -> Option<Form<K, H>> {
         let r = 1.0 / self.value;
-        let u = self.times(r).plus(-1.0);
+        let u = formula!(self * { r } - 1.0);
         let most = u.most();
         // Not for NaN either.
         (most < 1.0).then_some(())?;
         let rest = most * most * most / (1.0 - most) * GROW;
-        Some(u.mul(&u).sub(&u).plus(1.0).off(rest).times(r))
+        Some(formula!(u * u - u + 1.0).off(rest).times(r))
     }
 }
 

@@ -3,6 +3,7 @@
 mod ball;
 pub mod bernstein;
 mod form;
+mod formula;
 mod interval;
 mod number;
 pub mod roots;
@@ -13,6 +14,7 @@ mod ziv;
 
 pub use ball::Ball;
 pub use form::{Form, Quadratic};
+pub(crate) use formula::formula;
 pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
 pub use twin::{TWIN_BITS, Twin};

@@ -1,6 +1,7 @@
 //! Sums of two doubles that know how far they may be off: the rung between doubles and intervals, with some 100 bits.
 
 use super::bernstein::Certain;
+use super::formula::formula;
 use super::sines::two_sum;
 use super::{Ball, Interval, Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
@@ -85,14 +86,14 @@ impl Twin {
             (1..8)
                 .rev()
                 .map(|i| &INVERSES[2 * i + first])
-                .fold(Twin::of(0.0, TWIN_BITS), |sum, inverse| r2.mul(&inverse.sub(&sum)))
+                .fold(Twin::of(0.0, TWIN_BITS), |sum, inverse| formula!(r2 * (inverse - sum)))
         };
         let rest = |x: Twin| Twin { error: x.error + 2f64.powi(-114), ..x };
         // sin r = r - r s, cos r = 1 - c.
         let (s, c) = (rest(series(1)), rest(series(0)));
-        let sin_r = s.times(-1.0).plus(1.0).times(r);
-        let sine = sin.sub(&sin.mul(&c)).add(&cos.mul(&sin_r));
-        let cosine = cos.sub(&cos.mul(&c)).sub(&sin.mul(&sin_r));
+        let sin_r = formula!((1.0 - s) * { r });
+        let sine = formula!(sin - sin * c + cos * sin_r);
+        let cosine = formula!(cos - cos * c - sin * sin_r);
         (if x < 0.0 { sine.times(-1.0) } else { sine }, cosine)
     }
 
@@ -190,8 +191,8 @@ impl Real for Twin {
         (least > 0.0).then_some(())?;
         let about = self.high / divisor.high;
         let first = Twin::of(about, TWIN_BITS);
-        let q = Twin::sum(about, self.sub(&first.mul(divisor)).high / divisor.high, 0.0);
-        let off = self.sub(&q.mul(divisor)).most() / least;
+        let q = Twin::sum(about, formula!(self - first * divisor).high / divisor.high, 0.0);
+        let off = formula!(self - q * divisor).most() / least;
         Some(Twin::sum(q.high, q.low, (q.error + off) * GROW + TINY))
     }
     /// With q about the root, `|√x - q| <= |x - q²| / q`.
@@ -199,13 +200,13 @@ impl Real for Twin {
         (self.high * (1.0 - 2.0 * UNIT) > self.error * GROW).then_some(())?;
         let about = self.high.sqrt();
         let first = Twin::of(about, TWIN_BITS);
-        let q = Twin::sum(about, self.sub(&first.mul(&first)).high / (2.0 * about), 0.0);
-        let off = self.sub(&q.mul(&q)).most() / q.high;
+        let q = Twin::sum(about, formula!(self - first * first).high / (2.0 * about), 0.0);
+        let off = formula!(self - q * q).most() / q.high;
         Some(Twin::sum(q.high, q.low, (q.error + off) * GROW + TINY))
     }
     /// Around the middle between both, by half their distance and their errors.
     fn union(&self, other: &Twin) -> Twin {
-        let (middle, apart) = (self.add(other).times(0.5), self.sub(other));
+        let (middle, apart) = (formula!(0.5 * (self + other)), self.sub(other));
         Twin::sum(middle.high, middle.low, (middle.error + 0.5 * apart.most()) * GROW)
     }
     fn size(&self) -> Twin {

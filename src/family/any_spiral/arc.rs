@@ -5,8 +5,8 @@
 //! `F = cos ω P - sin ω X = c sin(ω(θ) - ω)`, where ω(θ) increases.
 
 use super::shape::Shape;
-use crate::num::Interval;
 use crate::num::roots::{Curve, bracketed, enclose};
+use crate::num::{Interval, formula};
 use std::cell::Cell;
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -70,10 +70,10 @@ impl Arc {
             let rest = series(&square.scale(4.0), |k| (2.0 * k + 2.0) * (2.0 * k + 3.0));
             let w = series(&square, |k| (2.0 * k + 3.0) * (k + 2.0) * 0.5);
             let p = series(&square, |k| 2.0 * k * (2.0 * k + 3.0));
-            (&third * &p, (&third * &rest).scale(2.0), (&square * &w).over(&Interval::new(3.0, theta.bits()))?)
+            (&third * &p, formula!(2.0 * (third * rest)), (&square * &w).over(&Interval::new(3.0, theta.bits()))?)
         } else {
             let part = (&square - &sin.square()).over(&square)?;
-            (&sin - &(theta * &cos), theta - &(&sin * &cos), part)
+            (formula!(sin - theta * cos), formula!(theta - sin * cos), part)
         };
         // t0 = θ √(1 + g), and t1 = t0 - θ = θ g/(1 + √(1 + g)).
         let g = part.over(q)?;
@@ -119,9 +119,9 @@ impl Curve for Equation {
     fn at(&self, theta: &Interval) -> Option<(Interval, Interval)> {
         self.evaluations.set(self.evaluations.get() + 1);
         let Arc { sin, cos, p, a, t0, .. } = Arc::new(theta, &self.q)?;
-        let value = &(&self.cos * &p) - &(&self.sin * &(&t0 * &sin));
+        let value = formula!(self.cos * p - self.sin * (t0 * sin));
         let rate = (theta + &a.over(&self.q)?).over(&t0)?;
-        let slope = &(&self.cos * &(theta * &sin)) - &(&self.sin * &(&(&rate * &sin) + &(&t0 * &cos)));
+        let slope = formula!(self.cos * (theta * sin) - self.sin * (rate * sin + t0 * cos));
         Some((value, slope))
     }
 
@@ -131,7 +131,7 @@ impl Curve for Equation {
             return None;
         }
         let square = self.rest.square().middle();
-        let room = (&self.q.middle() - &square.scale(3.0)).over(&self.q.middle())?;
+        let room = formula!(self.q.middle() - 3.0 * square).over(&self.q.middle())?;
         let theta = square.scale(9.0).over(&room).filter(|x| x.sign() == Some(Ordering::Greater))?.sqrt()?.middle();
         (theta.compare(&Interval::new(SERIES_BELOW, theta.bits())) == Some(Ordering::Less)).then_some(theta)
     }

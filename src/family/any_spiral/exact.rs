@@ -7,7 +7,7 @@ use super::{Code, EXISTS, INFLECTION, RISING};
 use crate::error::Result;
 use crate::family::{NO_VALUE, outer};
 use crate::num::sines::two_sum;
-use crate::num::{Interval, Number, Real, TWIN_BITS, Twin, climb};
+use crate::num::{Interval, Number, Real, TWIN_BITS, Twin, climb, formula};
 
 /// Angles against the chord and curvatures times half the chord, taken as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,7 +64,7 @@ impl Datum {
             0.0 => Interval::new(0.0, bits),
             // A small square would cancel.
             small if small.abs() < 1e-3 => self.omega(bits).sine_cosine().0.square(),
-            _ => (&(&sin0 * &sin1) - &(&cos0 * &cos1)).plus(1.0).scale(0.5),
+            _ => formula!(0.5 * (sin0 * sin1 - cos0 * cos1 + 1.0)),
         };
         (sin0, sin1, square)
     }
@@ -74,9 +74,9 @@ impl Datum {
         let (k1, k2) = (Interval::new(self.k1, bits), Interval::new(self.k2, bits));
         let (sin0, sin1, square) = self.sines(bits);
         if self.alpha == self.beta {
-            return &(&k1 * &k2) + &(&(&k2 - &k1) * &sin0);
+            return formula!(k1 * k2 + (k2 - k1) * sin0);
         }
-        &(&(&k1 + &sin0) * &(&k2 - &sin1)) + &square
+        formula!((k1 + sin0) * (k2 - sin1) + square)
     }
 
     /// Q in two doubles; `None` where angles are so small that halving their sum might not be exact.
@@ -85,7 +85,7 @@ impl Datum {
         let (k1, k2) = (number(self.k1), number(self.k2));
         let ((sin0, cos0), (sin1, cos1)) = (Twin::sine_cosine(self.alpha), Twin::sine_cosine(self.beta));
         if self.alpha == self.beta {
-            return Some(k1.mul(&k2).add(&k2.sub(&k1).mul(&sin0)));
+            return Some(formula!(k1 * k2 + (k2 - k1) * sin0));
         }
         let square = match two_sum(self.alpha, self.beta) {
             (0.0, _) => number(0.0),
@@ -95,14 +95,14 @@ impl Datum {
                 sine.mul(&sine)
             }
             (sum, _) if sum.abs() < 1e-3 => return None,
-            _ => sin0.mul(&sin1).sub(&cos0.mul(&cos1)).plus(1.0).times(0.5),
+            _ => formula!(0.5 * (sin0 * sin1 - cos0 * cos1 + 1.0)),
         };
-        Some(k1.add(&sin0).mul(&k2.sub(&sin1)).add(&square))
+        Some(formula!((k1 + sin0) * (k2 - sin1) + square))
     }
 
     /// `(α + β)/2`.
     pub fn omega(&self, bits: usize) -> Interval {
-        (&Interval::new(self.alpha, bits) + &Interval::new(self.beta, bits)).scale(0.5)
+        formula!(0.5 * (Interval::new(self.alpha, bits) + Interval::new(self.beta, bits)))
     }
 
     /// Q, ω, θ, t0 (0 to 3), each rounded to nearest f32 with proof.

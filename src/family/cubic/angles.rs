@@ -1,7 +1,7 @@
 //! What depends on the two tangent angles alone, enclosed.
 
 use crate::family::outer::Sines;
-use crate::num::Interval;
+use crate::num::{Interval, formula};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -35,13 +35,13 @@ impl Angles {
         let (sc, cs) = (&sin0 * &cos1, &cos0 * &sin1);
         let sum = &sc + &cs;
         // sin²(δ/2) = (1 - cos δ)/2
-        let cos_difference = &(&cos0 * &cos1) + &(&sin0 * &sin1);
+        let cos_difference = formula!(cos0 * cos1 + sin0 * sin1);
         Some(Angles {
             p: sc.over(&sum)?,
             r: cs.over(&sum)?,
             g0: sin0.over(&sum)?.square(),
             g1: sin1.over(&sum)?.square(),
-            outer: [sin0, sin1, cos_difference.scale(-1.0).plus(1.0).scale(0.5)],
+            outer: [sin0, sin1, formula!(0.5 * (-cos_difference + 1.0))],
         })
     }
 }

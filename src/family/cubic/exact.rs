@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::family::outer;
 use crate::num::bernstein::{MOST_HALVINGS, Quintic, positive};
 use crate::num::roots::{Curve, bracketed, enclose};
-use crate::num::{Interval, Number, climb};
+use crate::num::{Interval, Number, climb, formula};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// A datum in one of the two charts, its numbers taken as exact.
@@ -86,18 +86,18 @@ pub(super) fn at_precision(datum: &ExactDatum, bits: usize) -> Option<Truth> {
 
 /// F and y at x.
 fn residual<N: Number>(a: &N, k: &N, x: &N) -> (N, N) {
-    let y = a.mul(&x.mul(x)).times(-1.0).plus(3.0);
-    (k.mul(&y.mul(&y)).times(-1.0).plus(3.0).sub(x), y)
+    let y = formula!(3.0 - a * (x * x));
+    (formula!(3.0 - k * (y * y) - x), y)
 }
 
 /// F' = 4akxy - 1.
 fn slope<N: Number>(a: &N, k: &N, x: &N) -> N {
-    a.mul(k).mul(&x.mul(&residual(a, k, x).1)).times(4.0).plus(-1.0)
+    formula!(4.0 * (a * k * (x * residual(a, k, x).1)) - 1.0)
 }
 
 /// F'' = 12ak(1 - ax²).
 fn curvature<N: Number>(a: &N, k: &N, x: &N) -> N {
-    a.mul(k).times(12.0).mul(&a.mul(&x.mul(x)).times(-1.0).plus(1.0))
+    formula!(12.0 * (a * k) * (1.0 - a * (x * x)))
 }
 
 /// SOLVABLE, and all roots in the box as intervals around x and y, by increasing x.
@@ -105,7 +105,7 @@ fn isolate(a: &Interval, k: &Interval) -> Option<(bool, Vec<(Interval, Interval)
     let bits = a.bits();
     let ak = a * k;
     let discriminant = (&ak * &(&ak.scale(768.0) - &(a + k).scale(256.0)).plus(96.0)).plus(-1.0);
-    let third = |v: &Interval| v.scale(3.0).plus(-1.0).sign();
+    let third = |v: &Interval| formula!(3.0 * v - 1.0).sign();
     let (k_above, a_above) = (third(k)? == Greater, third(a)? == Greater);
     // Above 1/3 both, one of the two positive roots lies in the box and the other beyond: they differ.
     let sign = if k_above && a_above { Greater } else { discriminant.sign()? };
@@ -184,7 +184,7 @@ fn double_roots(a: &Interval, k: &Interval, alone: bool) -> Option<Vec<(Interval
     let bits = a.bits();
     let offset = Interval::new(1.0, bits).over(a)?.scale(-1.0).plus(4.0);
     let offset = if offset.sign()? == Equal { offset } else { offset.sqrt()? };
-    let candidates = [offset.scale(-1.0).plus(2.0), offset.plus(2.0)];
+    let candidates = [formula!(-offset + 2.0), offset.plus(2.0)];
     // The wrong sign is no root: F must not contain 0 there.
     let mut real = candidates.into_iter().filter(|x| residual(a, k, x).0.sign().is_none_or(Ordering::is_eq));
     let x = real.next()?;
@@ -198,7 +198,7 @@ fn double_roots(a: &Interval, k: &Interval, alone: bool) -> Option<Vec<(Interval
     if alone || offset.sign()? == Equal {
         return Some(vec![with_y(x)?]);
     }
-    let product = k.scale(9.0).plus(-3.0).over(&(&(k * &a.square()) * &x.square()))?;
+    let product = formula!(9.0 * k - 3.0).over(&formula!(k * a.square() * x.square()))?;
     let other = &(&x.square() - &product).sqrt()? - &x;
     let mut both = vec![with_y(x)?, with_y(other)?];
     match both[0].0.compare(&both[1].0)? {
@@ -215,12 +215,12 @@ fn judge(angles: &Angles, x: Interval, y: Interval, any: bool) -> Option<ExactRo
     let end = side(&y, &x, &angles.r, &angles.g1, &angles.p).map(|v| -&v);
     let x_or_y = [(&start, &y), (&end, &x)];
     let quintic = [
-        (&y.square() * &start[0]).scale(5.0),
+        formula!(5.0 * (y.square() * start[0])),
         &y * &start[1],
         &y * &start[2],
         &x * &end[2],
         &x * &end[1],
-        (&x.square() * &end[0]).scale(5.0),
+        formula!(5.0 * (x.square() * end[0])),
     ];
     let theorem = any && three_valued(x_or_y.iter().map(|(b, w)| half_theorem(b, w)))?;
     let spiral = theorem || any && positive(&quintic, 0.0, 0.0, MOST_HALVINGS)?;
@@ -244,7 +244,7 @@ fn three_valued(conditions: impl Iterator<Item = Option<bool>>) -> Option<bool> 
 fn half_theorem(b: &[Interval; 3], w: &Interval) -> Option<bool> {
     let not_negative = |v: &Interval| v.sign().map(|s| s != Less);
     let root = || {
-        let over = &(&(&b[0] * &b[2]) * w).scale(8.0) - &b[1].square();
+        let over = formula!(8.0 * (b[0] * b[2] * w) - b[1].square());
         match (not_negative(&b[1]), not_negative(&over)) {
             (Some(true), _) | (_, Some(true)) => Some(true),
             (Some(false), Some(false)) => Some(false),

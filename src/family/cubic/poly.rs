@@ -13,26 +13,26 @@
 //! (p, g0) and the (a, k) of the two parabolas `3 - y = a x²`, `3 - x = k y²`.
 
 use super::pair::Pair;
-use crate::num::Number;
+use crate::num::{Number, formula};
 
 /// `[B0, B1, B2]` at (x, y) with `u = 3 - x`; for the other end pass (y, x; r, g1, p) and negate.
 #[inline(always)]
 pub fn side<N: Number>(x: &N, y: &N, p: &N, g: &N, r: &N) -> [N; 3] {
-    let u = x.times(-1.0).plus(3.0);
+    let u = formula!(3.0 - x);
     let u2 = u.mul(&u);
     let xu = x.mul(&u);
     // B0 = 2p u² + g (2xu + y(3x - 10))
-    let b0 = p.mul(&u2).times(2.0).add(&g.mul(&xu.times(2.0).add(&y.mul(&x.times(3.0).plus(-10.0)))));
+    let b0 = formula!(2.0 * (p * u2) + g * (2.0 * xu + y * (3.0 * x - 10.0)));
     // B1 = 2p u (2u(3+x) + y(7x - 17)) + g (2xu(2x - 7y) + y²(22 - 9x)) + 4r u³
-    let b1_p = u.mul(&u.mul(&x.plus(3.0)).times(2.0).add(&y.mul(&x.times(7.0).plus(-17.0)))).times(2.0);
-    let b1_g = xu.times(2.0).mul(&x.times(2.0).sub(&y.times(7.0))).add(&y.mul(y).mul(&x.times(-9.0).plus(22.0)));
-    let b1 = p.mul(&b1_p).add(&g.mul(&b1_g)).add(&r.mul(&u2.mul(&u)).times(4.0));
+    let b1_p = formula!(2.0 * (u * (2.0 * (u * (x + 3.0)) + y * (7.0 * x - 17.0))));
+    let b1_g = formula!(2.0 * xu * (2.0 * x - 7.0 * y) + y * y * (x * -9.0 + 22.0));
+    let b1 = formula!(p * b1_p + g * b1_g + 4.0 * (r * (u2 * u)));
     // B2 = p (u(5x² + 3x - 6) + y(10x² - 32x + 12)) + g (x²(5x - 12) + y(12x - 10x² + y(5x - 2))) + r u²(5x - 2)
     let x5 = x.times(5.0);
     let x5_2 = x5.plus(-2.0);
-    let b2_p = u.mul(&x.mul(&x5.plus(3.0)).plus(-6.0)).add(&y.mul(&x.mul(&x5.times(2.0).plus(-32.0)).plus(12.0)));
-    let b2_g = x.mul(x).mul(&x5.plus(-12.0)).add(&y.mul(&x.mul(&x5.times(-2.0).plus(12.0)).add(&y.mul(&x5_2))));
-    let b2 = p.mul(&b2_p).add(&g.mul(&b2_g)).add(&r.mul(&u2.mul(&x5_2)));
+    let b2_p = formula!(u * (x * (x5 + 3.0) - 6.0) + y * (x * (2.0 * x5 - 32.0) + 12.0));
+    let b2_g = formula!(x * x * (x5 - 12.0) + y * (x * (x5 * -2.0 + 12.0) + y * x5_2));
+    let b2 = formula!(p * b2_p + g * b2_g + r * (u2 * x5_2));
     [b0, b1, b2]
 }
 

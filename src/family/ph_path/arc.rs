@@ -6,7 +6,7 @@
 //! from w on a short piece it would be a difference of almost equal products.
 
 use crate::num::bernstein::halve;
-use crate::num::{Ball, Interval, Real};
+use crate::num::{Ball, Interval, Real, formula};
 use num_complex::Complex64;
 use std::cmp::Ordering::{Greater, Less};
 
@@ -53,16 +53,16 @@ pub(crate) fn bends_less(preimage: [[f64; 2]; 3], most: f64) -> bool {
 
 /// `Re(conj(a) b)`.
 pub(super) fn re<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
-    a[0].mul(&b[0]).add(&a[1].mul(&b[1]))
+    formula!(a[0] * b[0] + a[1] * b[1])
 }
 
 /// `Im(conj(a) b)`.
 fn im<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
-    a[0].mul(&b[1]).sub(&a[1].mul(&b[0]))
+    formula!(a[0] * b[1] - a[1] * b[0])
 }
 
 fn mean<N: Real>(a: &Complex<N>, b: &Complex<N>) -> Complex<N> {
-    [0, 1].map(|i| a[i].add(&b[i]).times(0.5))
+    [0, 1].map(|i| formula!(0.5 * (a[i] + b[i])))
 }
 
 /// The absolute value, if its number is certainly not 0.
@@ -97,7 +97,7 @@ impl<N: Real> Arc<N> {
     /// σ as Bernstein coefficients times binomials.
     pub fn speed(&self) -> [N; 5] {
         let [w0, w1, w2] = &self.w;
-        let middle = re(w1, w1).times(2.0).add(&re(w0, w2)).times(2.0);
+        let middle = formula!(2.0 * (2.0 * re(w1, w1) + re(w0, w2)));
         [re(w0, w0), re(w0, w1).times(4.0), middle, re(w1, w2).times(4.0), re(w2, w2)]
     }
 
@@ -126,17 +126,17 @@ impl<N: Real> Arc<N> {
 
     /// σ, σ' and σ'' at t, and h, h' and h''.
     fn jets(&self, t: &N) -> [[N; 3]; 2] {
-        let back = t.times(-1.0).plus(1.0);
-        let mix = |a: &N, b: &N| a.mul(&back).add(&b.mul(t));
+        let back = formula!(1.0 - t);
+        let mix = |a: &N, b: &N| formula!(a * back + b * t);
         let jet = |[a, b, c]: [&N; 3]| {
-            let (first, last) = (b.sub(a).times(2.0), c.sub(b).times(2.0));
+            let (first, last) = (formula!(2.0 * (b - a)), formula!(2.0 * (c - b)));
             [mix(&mix(a, b), &mix(b, c)), mix(&first, &last), last.sub(&first)]
         };
         let part = |i: usize| jet([0, 1, 2].map(|k| &self.w[k][i]));
         let ([x, u, p], [y, v, q]) = (part(0), part(1));
-        let both = |a: &N, b: &N, c: &N, d: &N| a.mul(b).add(&c.mul(d));
+        let both = |a: &N, b: &N, c: &N, d: &N| formula!(a * b + c * d);
         let rise = both(&x, &u, &y, &v).times(2.0);
-        let lift = both(&u, &u, &v, &v).add(&both(&x, &p, &y, &q)).times(2.0);
+        let lift = formula!(2.0 * (both(&u, &u, &v, &v) + both(&x, &p, &y, &q)));
         [[both(&x, &x, &y, &y), rise, lift], jet([0, 1, 2].map(|k| &self.turn[k]))]
     }
 
@@ -149,7 +149,7 @@ impl<N: Real> Arc<N> {
     /// `σh' - 2hσ'` at t.
     pub fn slope(&self, t: &N) -> N {
         let [[speed, rise, _], [turn, bent, _]] = self.jets(t);
-        speed.mul(&bent).sub(&turn.mul(&rise).times(2.0))
+        formula!(speed * bent - 2.0 * (turn * rise))
     }
 
     /// An extremum of the curvature near t by Newton's method on `σh' - 2hσ'`: a guess.
@@ -161,8 +161,8 @@ impl<N: Real> Arc<N> {
         // Each step doubles the digits of what doubles gave.
         for _ in 0..(self.bits() / 26).ilog2() {
             let [[speed, rise, lift], [turn, bent, bend]] = self.jets(&t);
-            let f = speed.mul(&bent).sub(&turn.mul(&rise).times(2.0));
-            let slope = speed.mul(&bend).sub(&rise.mul(&bent)).sub(&turn.mul(&lift).times(2.0));
+            let f = formula!(speed * bent - 2.0 * (turn * rise));
+            let slope = formula!(speed * bend - rise * bent - 2.0 * (turn * lift));
             let next = f.over(&slope).map(|step| t.sub(&step).middle());
             match next {
                 Some(next) if next.approx() > 0.0 && next.approx() < 1.0 => t = next,
@@ -256,10 +256,10 @@ impl<N: Real> Arc<N> {
     /// `2 ∫ v²` with `w = u + iv`: by how much the curve is longer than its chord, where that is along the first axis.
     pub fn beyond_chord(&self) -> N {
         let [a, b, c] = [0, 1, 2].map(|i| &self.w[i][1]);
-        let inner = b.mul(b).times(2.0).add(&a.mul(c));
-        let outer = a.mul(a).add(&a.mul(b)).add(&b.mul(c)).add(&c.mul(c));
+        let inner = formula!(2.0 * (b * b) + a * c);
+        let outer = formula!(a * a + a * b + b * c + c * c);
         // Fifteenths to a rounding: not for proofs of more than doubles' digits.
-        outer.times(3.0).add(&inner).times(2.0 / 15.0)
+        formula!({ 2.0 / 15.0 } * (3.0 * outer + inner))
     }
 
     /// From t up to the next peak, and how great that is: a guess.
@@ -281,7 +281,7 @@ impl<N: Real> Arc<N> {
         // Each round begins where the last was found too low.
         for _ in 0..16 {
             let value = best?;
-            let most = value.mul(&margin.plus(1.0));
+            let most = formula!(value * (margin + 1.0));
             match self.below(&most, 0) {
                 Bound::Below => return Some(value.union(&most)),
                 Bound::Above(at) => {

@@ -5,7 +5,7 @@
 //! over a box, because each falls where another rises. The mean whose slopes cancel changes by the second order of the box's size only.
 
 use super::arc::{Arc, Complex, re};
-use crate::num::{Number, Quadratic, Real};
+use crate::num::{Number, Quadratic, Real, formula};
 
 /// Parts that are looked at for peaks.
 const PARTS: u32 = 24;
@@ -61,7 +61,7 @@ fn mixed(a: &Quadratic, b: &Quadratic, t: f64) -> Quadratic {
     match t {
         0.0 => *a,
         1.0 => *b,
-        _ => a.times(1.0 - t).add(&b.times(t)),
+        _ => formula!(a * { 1.0 - t } + b * { t }),
     }
 }
 
@@ -154,7 +154,7 @@ fn low(terms: [(f64, Quadratic); 3], weights: [f64; 3]) -> f64 {
     let whole: f64 = terms.iter().zip(weights).map(|((counts, _), weight)| counts * weight).sum();
     let [a, b, c] = [0, 1, 2].map(|i| terms[i].1.times(weights[i] / whole));
     // The weights may sum up to a little more than 1.
-    let low = a.add(&b).add(&c).low() * (1.0 - 1e-15);
+    let low = formula!(a + b + c).low() * (1.0 - 1e-15);
     // Not for NaN.
     if low > 0.0 { low } else { 0.0 }
 }

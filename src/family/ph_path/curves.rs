@@ -7,7 +7,7 @@ use super::Kind;
 use super::arc::{Arc, Complex};
 use super::datum::{Datum, Symmetry, Turned};
 use super::straight;
-use crate::num::{Ball, Quadratic, Real};
+use crate::num::{Ball, Quadratic, Real, formula};
 use std::cmp::Ordering::{Equal, Greater, Less};
 
 /// A solution.
@@ -111,7 +111,7 @@ fn solutions<N: Real>(ends: &Ends<N>, symmetry: Symmetry, equal: bool, paper: bo
     let [w0, w2] = ends.w.clone();
     let signs: &[f64] = if mirrored { &[0.25] } else { &[0.25, -0.25] };
     signs.iter().map(move |sign| {
-        let w1 = [0, 1].map(|i| root[i].times(*sign).sub(&w0[i].add(&w2[i]).times(0.75)));
+        let w1 = [0, 1].map(|i| formula!(root[i] * { *sign } - 0.75 * (w0[i] + w2[i])));
         Curve { whole: Arc::new([w0.clone(), w1, w2.clone()]), folded, paper, flat: false, tied: false }
     })
 }
@@ -150,7 +150,7 @@ impl<N: Real> Given<N> {
             Symmetry::Line => {
                 // From the speeds, whose product may be a square: then 0 is known as 0.
                 let across = l0.mul(l1).sqrt()?.times(if paper { 10.0 } else { -10.0 });
-                on_axis(across.sub(&l0.add(l1).times(15.0)).plus(120.0))?
+                on_axis(formula!(across - 15.0 * (l0 + l1) + 120.0))?
             }
             _ => Root::Anywhere(root(&re, &im)),
         };
@@ -161,20 +161,20 @@ impl<N: Real> Given<N> {
     fn of_length(&self, half: [Complex<N>; 2]) -> Option<Ends<N>> {
         let [[c0, s0], [c1, s1]] = &half;
         let length = &self.size[0];
-        let (p0, q0) = (length.plus(1.0).times(60.0), length.plus(-1.0).times(60.0));
+        let (p0, q0) = (formula!(60.0 * (length + 1.0)), formula!(60.0 * (length - 1.0)));
         // 15x² + 15y² - 10xy.
         let form = |x: &N, y: &N| {
             let apart = x.sub(y);
-            apart.mul(&apart).times(5.0).add(&x.mul(x).add(&y.mul(y)).times(10.0))
+            formula!(5.0 * (apart * apart) + 10.0 * (x * x + y * y))
         };
-        let g = c0.mul(s1).add(&c1.mul(s0)).sub(&c0.mul(s0).add(&c1.mul(s1)).times(3.0)).times(5.0);
+        let g = formula!(5.0 * (c0 * s1 + c1 * s0 - 3.0 * (c0 * s0 + c1 * s1)));
         let (a, b) = (p0.mul(&form(s0, s1)), q0.mul(&form(c0, c1)));
         let (sum, apart, product) = (a.add(&b), a.sub(&b), p0.mul(&q0));
         // g = 0 in these cases, exactly.
         let aligned = matches!(self.symmetry, Symmetry::Arch | Symmetry::Line);
         let above = if aligned { apart.certain_sign(0.0)? == Greater } else { apart.approx() >= 0.0 };
         let over = if above { apart } else { apart.times(-1.0) };
-        let mixed = if aligned { over.clone() } else { loose_root(&over.mul(&over).add(&g.mul(&g).mul(&product).times(4.0))) };
+        let mixed = if aligned { over.clone() } else { loose_root(&formula!(over * over + 4.0 * (g * g * product))) };
         let whole = sum.add(&mixed);
         let z = product.times(2.0).over(&whole)?;
         let size = z.sqrt()?;
@@ -201,10 +201,10 @@ impl<N: Real> Given<N> {
 
 /// Z.
 fn square<N: Real>([w0, w2]: &[Complex<N>; 2]) -> Complex<N> {
-    let own = |z: &Complex<N>| [z[0].mul(&z[0]).sub(&z[1].mul(&z[1])), z[0].mul(&z[1]).times(2.0)];
-    let across = [w0[0].mul(&w2[0]).sub(&w0[1].mul(&w2[1])), w0[0].mul(&w2[1]).add(&w0[1].mul(&w2[0]))];
+    let own = |z: &Complex<N>| [formula!(z[0] * z[0] - z[1] * z[1]), formula!(2.0 * (z[0] * z[1]))];
+    let across = [formula!(w0[0] * w2[0] - w0[1] * w2[1]), formula!(w0[0] * w2[1] + w0[1] * w2[0])];
     let (s0, s2) = (own(w0), own(w2));
-    let [re, im] = [0, 1].map(|i| across[i].times(10.0).sub(&s0[i].add(&s2[i]).times(15.0)));
+    let [re, im] = [0, 1].map(|i| formula!(10.0 * across[i] - 15.0 * (s0[i] + s2[i])));
     [re.plus(120.0), im]
 }
 
@@ -219,7 +219,7 @@ fn on_axis<N: Real>(square: N) -> Option<Root<N>> {
 /// A square root of a complex number: of its parts the safe one first. Of numbers around 0, where there is none, all that are small enough.
 fn root<N: Real>(re: &N, im: &N) -> Complex<N> {
     let tight = || {
-        let size = re.mul(re).add(&im.mul(im)).sqrt()?;
+        let size = formula!(re * re + im * im).sqrt()?;
         let real = re.approx() >= 0.0;
         let safe = if real { size.add(re) } else { size.sub(re) }.times(0.5).sqrt()?;
         let other = im.over(&safe.times(2.0))?;

@@ -12,7 +12,7 @@
 
 use super::arc::{Arc, Bound, product};
 use crate::num::bernstein::Certain;
-use crate::num::{Ball, Number, Real};
+use crate::num::{Ball, Number, Real, formula};
 use std::cmp::Ordering::{Greater, Less};
 
 /// How far the piece reaches from the peak, in order of trial.
@@ -62,7 +62,7 @@ impl<N: Real> Arc<N> {
 impl Arc<Ball> {
     /// Both parts at t, inside.
     fn split(&self, t: f64) -> [Arc<Ball>; 2] {
-        let mixed = |a: &Ball, b: &Ball| a.add(&b.sub(a).times(t));
+        let mixed = |a: &Ball, b: &Ball| formula!(a + (b - a) * { t });
         let both = |[a, b, c]: [Ball; 3]| {
             let (left, right) = (mixed(&a, &b), mixed(&b, &c));
             let middle = mixed(&left, &right);
@@ -86,14 +86,14 @@ impl Arc<Ball> {
         let [h0, h1, h2] = turn;
         let speed = self.speed();
         let [s0, s1, s2, s3, s4] = &speed;
-        let rise = |a: &Ball, b: &Ball| b.sub(a).times(2.0);
+        let rise = |a: &Ball, b: &Ball| formula!(2.0 * (b - a));
         let bent = [rise(&h0, &h1), rise(&h1, &h2)];
         // σ' from 1, 4, 6, 4, 1 times σ: `4 (σ1 - σ0)`, `12 (σ2 - σ1)` and so on.
         let gain =
-            [s1.sub(&s0.times(4.0)), s2.times(2.0).sub(&s1.times(3.0)), s3.times(3.0).sub(&s2.times(2.0)), s4.times(4.0).sub(s3)];
+            [formula!(s1 - 4.0 * s0), formula!(2.0 * s2 - 3.0 * s1), formula!(3.0 * s3 - 2.0 * s2), formula!(4.0 * s4 - s3)];
         let (up, down): ([Ball; 6], [Ball; 6]) = (product(&speed, &bent), product(&[h0, h1.times(2.0), h2], &gain));
         let binomial = [10.0, 2.0, 1.0, 1.0, 2.0, 10.0];
-        Some(std::array::from_fn(|i| up[i].sub(&down[i].times(2.0)).times(binomial[i])))
+        Some(std::array::from_fn(|i| formula!((up[i] - 2.0 * down[i]) * { binomial[i] })))
     }
 
     /// Less than σ everywhere.

@@ -4,7 +4,7 @@
 //! w1 can do: `√Z > 3(a + b) - 4m`, or `5 > l0 + l1 + ab - (a + b)m`. Squared twice that is a question about the sign of `x + y ab` for
 //! polynomials x, y in l0, l1, and so of `x² - y² l0 l1`: in doubles' intervals that is exact at some precision, and 0 is known as 0.
 
-use crate::num::Interval;
+use crate::num::{Interval, formula};
 use std::cmp::Ordering::{self, Equal, Greater};
 
 /// Whether some line with these end speeds, in chords, moves on throughout; `None` where the precision does not suffice.
@@ -20,7 +20,7 @@ pub(super) fn moves_on(size: [f64; 2], bits: usize) -> Option<bool> {
         return Some(true);
     }
     // (a + b)² m² against its square.
-    let whole = sign(&(&product - &less.square()), &(-&sum).plus(10.0), &product)?;
+    let whole = sign(&(&product - &less.square()), &formula!(-sum + 10.0), &product)?;
     Some(whole == Greater)
 }
 
@@ -33,7 +33,7 @@ fn sign(x: &Interval, y: &Interval, product: &Interval) -> Option<Ordering> {
     if of_x == Equal {
         return Some(of_y);
     }
-    let apart = (&x.square() - &(&y.square() * product)).sign()?;
+    let apart = formula!(x.square() - y.square() * product).sign()?;
     Some(if of_x == Greater { apart } else { apart.reverse() })
 }
 

@@ -4,7 +4,7 @@ use super::Kind;
 use crate::error::{Error, Result};
 use crate::family::hermite::told_angle;
 use crate::num::sines::{cos, sin};
-use crate::num::{Interval, Real, Twin};
+use crate::num::{Interval, Real, Twin, formula};
 use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::rc::Rc;
@@ -102,7 +102,7 @@ impl<N: Real> ExactAngle<N> {
         let (length, g) = match kind {
             Kind::Cubic => (sin.clone(), cos.clone()),
             // tan(θ/2) = sin θ / (1 + cos θ)
-            Kind::Ph => (sin.over(&cos.plus(1.0))?, cos.plus(1.0).times(0.5)),
+            Kind::Ph => (sin.over(&cos.plus(1.0))?, formula!(0.5 * (cos + 1.0))),
         };
         Some(ExactAngle { sin, cos, g, length })
     }

@@ -5,7 +5,7 @@ use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::num::bernstein::{MOST_HALVINGS, positive};
 use crate::num::roots::{Curve, bracketed, enclose, find, near};
-use crate::num::{Interval, Real, Twin};
+use crate::num::{Interval, Real, Twin, formula};
 use std::cmp::Ordering::{Greater, Less};
 
 /// The segment of a case: `u`, `m > 0`.
@@ -35,7 +35,7 @@ pub(super) fn judge<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, end: [f64; 2],
 /// The segment with this end point, if there is one.
 fn shape<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, [xi, eta]: [f64; 2], case: usize) -> Option<Option<Shape<N>>> {
     let bits = angle.sin.bits();
-    let h = angle.sin.times(xi).sub(&angle.cos.times(eta));
+    let h = formula!(angle.sin * { xi } - angle.cos * { eta });
     let eta = N::of(eta, bits);
     let (a, b) = if case == 0 { (eta, h) } else { (h, eta) };
     if a.certain_sign(0.0)? != Greater {
@@ -47,7 +47,7 @@ fn shape<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, [xi, eta]: [f64; 2], case
     let shape = match kind {
         Kind::Cubic => {
             let u = N::of(1.0, bits).over(&alpha)?;
-            let m = beta.mul(&u.mul(&u)).plus(-1.0);
+            let m = formula!(beta * (u * u) - 1.0);
             Shape { u, m }
         }
         Kind::Ph => match ph_root(&alpha, &beta, &angle.g)? {
@@ -98,7 +98,7 @@ fn ph_root<N: Rooted>(alpha: &N, beta: &N, g: &N) -> Option<Option<N>> {
     let residual = Residual { alpha, beta, g };
     // αu² - 24gu = 3 + LEAST_M
     let twelve = g.times(12.0);
-    let under = twelve.mul(&twelve).add(&alpha.times(3.0 + LEAST_M));
+    let under = formula!(twelve * twelve + alpha * { 3.0 + LEAST_M });
     let from = twelve.add(&under.sqrt()?).over(alpha)?.middle();
     let start = ph_m(alpha, g, &from);
     let sign = |x: &N| x.certain_sign(0.0);
@@ -160,10 +160,10 @@ impl<N: Real> Residual<'_, N> {
         let value = self.value(u);
         let m = ph_m(self.alpha, self.g, u);
         let (_, right) = ph_sides(self.beta, &m, u);
-        let m_slope = u.times(2.0).mul(&self.alpha.mul(u).sub(&self.g.times(12.0)));
-        let direct = m.plus(3.0).mul(u).times(2.0).sub(&right.times(3.0));
-        let through_m = u.times(2.0).add(&m.times(6.0).plus(3.0)).mul(&m_slope);
-        (u.mul(&value), direct.add(&through_m).sub(&value.times(3.0)))
+        let m_slope = formula!(2.0 * u * (self.alpha * u - 12.0 * self.g));
+        let direct = formula!(2.0 * ((m + 3.0) * u) - 3.0 * right);
+        let through_m = formula!((2.0 * u + (6.0 * m + 3.0)) * m_slope);
+        (u.mul(&value), formula!(direct + through_m - 3.0 * value))
     }
 
     /// G/u³ in doubles.

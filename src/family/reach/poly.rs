@@ -32,7 +32,7 @@
 //! c1 = 0, a quadratic in q with a negative constant term. The first term A1 is c0 >= 0, and the drawn region adds `m >= m*`.
 
 use super::Kind;
-use crate::num::Number;
+use crate::num::{Number, formula};
 
 /// Where the search for the PH quintic's root starts: m at the lower end, between -0.377 and 0.
 pub(super) const LEAST_M: f64 = -0.25;
@@ -47,19 +47,19 @@ pub(super) fn coefficients<N: Number>(kind: Kind, m: &N, u: &N, g: &N, sign: f64
     let m3 = m2.mul(m);
     match kind {
         Kind::Cubic => [
-            u.mul(&g.times(3.0).add(&m.plus(4.0).mul(u).times(sign))).times(4.0),
-            gu.mul(&m.times(4.0).plus(5.0 * sign)).times(4.0).add(&mu.mul(u).times(20.0 * sign)).plus(12.0),
-            m.times(13.0).plus(2.0 * sign).add(&gu.mul(m).times(4.0).mul(&m4)).times(2.0),
-            m.times(2.0).mul(&m.times(10.0).plus(3.0 * sign).add(&gu.mul(m).times(4.0 * sign))),
+            formula!(4.0 * (u * (3.0 * g + (m + 4.0) * u * { sign }))),
+            formula!(4.0 * (gu * (4.0 * m + { 5.0 * sign })) + mu * u * { 20.0 * sign } + 12.0),
+            formula!(2.0 * (13.0 * m + { 2.0 * sign } + 4.0 * (gu * m) * m4)),
+            formula!(2.0 * m * (10.0 * m + { 3.0 * sign } + gu * m * { 4.0 * sign })),
             m3.times(5.0),
             m3,
         ],
         Kind::Ph => [
-            gu.times(16.0).mul(&m.plus(6.0).mul(u).times(sign).plus(2.0)),
-            gu.mul(&m.times(3.0).plus(4.0 * sign)).add(&mu.mul(&gu).times(7.0 * sign)).plus(1.0).times(16.0),
-            m.times(9.0).plus(2.0 * sign).add(&gu.mul(m).times(6.0).mul(&m4)).times(4.0),
-            m.times(4.0).mul(&m.times(7.0).plus(3.0 * sign).add(&gu.mul(m).times(6.0 * sign))),
-            m2.mul(&m.times(7.0).plus(2.0 * sign)),
+            formula!(16.0 * gu * ((m + 6.0) * u * { sign } + 2.0)),
+            formula!(16.0 * (gu * (3.0 * m + { 4.0 * sign }) + mu * gu * { 7.0 * sign } + 1.0)),
+            formula!(4.0 * (9.0 * m + { 2.0 * sign } + 6.0 * (gu * m) * m4)),
+            formula!(4.0 * m * (7.0 * m + { 3.0 * sign } + gu * m * { 6.0 * sign })),
+            formula!(m2 * (7.0 * m + { 2.0 * sign })),
             m3,
         ],
     }
@@ -71,14 +71,14 @@ pub(super) const BERNSTEIN: [f64; 6] = [10.0, 2.0, 1.0, 1.0, 2.0, 10.0];
 /// m of a PH quintic at u.
 #[inline(always)]
 pub(super) fn ph_m<N: Number>(alpha: &N, g: &N, u: &N) -> N {
-    u.mul(&alpha.mul(u).sub(&g.times(24.0))).plus(-3.0)
+    formula!(u * (alpha * u - 24.0 * g) - 3.0)
 }
 
 /// `(2(3+m)u + 2 + 3m + 3m², βu³)`, whose difference is G.
 #[inline(always)]
 pub(super) fn ph_sides<N: Number>(beta: &N, m: &N, u: &N) -> (N, N) {
-    let left = m.plus(3.0).mul(u).times(2.0).add(&m.mul(&m.plus(1.0)).times(3.0)).plus(2.0);
-    (left, beta.mul(&u.mul(u)).mul(u))
+    let left = formula!(2.0 * ((m + 3.0) * u) + 3.0 * (m * (m + 1.0)) + 2.0);
+    (left, formula!(beta * (u * u) * u))
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ use super::filter::least_drawn_m;
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, Reach, THEOREM};
 use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
-use crate::num::{Ball, Form, Number, Real};
+use crate::num::{Ball, Form, Number, Real, formula};
 
 /// A form in θ, ξ, η.
 type Three = Form<3, 6>;
@@ -65,16 +65,16 @@ struct Case {
 fn cubic(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> Case {
     let Angle { g, square, .. } = angle;
     let a2 = a.mul(a);
-    let side = b.mul(square).times(2.0);
-    let room = side.sub(&a2.times(3.0));
-    let first = g.mul(&a2.mul(a)).times(27.0).sub(&square.mul(&a2.times(9.0).add(&side)));
+    let side = formula!(2.0 * (b * square));
+    let room = formula!(side - 3.0 * a2);
+    let first = formula!(27.0 * (g * (a2 * a)) - square * (9.0 * a2 + side));
     let exists = and(positive(a), positive(&room));
     if exists.is_none() {
         [a, &room].into_iter().filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));
     }
     let first = positive(&first);
     let shape = a.times(3.0).inverse().map(|inverse| {
-        let m = side.mul(&inverse).mul(&inverse).times(3.0).plus(-1.0);
+        let m = formula!(3.0 * (side * inverse * inverse) - 1.0);
         [m, square.mul(&inverse)]
     });
     Case { exists, first, shape: shape.filter(|_| a.low() > 0.0) }
@@ -83,16 +83,16 @@ fn cubic(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> C
 fn ph(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> Case {
     let Angle { g, square, over } = angle;
     let above = positive(a);
-    let bound = positive(&a.mul(over).times(60.0).sub(&square.times(27.0))).filter(|holds| !holds);
+    let bound = positive(&formula!(60.0 * (a * over) - 27.0 * square)).filter(|holds| !holds);
     if above == Some(false) || positive(b) == Some(false) {
         return Case { exists: Some(false), first: Some(false), shape: None };
     }
     let whole = || {
         (above == Some(true)).then_some(())?;
         let scale = over.over(square)?;
-        let (alpha, beta) = (a.mul(&scale).times(60.0), b.mul(&scale).times(120.0));
+        let (alpha, beta) = (formula!(60.0 * (a * scale)), formula!(120.0 * (b * scale)));
         let twelve = g.times(12.0);
-        let u0 = twelve.mul(&twelve).add(&alpha.times(3.0)).sqrt()?.add(&twelve).over(&alpha)?;
+        let u0 = formula!(twelve * twelve + 3.0 * alpha).sqrt()?.add(&twelve).over(&alpha)?;
         let (left, right) = ph_sides(&beta, &Three::of(0.0, 53), &u0);
         let room = right.sub(&left);
         let shape = ph_root(&alpha, &beta, g).map(|u| [ph_m(&alpha, g, &u), u]);
@@ -107,7 +107,7 @@ fn ph(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> Case
     if exists.is_none() || shape.is_none() {
         add_pull(pull, &room);
     }
-    let first = shape.as_ref().and_then(|[m, u]| positive(&m.plus(6.0).mul(u).times(-1.0).plus(2.0)));
+    let first = shape.as_ref().and_then(|[m, u]| positive(&formula!(2.0 - (m + 6.0) * u)));
     Case { exists, first: bound.or(first), shape }
 }
 
@@ -139,7 +139,7 @@ fn ph_root(alpha: &Three, beta: &Three, g: &Three) -> Option<Three> {
     let mut form = Three::ball(Ball { value: u, error: 0.0 });
     for _ in 0..2 {
         // A guess, so what it may be off does not matter.
-        form = Form { error: 0.0, ..form.sub(&residual(&form).times(inverse)) };
+        form = Form { error: 0.0, ..formula!(form - residual(&form) * { inverse }) };
     }
     let mut reach = 2.0 * residual(&form).most() * inverse.abs() + 1e-15 * u;
     for _ in 0..4 {
@@ -224,7 +224,7 @@ impl Region for Reach {
         }
         let [theta, xi, eta]: [Three; 3] = std::array::from_fn(|i| Three::centred([low[i], high[i]], i));
         let angle = Angle::new(kind, &theta);
-        let h = xi.mul(&theta.sine()).sub(&eta.mul(&theta.cosine()));
+        let h = formula!(xi * theta.sine() - eta * theta.cosine());
         let mut facts = Facts::default();
         for (case, [a, b]) in [[&eta, &h], [&h, &eta]].into_iter().enumerate() {
             let shift = case as u32 * CASE_BITS;

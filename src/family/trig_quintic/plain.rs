@@ -1,7 +1,7 @@
 //! The flags that comparisons of rational numbers decide, exactly.
 
 use super::{END_CURVATURE_AS_PRINTED, END_RISES, PRINTED_RATIO};
-use crate::num::Interval;
+use crate::num::{Interval, formula};
 use std::cmp::Ordering::{self, Equal, Less};
 
 /// Enough for any three doubles to be added exactly.
@@ -16,7 +16,7 @@ fn compare(factor: f64, x: f64, constant: f64, other: f64, y: f64) -> Ordering {
         return left.total_cmp(&right);
     }
     let exact = |x: f64| Interval::new(x, BITS);
-    let right = exact(y).scale(other).plus(constant);
+    let right = formula!(exact(y) * { other } + { constant });
     // Thin intervals of enough bits have a sign.
     exact(x).scale(factor).compare(&right).unwrap_or(Equal)
 }

@@ -21,7 +21,7 @@
 //! with `ω = 1 + i tan(θ/2)` and `y = u1/(d cos(θ/2)) = ratio / (4 cos²(θ/2))`. Their upward parts are taken in units of
 //! `tan(θ/2)`; so X loses a positive factor, and D takes the square of it.
 
-use crate::num::Number;
+use crate::num::{Number, formula};
 use std::array::from_fn;
 
 /// Number of coefficients of the numerator.
@@ -54,12 +54,12 @@ fn tail<N: Number>([s2, s3, s4]: [&N; 3], [q1, q4, q9]: [&N; 3]) -> [N; 8] {
     [
         s2.times(17.0),
         s2.times(84.0),
-        s2.times(168.0).add(&s3.times(12.0)),
-        s2.times(168.0).add(&s3.times(60.0)),
-        s2.times(68.0).add(&s3.times(120.0)).add(&s4.mul(q1).times(8.0)),
-        s3.times(120.0).add(&s4.mul(q1).times(24.0)),
-        s3.times(48.0).add(&s4.mul(q9)),
-        s4.mul(q4).times(4.0),
+        formula!(168.0 * s2 + 12.0 * s3),
+        formula!(168.0 * s2 + 60.0 * s3),
+        formula!(68.0 * s2 + 120.0 * s3 + 8.0 * (s4 * q1)),
+        formula!(120.0 * s3 + 24.0 * (s4 * q1)),
+        formula!(48.0 * s3 + s4 * q9),
+        formula!(4.0 * (s4 * q4)),
     ]
 }
 
@@ -70,19 +70,20 @@ fn tail<N: Number>([s2, s3, s4]: [&N; 3], [q1, q4, q9]: [&N; 3]) -> [N; 8] {
 pub(super) fn hodograph<N: Number>(frame: &Frame<N>, m: &N, p: &N, q: &N) -> Hodograph<N> {
     let y = &frame.y;
     let my = m.mul(y);
-    let sides = [my.mul(&my).times(3.0), my.mul(y).times(3.0), y.times(2.0).add(m).mul(y), y.times(3.0), frame.last.clone()];
-    let up = [my, y.times(3.0), y.times(0.0).plus(6.0)];
-    let [p4, p1, q4, q1] = [p.plus(4.0), p.times(-1.0).plus(1.0), q.plus(4.0), q.times(-1.0).plus(1.0)];
-    let q9 = q1.times(16.0).add(&q4.times(4.0));
+    let sides =
+        [formula!(3.0 * (my * my)), formula!(3.0 * (my * y)), formula!((2.0 * y + m) * y), y.times(3.0), frame.last.clone()];
+    let up = [my, y.times(3.0), formula!(0.0 * y + 6.0)];
+    let [p4, p1, q4, q1] = [p.plus(4.0), formula!(1.0 - p), q.plus(4.0), formula!(1.0 - q)];
+    let q9 = formula!(16.0 * q1 + 4.0 * q4);
     let [s0, s1, s2, s3, s4] = &sides;
     let [a, b, c, d, e, f, g, h] = tail([s2, s3, s4], [&q1, &q4, &q9]);
     let x = [
-        s0.mul(&p4).times(0.125),
-        s0.mul(&p1.add(&p4.times(0.25))).add(&s1.times(3.0)),
-        s0.mul(&p1).times(3.0).add(&s1.times(15.0)),
-        s0.mul(&p1).times(2.0).add(&s1.times(30.0)).add(&a),
-        s1.times(30.0).add(&b),
-        s1.times(12.0).add(&c),
+        formula!(0.125 * (s0 * p4)),
+        formula!(s0 * (p1 + 0.25 * p4) + 3.0 * s1),
+        formula!(3.0 * (s0 * p1) + 15.0 * s1),
+        formula!(2.0 * (s0 * p1) + 30.0 * s1 + a),
+        formula!(30.0 * s1 + b),
+        formula!(12.0 * s1 + c),
         d,
         e,
         f,
@@ -117,7 +118,7 @@ fn turning<N: Number>(a: &Hodograph<N>, zero: &N, sign: f64) -> [N; 17] {
             if j >= LEVEL {
                 let mut cross = a.x[i].mul(&a.y[j - LEVEL]);
                 if i >= LEVEL {
-                    cross = cross.add(&a.x[j].mul(&a.y[i - LEVEL]).times(sign));
+                    cross = formula!(cross + a.x[j] * a.y[i - LEVEL] * { sign });
                 }
                 add(&mut sum, cross.times((j - i) as f64));
             }
@@ -134,7 +135,7 @@ fn turning<N: Number>(a: &Hodograph<N>, zero: &N, sign: f64) -> [N; 17] {
 fn square_of<N: Number>(v: &[N], k: usize) -> Option<N> {
     let mut sum = None;
     for i in k.saturating_sub(v.len() - 1)..=k / 2 {
-        add(&mut sum, v[i].mul(&v[k - i]).times(if 2 * i == k { 1.0 } else { 2.0 }));
+        add(&mut sum, formula!(v[i] * v[k - i] * { if 2 * i == k { 1.0 } else { 2.0 } }));
     }
     sum
 }
@@ -150,7 +151,7 @@ fn speed<N: Number>(a: &Hodograph<N>, zero: &N, square: &N) -> [N; 21] {
         if (2 * LEVEL..=2 * LEVEL + 14).contains(&k)
             && let Some(upward) = square_of(&a.y, k - 2 * LEVEL)
         {
-            *place = place.add(&upward.mul(square));
+            *place = formula!(place + upward * square);
         }
     }
     all
@@ -179,10 +180,10 @@ pub(super) fn numerator<N: Number>(a: &Hodograph<N>, square: &N, sign: f64) -> [
         if let (Some(plain), Some(weighed)) = (plain, weighed) {
             let double = weighed.times(2.0);
             if s + 1 < K {
-                add(&mut all[s + 1], double.add(&plain.times(24.0)));
+                add(&mut all[s + 1], formula!(double + 24.0 * plain));
             }
             if s + 2 < K {
-                add(&mut all[s + 2], double.add(&plain.times(48.0)));
+                add(&mut all[s + 2], formula!(double + 48.0 * plain));
             }
             add(&mut all[s], weighed);
         }

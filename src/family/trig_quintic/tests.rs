@@ -2,7 +2,7 @@ use super::exact::{Shape, judge};
 use super::plain::{PRINTED_Q, end_slope, flags, printed_ratio};
 use super::threshold::{exact_least_ratio, least_ratio};
 use super::*;
-use crate::num::{Interval, climb};
+use crate::num::{Interval, climb, formula};
 use crate::steps::counted;
 use std::cmp::Ordering::{Equal, Greater, Less};
 
@@ -47,7 +47,7 @@ fn comparisons_are_exact_at_their_ties() {
 fn printed_end_curvatures_change_between_neighbouring_doubles() {
     let near = |q: f64| {
         let square = Interval::new(q, 400).plus(4.0).square();
-        let (low, high) = (square.scale(101.0).plus(-1500.0).sign(), square.scale(99.0).plus(-1500.0).sign());
+        let (low, high) = (formula!(101.0 * square - 1500.0).sign(), formula!(99.0 * square - 1500.0).sign());
         low == Some(Greater) && high == Some(Less)
     };
     let [low, high] = PRINTED_Q;

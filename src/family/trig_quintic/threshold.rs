@@ -14,7 +14,7 @@ use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
 use crate::num::bernstein::{Certain, positive};
-use crate::num::{Interval, Number, climb};
+use crate::num::{Interval, Number, climb, formula};
 use std::array::from_fn;
 
 /// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute terms: the
@@ -193,7 +193,7 @@ impl<N: Certain> Sweep<N> {
         let mut powers = [1.0; DEGREE + 1];
         let value = from_fn(|i| {
             let rest = self.c[..DEGREE].iter().rev();
-            rest.fold(self.c[DEGREE][i].clone(), |sum, c| sum.times(ratio).add(&c[i]))
+            rest.fold(self.c[DEGREE][i].clone(), |sum, c| formula!(sum * { ratio } + c[i]))
         });
         for k in 1..=DEGREE {
             powers[k] = powers[k - 1] * ratio;
@@ -238,7 +238,7 @@ impl<N: Certain> Sweep<N> {
         let degree = DEGREE - derivative;
         (0..=degree).all(|j| {
             let factor = |k: usize| if derivative == 1 { (k + 1) as f64 } else { 1.0 };
-            let one = self.c[0][0].times(0.0).plus(1.0);
+            let one = formula!(0.0 * self.c[0][0] + 1.0);
             let weights: Vec<N> = (0..=degree).map(|k| polar(&one, [low, high], [degree, j, k]).times(factor(k))).collect();
             let sizes: Vec<f64> = (0..=degree).map(|k| polar(&1.0, [low, high], [degree, j, k]) * factor(k)).collect();
             let value = from_fn(|i| {

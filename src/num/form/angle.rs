@@ -1,6 +1,7 @@
 //! Forms of angles and of their sines.
 
 use super::{Form, UNIT};
+use crate::num::formula;
 use crate::num::sines::{SIN_ERROR, cos, sin, sin_of_sum};
 use crate::num::{Ball, Number, Real};
 
@@ -33,7 +34,7 @@ impl<const K: usize, const H: usize> Form<K, H> {
     fn turned(value: f64, slope: f64, by: &Form<K, H>, units: f64) -> Form<K, H> {
         let most = by.most();
         let rounded = units * UNIT * (value.abs() + most + 0.5 * value.abs() * most * most);
-        let form = by.mul(by).times(-0.5 * value).add(&by.times(slope)).plus(value);
+        let form = formula!(by * by * { -0.5 * value } + by * { slope } + { value });
         form.off(most * most * most / 6.0 + rounded)
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Form, GROW, UNIT};
 use crate::num::bernstein::Certain;
+use crate::num::formula;
 use crate::num::{Ball, Number, Real};
 use std::cmp::Ordering;
 
@@ -27,13 +28,13 @@ impl<const K: usize, const H: usize> Real for Form<K, H> {
     fn sqrt(&self) -> Option<Form<K, H>> {
         (self.value > self.around()).then_some(())?;
         let s = 1.0 / self.value;
-        let u = self.times(s).plus(-1.0);
+        let u = formula!(self * { s } - 1.0);
         let most = u.most();
         (most < 1.0).then_some(())?;
         let left = 1.0 - most;
         let rest = (most * most * most / (16.0 * left * left * left.sqrt()))
             .min(1.0 - 0.5 * most - 0.125 * most * most - left.sqrt() + 8.0 * UNIT);
-        let root = u.times(0.5).sub(&u.mul(&u).times(0.125)).plus(1.0).off(rest * GROW);
+        let root = formula!(0.5 * u - 0.125 * (u * u) + 1.0).off(rest * GROW);
         // That √(1/s) is off by three units.
         let back = root.times((1.0 / s).sqrt());
         let size = back.most();

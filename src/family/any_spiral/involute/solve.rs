@@ -8,7 +8,7 @@ use super::turns::{Split, range};
 use super::{Chord, Outcome, Spiral, WhyNone};
 use crate::error::{Error, Result};
 use crate::num::bernstein::Certain;
-use crate::num::{Interval, climb};
+use crate::num::{Interval, climb, formula};
 use serde::Serialize;
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::f64::consts::{PI, TAU};
@@ -139,7 +139,7 @@ fn found(datum: &Datum, half_turns: u32, turns: u32, mirrored: bool) -> Result<(
 
 /// ω with the half turns that are added to it.
 fn total(datum: &Datum, half_turns: u32, bits: usize) -> Interval {
-    &datum.omega(bits) + &Interval::pi(bits).scale(f64::from(half_turns))
+    formula!(datum.omega(bits) + Interval::pi(bits) * { f64::from(half_turns) })
 }
 
 /// Whether a number is known to so many bits.
@@ -178,13 +178,13 @@ impl Numbers {
         let Arc { theta, sin, cos: _, p, a, t0, t1 } = equation.solve()?;
         let half_chord = (&(&t0 * &sin).square() + &p.square()).sqrt()?;
         // ρ = (k1* + sin α*)/(k1 + sin α), both negative.
-        let rho = (&(&t0 * &a) + &(&p * &sin)).over(&(&(&half_chord * &t1) * room))?;
+        let rho = formula!(t0 * a + p * sin).over(&formula!(half_chord * t1 * room))?;
         if ![&theta, &t1, &rho, &half_chord].into_iter().all(|x| thin(x, 80)) {
             return None;
         }
         // λ = α - α*, α* = ω + θ; any full turns do.
         let [alpha, beta] = [datum.alpha, datum.beta].map(|x| Interval::new(x, bits));
-        let omega = rest + &Interval::pi(bits).scale(f64::from(*half_turns));
+        let omega = formula!(rest + Interval::pi(bits) * { f64::from(*half_turns) });
         let ahead = &omega + &theta;
         let lambda = &alpha - &ahead;
         let inverse = Interval::new(1.0, bits).over(&rho)?;
@@ -199,7 +199,7 @@ impl Numbers {
         let halves = [start.half(&theta, datum.alpha, datum.k1)?, end.half(&theta, datum.beta, datum.k2)?];
         // θ from the nearest multiple of π.
         let turns = (theta.approx() / PI).round();
-        let beyond = &theta - &Interval::pi(bits).scale(turns);
+        let beyond = formula!(theta - Interval::pi(bits) * { turns });
         let numbers = Numbers {
             theta: theta.approx(),
             beyond: beyond.approx(),
@@ -230,7 +230,7 @@ impl End<'_> {
         let s = (-steep).div_euclid(2).min(-steep - exponent(t)).min(exponent(theta) - 1).min(0);
         let s = Interval::power_of_two(s, bits);
         let whole = &s + t;
-        let unit = &(scale * &s) * &whole;
+        let unit = formula!(scale * s * whole);
         let size = (&q[0].square() + &q[1].square()).sqrt()?;
         Some(Half {
             side: *side,

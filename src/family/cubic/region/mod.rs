@@ -42,7 +42,7 @@ use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::family::hermite::holds_box;
 use crate::family::outer_region::{any, rising};
 use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
-use crate::num::{Form, Number};
+use crate::num::{Form, Number, formula};
 use angles::Angles;
 use root::{Root, span};
 use std::cell::Cell;
@@ -175,9 +175,9 @@ struct Data {
 
 impl Data {
     fn new(angles: Angles, [a, k]: [Four; 2]) -> Data {
-        let above = [&a, &k].map(|x| positive(&x.times(3.0).plus(-1.0)));
+        let above = [&a, &k].map(|x| positive(&formula!(3.0 * x - 1.0)));
         let ak = a.mul(&k);
-        let delta = ak.mul(&ak.times(768.0).sub(&a.add(&k).times(256.0)).plus(96.0)).plus(-1.0);
+        let delta = formula!(ak * (768.0 * ak - 256.0 * (a + k) + 96.0) - 1.0);
         let wedge = if above == [Some(true); 2] { Some(true) } else { positive(&delta) };
         Data { angles, a, k, above, wedge, delta }
     }
@@ -213,13 +213,13 @@ impl Data {
             None => {
                 let x = span(a, k).map(|range| Four::along(range, 3));
                 if let Some(x) = x
-                    && self.fails(&x, &a.mul(&x.mul(&x)).times(-1.0).plus(3.0))
+                    && self.fails(&x, &formula!(3.0 - a * (x * x)))
                 {
                     return [self.branch(below[1], Root::left, open, pull), Branch::ABSENT, Branch::ABSENT];
                 }
                 let y = span(k, a).map(|range| Four::along(range, 2));
                 if let Some(y) = y
-                    && self.fails(&k.mul(&y.mul(&y)).times(-1.0).plus(3.0), &y)
+                    && self.fails(&formula!(3.0 - k * (y * y)), &y)
                 {
                     return [Branch::ABSENT, Branch::ABSENT, self.branch(below[0], Root::right, open, pull)];
                 }
@@ -280,7 +280,7 @@ fn half(b: &[Four; 3], w: &Four) -> Known {
     }
     let middle = match positive(&b[1]) {
         Some(true) => Some(true),
-        known => or(known, positive(&b[0].mul(&b[2]).mul(w).times(8.0).sub(&b[1].mul(&b[1])))),
+        known => or(known, positive(&formula!(8.0 * (b[0] * b[2] * w) - b[1] * b[1]))),
     };
     and(outer, middle)
 }
@@ -295,12 +295,12 @@ fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Known {
         return Some(false);
     }
     let quintic = [
-        y.mul(y).mul(&start[0]).times(5.0),
+        formula!(5.0 * (y * y * start[0])),
         y.mul(&start[1]),
         y.mul(&start[2]),
         x.mul(&end[2]),
         x.mul(&end[1]),
-        x.mul(x).mul(&end[0]).times(5.0),
+        formula!(5.0 * (x * x * end[0])),
     ];
     unit_sign(&quintic)
 }

@@ -24,7 +24,7 @@
 
 use super::Four;
 use crate::num::bernstein::Certain;
-use crate::num::{Ball, Number, Real};
+use crate::num::{Ball, Number, Real, formula};
 use std::cmp::Ordering::{Greater, Less};
 
 /// Covers the roundings of the bounds of an enclosure: fewer than 100 operations on numbers that are not negative.
@@ -67,7 +67,7 @@ impl Root {
     /// The left root: F' < 0 and `a x² < 1`.
     pub fn left(a: &Four, k: &Four) -> Option<Root> {
         let root = Root::falling(a, k)?;
-        (a.mul(&root.x.mul(&root.x)).high() < 1.0).then_some(root)
+        (formula!(a * (root.x * root.x)).high() < 1.0).then_some(root)
     }
 
     /// The right root, which is the left one with x and y exchanged.
@@ -117,9 +117,9 @@ fn enclose(a: &Four, k: &Four, x0: f64) -> Option<Root> {
         }
     }
     let (ax, ky) = (a.mul(&x), k.mul(&y));
-    let rest = |minus: &Four, other: &Four| minus.add(other).times(-1.0).plus(3.0).most();
+    let rest = |minus: &Four, other: &Four| formula!(3.0 - (minus + other)).most();
     let (first, second) = (rest(&ax.mul(&x), &y), rest(&ky.mul(&y), &x));
-    let slope = ax.mul(&ky).times(-4.0).plus(1.0);
+    let slope = formula!(ax * ky * -4.0 + 1.0);
     let least = slope.low().max(-slope.high());
     // Not for NaN either.
     (least > 0.0).then_some(())?;
@@ -131,7 +131,7 @@ fn enclose(a: &Four, k: &Four, x0: f64) -> Option<Root> {
         let (next_e, next_f) = ((its + beta * own) / least * GROW, (own + alpha * its) / least * GROW);
         if next_e <= e && next_f <= f {
             let (x, y) = (x.off(e), y.off(f));
-            let slope = a.mul(&x).mul(&k.mul(&y)).times(-4.0).plus(1.0);
+            let slope = formula!(a * x * (k * y) * -4.0 + 1.0);
             return Some(Root { x, y, slope });
         }
         if !(next_e < 3.0 && next_f < 3.0) {
@@ -152,10 +152,10 @@ pub(super) fn span(a: &Four, k: &Four) -> Option<[f64; 2]> {
     let at = |x: f64| {
         let x = exact(x);
         let ax = a.mul(&x);
-        let y = ax.mul(&x).times(-1.0).plus(3.0);
+        let y = formula!(3.0 - ax * x);
         let ky = k.mul(&y);
-        let value = x.add(&ky.mul(&y)).times(-1.0).plus(3.0);
-        (value, ax.mul(&ky).times(4.0).plus(-1.0), y, ax.mul(&x).plus(-1.0))
+        let value = formula!(3.0 - (x + ky * y));
+        (value, formula!(4.0 * (ax * ky) - 1.0), y, formula!(ax * x - 1.0))
     };
     let sure = |x: &Ball, sign| x.certain_sign(0.0) == Some(sign);
     // Any number a little on the good side of the root will do that the signs accept.
@@ -163,13 +163,13 @@ pub(super) fn span(a: &Four, k: &Four) -> Option<[f64; 2]> {
     let m = settle(most, least, 1.0 / most.sqrt())? * (1.0 - NEAR);
     let (value, slope, y, bend) = at(m);
     (m > 0.0 && sure(&value, Less) && sure(&y, Greater) && (sure(&bend, Less) || sure(&slope, Greater))).then_some(())?;
-    if !sure(&k.times(3.0).plus(-1.0), Greater) {
+    if !sure(&formula!(3.0 * k - 1.0), Greater) {
         let l = settle(most, least, 0.0)? * (1.0 + NEAR);
         let (value, _, _, bend) = at(l);
         (l > 0.0 && l <= m && sure(&value, Less) && sure(&bend, Less)).then_some(())?;
     }
     let mut r = 3.0;
-    if sure(&a.times(3.0).plus(-1.0), Less) {
+    if sure(&formula!(3.0 * a - 1.0), Less) {
         let guess = settle(most, least, 3.0)? * (1.0 + NEAR);
         let (value, slope, _, bend) = at(guess);
         if guess < 3.0 && guess >= m && sure(&value, Less) && sure(&slope, Less) && sure(&bend, Greater) {
