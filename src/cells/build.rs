@@ -1,7 +1,7 @@
 //! Making the trees, level by level.
 
 use super::classify::{Bounds, Prover};
-use super::tree::{Known, MOST_AXES, Shape, top_count};
+use super::tree::{Known, Layout, MOST_AXES, top_count};
 use super::{Spec, all_flags, by_weight, check_resolution, region};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Spacing};
@@ -16,7 +16,7 @@ const PIECE: usize = 64;
 /// The parts of a file of cells.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Built {
-    pub(super) shape: Shape,
+    pub(super) shape: Layout,
     pub(super) roots: Vec<u32>,
     pub(super) trees: Vec<u32>,
     pub(super) top: Vec<[u8; 2]>,
@@ -78,7 +78,7 @@ pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(
     let mut divided = 0;
     for size in (0..size).rev() {
         for tree in &mut trees {
-            let words = Shape::words(size) as u64;
+            let words = Layout::words(size) as u64;
             // How many MIXED cells each parent has that would be divided: all of them or none.
             let counts: Vec<u64> = match tree.levels.last() {
                 Some(parents) => parents.iter().map(|node| u64::from(node.mixed(shape).count_ones())).collect(),
@@ -108,7 +108,7 @@ pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(
 
 /// Words that do not depend on the trees: top cells, roots, the axes' edges, and the header with a recipe of ordinary
 /// length.
-fn fixed_words(shape: Shape, tops: &[[u16; MOST_AXES]]) -> u64 {
+fn fixed_words(shape: Layout, tops: &[[u16; MOST_AXES]]) -> u64 {
     let header = 1 << 12;
     let axes = shape.axes as u64 * 2 * ((1 << shape.depth) + 1);
     tops.len() as u64 * (shape.flags as u64 + 1) + axes + header + 1
@@ -131,12 +131,12 @@ fn choose(counts: &[u64], words: u64, left: &mut u64) -> Vec<bool> {
 }
 
 impl Node {
-    fn mixed(&self, shape: Shape) -> u32 {
+    fn mixed(&self, shape: Layout) -> u32 {
         shape.children() & !u32::from(self.yes | self.no)
     }
 
     /// The places of the MIXED children, in order.
-    fn mixed_places(&self, shape: Shape) -> impl Iterator<Item = [u16; MOST_AXES]> {
+    fn mixed_places(&self, shape: Layout) -> impl Iterator<Item = [u16; MOST_AXES]> {
         let (mixed, place) = (self.mixed(shape), self.place);
         (0..1 << shape.axes).filter(move |child| mixed >> child & 1 == 1).map(move |child| child_place(&place, child, shape.axes))
     }
@@ -160,7 +160,7 @@ fn unpack(mut at: usize, bits: u32, axes: usize) -> [u16; MOST_AXES] {
 }
 
 /// The node of a cell, whose children have a size of 2 to the `size` finest cells.
-fn divide(prover: &Prover, edges: &Edges, shape: Shape, place: &[u16; MOST_AXES], size: u32, flag: u8) -> Node {
+fn divide(prover: &Prover, edges: &Edges, shape: Layout, place: &[u16; MOST_AXES], size: u32, flag: u8) -> Node {
     let mut node = Node { place: *place, yes: 0, no: 0, divided: false };
     for child in 0..1 << shape.axes {
         let known = prover.classify(&edges.bounds(&child_place(place, child, shape.axes), size), size, 1 << flag);
@@ -170,7 +170,7 @@ fn divide(prover: &Prover, edges: &Edges, shape: Shape, place: &[u16; MOST_AXES]
     node
 }
 
-fn lay_out(shape: Shape, known: &[Known], trees: &[Tree]) -> Built {
+fn lay_out(shape: Layout, known: &[Known], trees: &[Tree]) -> Built {
     let mut roots = vec![0; known.len() * shape.flags];
     let mut words = vec![0];
     // Of each flag, what is left of the top cells that it leaves open, and of each level: those of one top cell come
@@ -185,14 +185,14 @@ fn lay_out(shape: Shape, known: &[Known], trees: &[Tree]) -> Built {
             roots[cell * shape.flags + usize::from(tree.flag)] = words.len() as u32;
             let mut count = 1;
             for (level, size) in levels.iter_mut().zip((0..shape.depth - shape.top).rev()) {
-                let mut next = words.len() + count * Shape::words(size);
+                let mut next = words.len() + count * Layout::words(size);
                 let mut below = 0;
                 for node in level.take(count) {
                     words.push(u32::from(node.yes) | u32::from(node.no) << 16);
                     let mixed = if node.divided { node.mixed(shape).count_ones() as usize } else { 0 };
                     if size > 0 {
                         words.push(if mixed > 0 { next as u32 } else { 0 });
-                        next += mixed * Shape::words(size - 1);
+                        next += mixed * Layout::words(size - 1);
                         below += mixed;
                     }
                 }
@@ -206,7 +206,7 @@ fn lay_out(shape: Shape, known: &[Known], trees: &[Tree]) -> Built {
 }
 
 /// The shape of the cells between the nodes of a grid.
-pub(super) fn shape(grid: &Grid, flags: usize) -> Result<Shape> {
+pub(super) fn shape(grid: &Grid, flags: usize) -> Result<Layout> {
     let counts = grid.shape();
     let resolution = counts[0] - 1;
     check_resolution(resolution).map_err(Error::Domain)?;
@@ -217,7 +217,7 @@ pub(super) fn shape(grid: &Grid, flags: usize) -> Result<Shape> {
         return Err(Error::Domain(format!("cells have at most {MOST_AXES} axes; given: {}", counts.len())));
     }
     let top = top_count(counts.len(), resolution);
-    Ok(Shape { axes: counts.len(), flags, depth: resolution.ilog2(), top: top.ilog2() })
+    Ok(Layout { axes: counts.len(), flags, depth: resolution.ilog2(), top: top.ilog2() })
 }
 
 fn prover(grid: &Grid, region: &'static dyn crate::family::Region, chart: usize) -> Prover {
@@ -234,7 +234,7 @@ struct Edges<'g> {
 }
 
 impl<'g> Edges<'g> {
-    fn new(grid: &'g Grid, shape: Shape) -> Edges<'g> {
+    fn new(grid: &'g Grid, shape: Layout) -> Edges<'g> {
         debug_assert_eq!(grid.axes().len(), shape.axes);
         Edges { axes: grid.axes().iter().map(|axis| axis.values()).collect() }
     }

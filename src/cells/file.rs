@@ -1,7 +1,7 @@
 //! The file of cells: written whole, mapped, checked, looked up.
 
 use super::build::{Built, shape};
-use super::tree::{Known, MOST_AXES, Shape, Words};
+use super::tree::{Known, Layout, MOST_AXES, Words};
 use super::{Spec, all_flags, region};
 use crate::atlas::header::{Header, ROOTS, TOP, TREES};
 use crate::atlas::{About, Kind, map_bytes, map_path};
@@ -65,7 +65,7 @@ pub struct Cells {
     map: Mmap,
     header: Header,
     body: usize,
-    shape: Shape,
+    shape: Layout,
     family: &'static dyn Family,
     chart: usize,
     lookups: Vec<Lookup>,

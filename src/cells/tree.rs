@@ -34,7 +34,7 @@ pub(super) fn top_count(axes: usize, resolution: usize) -> usize {
 
 /// The shape of a file: what its words mean depends on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Shape {
+pub(super) struct Layout {
     pub axes: usize,
     pub flags: usize,
     /// The resolution is 2 to this.
@@ -43,7 +43,7 @@ pub(super) struct Shape {
     pub top: u32,
 }
 
-impl Shape {
+impl Layout {
     /// Words of a node whose children have a size of 2 to the `size` finest cells.
     #[inline]
     pub fn words(size: u32) -> usize {
@@ -77,13 +77,13 @@ impl Shape {
 /// The parts of a file.
 #[derive(Clone, Copy)]
 pub(super) struct Words<'w> {
-    pub shape: Shape,
+    pub shape: Layout,
     /// Little-endian words.
     pub roots: &'w [[u8; 4]],
     /// Likewise.
     pub trees: &'w [[u8; 4]],
     pub top: &'w [[u8; 2]],
-    /// [`Shape::spread`].
+    /// [`Layout::spread`].
     pub spread: &'w [u32],
 }
 
@@ -134,7 +134,7 @@ impl Words<'_> {
             }
             let next = word(self.trees, at + 1)? as usize;
             let before = !(node | node >> 16) & ((1 << child) - 1);
-            at = if next == 0 { 0 } else { next + before.count_ones() as usize * Shape::words(size - 1) };
+            at = if next == 0 { 0 } else { next + before.count_ones() as usize * Layout::words(size - 1) };
         }
         None
     }
@@ -162,13 +162,13 @@ impl Words<'_> {
             let mut level = next..next;
             match u32::from_le_bytes(*root) as usize {
                 0 => continue,
-                at if at == next && !known && size > 0 => next += Shape::words(size - 1),
+                at if at == next && !known && size > 0 => next += Layout::words(size - 1),
                 at => return Err(format!("`roots` has {at} for flag {flag} of top cell {cell}, where 0 or {next} may be")),
             }
             while size > 0 {
                 size -= 1;
                 level = level.end..next;
-                for at in level.clone().step_by(Shape::words(size)) {
+                for at in level.clone().step_by(Layout::words(size)) {
                     next += self.check_node(at, size, next)?;
                 }
             }
@@ -194,7 +194,7 @@ impl Words<'_> {
         let mixed = (self.shape.children() & !(yes | no)).count_ones() as usize;
         match word(at + 1)? as usize {
             0 => Ok(0),
-            to if to == next && mixed > 0 => Ok(mixed * Shape::words(size - 1)),
+            to if to == next && mixed > 0 => Ok(mixed * Layout::words(size - 1)),
             to => Err(format!("word {} of `trees` is {to}, where 0 or {next} may be", at + 1)),
         }
     }

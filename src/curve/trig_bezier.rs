@@ -24,13 +24,13 @@ pub struct TrigBezier {
 impl Serialize for TrigBezier {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         #[derive(Serialize)]
-        struct Told {
+        struct Fields {
             p: f64,
             q: f64,
             control_points: [[f64; 2]; 6],
             legs: [[f64; 2]; 5],
         }
-        Told { p: self.p, q: self.q, control_points: self.points(), legs: self.sides }.serialize(serializer)
+        Fields { p: self.p, q: self.q, control_points: self.points(), legs: self.sides }.serialize(serializer)
     }
 }
 

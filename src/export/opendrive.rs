@@ -81,10 +81,10 @@ struct Geometry {
     start: Vector,
     heading: f64,
     length: f64,
-    shape: Shape,
+    shape: Primitive,
 }
 
-enum Shape {
+enum Primitive {
     Line,
     Arc {
         curvature: f64,
@@ -103,10 +103,10 @@ fn geometries(path: &Course, tolerance: f64, fit: &mut Fit) -> Result<Vec<Geomet
         match piece {
             Piece::Line(Line { start, end }) => {
                 let [x, y] = sub(*end, *start);
-                all.push(Geometry { start: *start, heading: y.atan2(x), length: x.hypot(y), shape: Shape::Line });
+                all.push(Geometry { start: *start, heading: y.atan2(x), length: x.hypot(y), shape: Primitive::Line });
             }
             Piece::Arc(Arc { start, start_direction, curvature, length }) => {
-                let shape = if *curvature == 0.0 { Shape::Line } else { Shape::Arc { curvature: *curvature } };
+                let shape = if *curvature == 0.0 { Primitive::Line } else { Primitive::Arc { curvature: *curvature } };
                 all.push(Geometry { start: *start, heading: *start_direction, length: *length, shape });
             }
             Piece::Cubic(Cubic { points, legs }) => all.push(cubic(points.p[0], *legs).map_err(blame)?),
@@ -141,7 +141,7 @@ fn cubic(start: Vector, legs: [Vector; 3]) -> Result<Geometry, String> {
         start,
         heading: s.atan2(c),
         length: arc_length(speed, 0.0, 1.0),
-        shape: Shape::Cubic { u: [3.0 * along, 3.0 * bend[0], last[0]], v: [0.0, 3.0 * bend[1], last[1]] },
+        shape: Primitive::Cubic { u: [3.0 * along, 3.0 * bend[0], last[0]], v: [0.0, 3.0 * bend[1], last[1]] },
     })
 }
 
@@ -219,11 +219,11 @@ fn plan_view(out: &mut Writer<Vec<u8>>, road: &[Geometry]) -> io::Result<()> {
         out.create_element("geometry").with_attributes(place.iter().map(|(name, x)| (*name, &x[..]))).write_inner_content(
             |out| {
                 match shape {
-                    Shape::Line => out.create_element("line").write_empty()?,
-                    Shape::Arc { curvature } => {
+                    Primitive::Line => out.create_element("line").write_empty()?,
+                    Primitive::Arc { curvature } => {
                         out.create_element("arc").with_attribute(("curvature", &*format!("{curvature:?}"))).write_empty()?
                     }
-                    Shape::Cubic { u, v } => {
+                    Primitive::Cubic { u, v } => {
                         let names = ["aU", "bU", "cU", "dU", "aV", "bV", "cV", "dV"];
                         let numbers = [0.0, u[0], u[1], u[2], 0.0, v[0], v[1], v[2]].map(|x| format!("{x:?}"));
                         out.create_element("paramPoly3")

@@ -5,6 +5,7 @@
 //! would add up to at most `sin φ0 - sin φ1`, and their product to at most `cos²((φ0 + φ1)/2) sin²((φ1 - φ0)/2)`.
 //! Likewise Q < 0 and κ0 < κ1 leave no other signs of the factors.
 
+use crate::num::Verdict;
 use crate::num::bernstein::Certain;
 use crate::num::formula;
 use fearless_simd::prelude::*;
@@ -32,7 +33,7 @@ pub(super) fn lanes<S: Simd>(simd: S, sines: &Sines<f64>, kappa0: S::f64s, kappa
 }
 
 /// The same for enclosed numbers; `None` when the precision does not suffice.
-pub(super) fn holds<N: Certain>(sines: &Sines<N>, kappa0: &N, kappa1: &N) -> Option<bool> {
+pub(super) fn holds<N: Certain>(sines: &Sines<N>, kappa0: &N, kappa1: &N) -> Verdict {
     let positive = |x: &N| x.certain_sign(0.0).map(|sign| sign == Greater);
     let (room0, room1) = (sines[0].sub(kappa0), kappa1.sub(&sines[1]));
     if !positive(&room0)? || !positive(&room1)? {

@@ -17,10 +17,11 @@
 //!
 //! **Factors.** Always, u, v and the square lie between the values that their own coordinates allow.
 
-use super::region::{Known, MOST_SIDES, add_pull, and, positive};
+use super::region::{MOST_SIDES, add_pull, positive};
 use crate::num::bernstein::Certain;
 use crate::num::sines::{SIN_ERROR, sin};
-use crate::num::{Ball, Form, Number, formula};
+use crate::num::verdict::and;
+use crate::num::{Ball, Form, Number, Verdict, formula};
 use std::cmp::Ordering::{Greater, Less};
 use std::f64::consts::FRAC_PI_2;
 
@@ -60,7 +61,7 @@ fn sines([low, high]: [f64; 2]) -> [Ball; 2] {
 }
 
 /// Whether the flag holds all over a box of the domain, or nowhere; and how much each coordinate moves f, about.
-pub(super) fn any(box_: &[[f64; 2]; 4]) -> (Option<bool>, [f64; 4]) {
+pub(super) fn any(box_: &[[f64; 2]; 4]) -> (Verdict, [f64; 4]) {
     let [phi0, phi1, kappa0, kappa1] = *box_;
     if phi0[0] >= phi1[1] {
         return (Some(false), [0.0; 4]);
@@ -91,7 +92,7 @@ pub(super) fn any(box_: &[[f64; 2]; 4]) -> (Option<bool>, [f64; 4]) {
 }
 
 /// Whether a spiral of rising curvature exists, wherever `φ0 < φ1`, for forms of φ0, φ1, κ0, κ1.
-pub(super) fn rising([phi0, phi1, kappa0, kappa1]: &[Form<4, 10>; 4], pull: &mut [f64; MOST_SIDES]) -> Known {
+pub(super) fn rising([phi0, phi1, kappa0, kappa1]: &[Form<4, 10>; 4], pull: &mut [f64; MOST_SIDES]) -> Verdict {
     let (u, v) = (phi0.sine().sub(kappa0), kappa1.sub(&phi1.sine()));
     // Halving is exact but for what underflows, which the forms' errors cover.
     let half = phi1.times(0.5).sine_of_sum(&phi0.times(-0.5));

@@ -1,7 +1,7 @@
 //! What a family can prove of its flags over a whole box of data.
 
 use crate::num::bernstein::{Quintic, halve, least};
-use crate::num::{Form, Number, formula};
+use crate::num::{Form, Number, Verdict, formula};
 
 /// Most coordinates of a box.
 pub const MOST_SIDES: usize = 4;
@@ -36,25 +36,8 @@ pub trait Region: Sync {
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts;
 }
 
-/// What is known of a condition all over a box: it holds, it fails, or neither is known.
-pub(super) type Known = Option<bool>;
-
-/// Whether both hold.
-pub(super) fn and(a: Known, b: Known) -> Known {
-    match (a, b) {
-        (Some(false), _) | (_, Some(false)) => Some(false),
-        (Some(true), Some(true)) => Some(true),
-        _ => None,
-    }
-}
-
-/// Whether one of both holds.
-pub(super) fn or(a: Known, b: Known) -> Known {
-    and(a.map(|a| !a), b.map(|b| !b)).map(|both| !both)
-}
-
 /// Whether a form is positive, or negative, all over the box.
-pub(super) fn positive<const K: usize, const H: usize>(form: &Form<K, H>) -> Known {
+pub(super) fn positive<const K: usize, const H: usize>(form: &Form<K, H>) -> Verdict {
     if form.low() > 0.0 {
         Some(true)
     } else if form.high() < 0.0 {
@@ -74,7 +57,7 @@ pub(super) fn add_pull<const K: usize, const H: usize>(pull: &mut [f64; MOST_SID
 
 impl Facts {
     /// Notes what is known of some flags.
-    pub(super) fn note(&mut self, flags: u8, known: Known) {
+    pub(super) fn note(&mut self, flags: u8, known: Verdict) {
         match known {
             Some(true) => self.inside |= flags,
             Some(false) => self.outside |= flags,
@@ -85,7 +68,7 @@ impl Facts {
 
 /// Whether a quintic in Bernstein's form is positive on [0, 1] all over the box, or negative somewhere on [0, 1] at
 /// each place of it.
-pub(super) fn unit_sign<const K: usize, const H: usize>(quintic: &Quintic<Form<K, H>>) -> Known {
+pub(super) fn unit_sign<const K: usize, const H: usize>(quintic: &Quintic<Form<K, H>>) -> Verdict {
     let middle: Quintic<f64> = quintic.map(|form| form.value);
     let (value, t) = least(&middle);
     if value < 0.0 {

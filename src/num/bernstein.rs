@@ -1,5 +1,6 @@
 //! Signs of polynomials and least values of quintics in Bernstein form on [0, 1], with proof.
 
+use super::Verdict;
 use super::formula::formula;
 use super::{Interval, Number};
 use crate::steps::step;
@@ -109,7 +110,7 @@ pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
 ///
 /// Coefficients bound the polynomial from below on their piece (convex hull); the outer two are its values there.
 /// A zero is never decided: the truth at a tie needs more than this test.
-pub fn positive<N: Certain, const K: usize>(c: &[N; K], error: f64, rounding: f64, depth: u32) -> Option<bool> {
+pub fn positive<N: Certain, const K: usize>(c: &[N; K], error: f64, rounding: f64, depth: u32) -> Verdict {
     // Relative from here on, because pieces may be much smaller than the whole.
     let unit = if rounding > 0.0 { 1.01 * rounding / largest(c).max(f64::MIN_POSITIVE) } else { 0.0 };
     positive_piece(c, error, unit, depth)
@@ -119,7 +120,7 @@ fn largest<N: Certain, const K: usize>(c: &[N; K]) -> f64 {
     c.iter().fold(0.0, |most, v| v.grain().max(most))
 }
 
-fn positive_piece<N: Certain, const K: usize>(c: &[N; K], error: f64, unit: f64, depth: u32) -> Option<bool> {
+fn positive_piece<N: Certain, const K: usize>(c: &[N; K], error: f64, unit: f64, depth: u32) -> Verdict {
     if [&c[0], &c[K - 1]].iter().any(|v| v.certain_sign(error) == Some(Ordering::Less)) {
         return Some(false);
     }

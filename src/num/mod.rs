@@ -9,6 +9,7 @@ mod number;
 pub mod roots;
 pub mod sines;
 mod twin;
+pub(crate) mod verdict;
 mod words;
 mod ziv;
 
@@ -18,6 +19,7 @@ pub(crate) use formula::formula;
 pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
 pub use twin::{TWIN_BITS, Twin};
+pub use verdict::Verdict;
 pub use words::told;
 pub use ziv::{FIRST_BITS, climb};
 

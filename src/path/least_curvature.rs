@@ -4,7 +4,7 @@ use super::queue::Queue;
 use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
-use crate::family::ph_path::{Found, Search};
+use crate::family::ph_path::{Candidate, Search};
 use crate::steps::step;
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
@@ -170,7 +170,7 @@ impl Space {
     }
 
     /// With one free number both sizes are that.
-    fn at(&self, x: [f64; 2]) -> Option<Found> {
+    fn at(&self, x: [f64; 2]) -> Option<Candidate> {
         step();
         self.search.at([x[0], x[self.dimensions() - 1]])
     }
@@ -182,7 +182,7 @@ impl Space {
     }
 
     /// The best path, and what is proved of all.
-    fn least(&self) -> Option<(Found, f64)> {
+    fn least(&self) -> Option<(Candidate, f64)> {
         let refined = |(x, found)| self.refined(x, found);
         // Of straight lines the one at constant speed.
         let plain = [1.0; 2];
@@ -207,7 +207,7 @@ impl Space {
     }
 
     /// The best of a coarse grid.
-    fn scanned(&self) -> Option<([f64; 2], Found)> {
+    fn scanned(&self) -> Option<([f64; 2], Candidate)> {
         let count = [200, 24][self.dimensions() - 1];
         let value = |[low, high]: [f64; 2], i: usize| low * (high / low).powf(i as f64 / count as f64);
         let others = if self.dimensions() == 1 { 0 } else { count };
@@ -233,7 +233,7 @@ impl Space {
 
     /// Steps in directions all around, turned each time, as long as they help and not for ever, then shorter ones: between a kink or the greatest
     /// length and what is better there may be little room, and along it a search would only creep.
-    fn refined(&self, mut x: [f64; 2], mut found: Found) -> ([f64; 2], Found) {
+    fn refined(&self, mut x: [f64; 2], mut found: Candidate) -> ([f64; 2], Candidate) {
         let (mut step, mut turn, around) = (0.1, 0.0, if self.dimensions() == 1 { 2 } else { 24 });
         let mut moves = 0;
         while step > 1e-12 {
@@ -258,7 +258,7 @@ impl Space {
     }
 }
 
-fn lesser(a: Option<([f64; 2], Found)>, b: Option<([f64; 2], Found)>) -> Option<([f64; 2], Found)> {
+fn lesser(a: Option<([f64; 2], Candidate)>, b: Option<([f64; 2], Candidate)>) -> Option<([f64; 2], Candidate)> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.1.most < a.1.most { b } else { a }),
         (a, b) => a.or(b),

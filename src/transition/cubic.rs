@@ -2,7 +2,7 @@
 
 use super::piece::{Cubic, Piece, of_legs};
 use super::placement::{Ends, Placement};
-use super::why::{Waver, Why, with_text};
+use super::why::{NonSpiral, Why, chosen_or_why};
 use crate::curve::CubicBezier;
 use crate::curve::arc_length;
 use crate::error::{Error, Result};
@@ -21,20 +21,10 @@ pub struct Answer {
     pub placement: Placement,
     /// Every cubic that matches the ends, spirals or not, by increasing f0.
     pub solutions: Vec<Solution>,
-    /// The chosen one, or why there is none.
-    #[serde(flatten)]
-    pub outcome: Outcome,
-}
-
-/// Whether there is a cubic spiral.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Outcome {
-    /// Index, into [`Answer::solutions`], of the spiral with the largest margin (of equal ones that with the smaller f0).
-    Chosen(usize),
-    /// There is none.
-    #[serde(serialize_with = "with_text")]
-    Why(Why),
+    /// The index, into [`Answer::solutions`], of the spiral with the largest margin (of equal margins, the one with the
+    /// smaller f0), or why there is no spiral.
+    #[serde(flatten, serialize_with = "chosen_or_why")]
+    pub outcome: std::result::Result<usize, Why>,
 }
 
 /// One cubic that matches the ends: a root (f0, f1) and its curve.
@@ -73,11 +63,11 @@ pub struct Solution {
 ///
 /// # Errors
 /// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control point leaves the range of doubles. That
-/// no spiral exists is no error but [`Outcome::Why`].
+/// no spiral exists is no error but an [`Answer::outcome`].
 pub fn spiral(ends: &Ends) -> Result<Answer> {
     let (datum, placement) = Placement::normalise(ends)?;
     if let Some(why) = Why::no_convex_arc(ends, &datum, &placement)? {
-        return Ok(Answer { ends: *ends, datum, placement, solutions: Vec::new(), outcome: Outcome::Why(why) });
+        return Ok(Answer { ends: *ends, datum, placement, solutions: Vec::new(), outcome: Err(why) });
     }
     let solved = solve(&datum)?;
     Answer::from_roots(ends, solved.roots(), solved.chosen())
@@ -93,11 +83,11 @@ impl Answer {
         let (datum, placement) = Placement::normalise(ends)?;
         let solutions = roots.iter().map(|root| Solution::new(&datum, &placement, root)).collect::<Result<Vec<_>>>()?;
         let outcome = match chosen {
-            Some(root) => Outcome::Chosen(index(roots, root)?),
+            Some(root) => Ok(index(roots, root)?),
             None => {
                 let arc = Why::no_convex_arc(ends, &datum, &placement)?;
-                let all = || solutions.iter().map(Solution::waver).collect();
-                Outcome::Why(arc.map_or_else(|| Why::no_cubic(ends, &datum, &placement, all()), Ok)?)
+                let all = || solutions.iter().map(Solution::non_spiral).collect();
+                Err(arc.map_or_else(|| Why::no_cubic(ends, &datum, &placement, all()), Ok)?)
             }
         };
         Ok(Answer { ends: *ends, datum, placement, solutions, outcome })
@@ -107,9 +97,9 @@ impl Answer {
     pub fn no_longer_than(mut self, longest: f64) -> Answer {
         let spirals = || self.solutions.iter().enumerate().filter(|(_, s)| s.spiral);
         let best = spirals().filter(|(_, s)| s.length <= longest).max_by(|a, b| a.1.margin.total_cmp(&b.1.margin));
-        if let Outcome::Chosen(_) = self.outcome {
+        if self.outcome.is_ok() {
             let length = spirals().map(|(_, s)| s.length).fold(f64::INFINITY, f64::min);
-            self.outcome = best.map_or(Outcome::Why(Why::TooLong { length, longest }), |(i, _)| Outcome::Chosen(i));
+            self.outcome = best.map(|(i, _)| i).ok_or(Why::TooLong { length, longest });
         }
         self
     }
@@ -121,18 +111,15 @@ impl Answer {
     /// # Errors
     /// Those of [`Placement::normalise`].
     pub fn with_remedies(mut self) -> Result<Answer> {
-        if let Outcome::Why(why) = self.outcome {
-            self.outcome = Outcome::Why(why.remedied(&self.ends, exists)?);
+        if let Err(why) = self.outcome {
+            self.outcome = Err(why.remedied(&self.ends, exists)?);
         }
         Ok(self)
     }
 
     /// The chosen spiral, if there is one.
     pub fn chosen(&self) -> Option<&Solution> {
-        match self.outcome {
-            Outcome::Chosen(i) => self.solutions.get(i),
-            Outcome::Why(_) => None,
-        }
+        self.solutions.get(*self.outcome.as_ref().ok()?)
     }
 }
 
@@ -154,8 +141,8 @@ impl Solution {
         Piece::Cubic(Cubic { points: self.control_points, legs: self.legs })
     }
 
-    fn waver(&self) -> Waver {
-        Waver { f0: self.f0, f1: self.f1, margin: self.margin, extrema: self.extrema.clone() }
+    fn non_spiral(&self) -> NonSpiral {
+        NonSpiral { f0: self.f0, f1: self.f1, margin: self.margin, extrema: self.extrema.clone() }
     }
 
     fn new(datum: &Datum, placement: &Placement, root: &Root) -> Result<Solution> {
@@ -179,14 +166,14 @@ impl Solution {
 impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.outcome, self.chosen()) {
-            (Outcome::Why(why), _) => writeln!(f, "{}", why.sentence("cubic spiral"))?,
+            (Err(why), _) => writeln!(f, "{}", why.sentence("cubic spiral"))?,
             (_, Some(Solution { f0, f1, margin, length, control_points, .. })) => {
                 writeln!(f, "cubic spiral (f0, f1) = ({f0:?}, {f1:?}), margin {margin:?}, length {length:?}; control points")?;
                 for [x, y] in control_points.p {
                     writeln!(f, "  ({x:?}, {y:?})")?;
                 }
             }
-            (Outcome::Chosen(_), None) => writeln!(f, "no such solution")?,
+            (Ok(_), None) => writeln!(f, "no such solution")?,
         }
         write!(f, "{}", self.placement.described(&self.datum))
     }

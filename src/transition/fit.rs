@@ -1,8 +1,7 @@
 //! One question for all families: the spiral between two ends in the user's units, or why there is none.
 
-use super::{Ends, InvoluteBetween, Kind, Outcome, PhOutcome, Piece, involute_between, ph_spiral, spiral, why_no_spiral};
+use super::{Ends, InvoluteBetween, Kind, Piece, involute_between, ph_spiral, spiral, why_no_spiral};
 use crate::error::{Error, Result};
-use crate::family::any_spiral::InvoluteOutcome;
 
 /// What [`fit`] found.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,10 +41,7 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
             Ok(Fit {
                 solutions: answer.solutions.iter().map(|s| s.piece()).collect(),
                 spirals: answer.solutions.iter().map(|s| s.spiral).collect(),
-                outcome: match answer.outcome {
-                    Outcome::Chosen(i) => Ok(i),
-                    Outcome::Why(why) => Err(why.sentence("cubic spiral")),
-                },
+                outcome: answer.outcome.map_err(|why| why.sentence("cubic spiral")),
             })
         }
         Kind::PhQuintic => {
@@ -53,10 +49,7 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
             Ok(Fit {
                 solutions: answer.solutions.iter().map(|s| Piece::PhQuintic(s.curve)).collect(),
                 spirals: answer.solutions.iter().map(|s| s.spiral).collect(),
-                outcome: match answer.outcome {
-                    PhOutcome::Chosen(i) => Ok(i),
-                    PhOutcome::Why(why) => Err(why.sentence("PH quintic spiral")),
-                },
+                outcome: answer.outcome.map_err(|why| why.sentence("PH quintic spiral")),
             })
         }
         Kind::Involute => {
@@ -64,9 +57,9 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
             let solutions: Vec<Piece> = InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute).into_iter().collect();
             let length: f64 = solutions.iter().map(Piece::length).sum();
             let outcome = match found.outcome {
-                InvoluteOutcome::Curve { .. } if length <= longest => Ok(0),
-                InvoluteOutcome::Curve { .. } => Err(format!("the spiral is {length:?} long, longer than {longest:?}")),
-                InvoluteOutcome::None(_) => Err(why_no_spiral(ends, &found).unwrap_or_default()),
+                Ok(_) if length <= longest => Ok(0),
+                Ok(_) => Err(format!("the spiral is {length:?} long, longer than {longest:?}")),
+                Err(_) => Err(why_no_spiral(ends, &found).unwrap_or_default()),
             };
             Ok(Fit { spirals: vec![true; solutions.len()], solutions, outcome })
         }

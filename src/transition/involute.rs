@@ -4,7 +4,7 @@ use super::none::NoSpiral;
 use super::placement::Ends;
 use crate::curve::vector::{Vector, add, turn};
 use crate::error::{Error, Result};
-use crate::family::any_spiral::{GREATEST, Involute, InvoluteOutcome, InvolutePoint, Spiral, involute};
+use crate::family::any_spiral::{GREATEST, Involute, InvolutePoint, Spiral, involute};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -46,7 +46,7 @@ impl Frame {
 /// Why no spiral of any kind joins two ends, in a sentence; `None` where one does. In the user's units; within rounding of
 /// a boundary, in those of the chord's frame.
 pub fn why_no_spiral(ends: &Ends, found: &Spiral) -> Option<String> {
-    let InvoluteOutcome::None(why) = &found.outcome else { return None };
+    let Err(why) = &found.outcome else { return None };
     let why = NoSpiral::of(ends).ok().flatten().map_or_else(|| why.to_string(), |why| why.to_string());
     Some(format!("no spiral of any kind joins these ends: {why}"))
 }

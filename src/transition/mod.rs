@@ -38,15 +38,15 @@ mod turn;
 mod why;
 mod words;
 
-pub use cubic::{Answer, Outcome, Solution, spiral};
+pub use cubic::{Answer, Solution, spiral};
 pub use figure::{EndCircle, Figure, Sample};
 pub use fit::{Fit, fit};
 pub use involute::{Frame, involute_between, polyline, why_no_spiral};
 pub use none::{Bound, Need, NoSpiral};
-pub use ph_quintic::{PhAnswer, PhOutcome, PhSolution, ph_spiral};
+pub use ph_quintic::{PhAnswer, PhSolution, ph_spiral};
 pub use piece::{Arc, At, Cubic, InvoluteBetween, Kind, Line, Piece, TrigPart};
 pub use placement::{Ends, Placement, direction_of};
 pub use remedy::Remedy;
 pub use stations::{Station, stations};
 pub use turn::{Turn, Which};
-pub use why::{Waver, Why};
+pub use why::{NonSpiral, Why};

@@ -2,7 +2,7 @@
 
 use super::none::NoSpiral;
 use super::placement::{Ends, Placement};
-use super::why::{Why, bends, with_text};
+use super::why::{Why, bends, chosen_or_why};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
@@ -21,20 +21,9 @@ pub struct PhAnswer {
     pub placement: Placement,
     /// Every PH quintic of this family that matches the ends, spirals or not, by increasing A.
     pub solutions: Vec<PhSolution>,
-    /// The chosen one, or why there is none.
-    #[serde(flatten)]
-    pub outcome: PhOutcome,
-}
-
-/// Whether there is a PH quintic spiral.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum PhOutcome {
-    /// Index, into [`PhAnswer::solutions`], of the spiral of least bending energy.
-    Chosen(usize),
-    /// There is none.
-    #[serde(serialize_with = "with_text")]
-    Why(Why),
+    /// The index, into [`PhAnswer::solutions`], of the spiral of least bending energy, or why there is no spiral.
+    #[serde(flatten, serialize_with = "chosen_or_why")]
+    pub outcome: std::result::Result<usize, Why>,
 }
 
 /// One PH quintic that matches the ends, in the user's units.
@@ -75,18 +64,18 @@ pub struct PhSolution {
 ///
 /// # Errors
 /// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control
-/// point leaves the range of doubles. That no spiral exists is no error but [`PhOutcome::Why`].
+/// point leaves the range of doubles. That no spiral exists is no error but a [`PhAnswer::outcome`].
 pub fn ph_spiral(ends: &Ends) -> Result<PhAnswer> {
     let (datum, placement) = Placement::normalise(ends)?;
     let answer = |solutions, outcome| PhAnswer { ends: *ends, datum, placement, solutions, outcome };
     if let Some(why) = Why::no_convex_arc(ends, &datum, &placement)? {
-        return Ok(answer(Vec::new(), PhOutcome::Why(why)));
+        return Ok(answer(Vec::new(), Err(why)));
     }
     let solved = solve(&datum)?;
     let solutions = solved.all().iter().map(|q| PhSolution::new(&placement, q)).collect::<Result<Vec<_>>>()?;
     let outcome = match solved.chosen_index() {
-        Some(i) => PhOutcome::Chosen(i),
-        None => PhOutcome::Why(why(ends, &placement, &solutions)?),
+        Some(i) => Ok(i),
+        None => Err(why(ends, &placement, &solutions)?),
     };
     Ok(answer(solutions, outcome))
 }
@@ -96,9 +85,9 @@ impl PhAnswer {
     pub fn no_longer_than(mut self, longest: f64) -> PhAnswer {
         let spirals = || self.solutions.iter().enumerate().filter(|(_, s)| s.spiral);
         let best = spirals().filter(|(_, s)| s.length <= longest).min_by(|a, b| a.1.energy.total_cmp(&b.1.energy));
-        if let PhOutcome::Chosen(_) = self.outcome {
+        if self.outcome.is_ok() {
             let length = spirals().map(|(_, s)| s.length).fold(f64::INFINITY, f64::min);
-            self.outcome = best.map_or(PhOutcome::Why(Why::TooLong { length, longest }), |(i, _)| PhOutcome::Chosen(i));
+            self.outcome = best.map(|(i, _)| i).ok_or(Why::TooLong { length, longest });
         }
         self
     }
@@ -110,18 +99,15 @@ impl PhAnswer {
     /// # Errors
     /// Those of [`Placement::normalise`].
     pub fn with_remedies(mut self) -> Result<PhAnswer> {
-        if let PhOutcome::Why(why) = self.outcome {
-            self.outcome = PhOutcome::Why(why.remedied(&self.ends, exists)?);
+        if let Err(why) = self.outcome {
+            self.outcome = Err(why.remedied(&self.ends, exists)?);
         }
         Ok(self)
     }
 
     /// The chosen spiral, if there is one.
     pub fn chosen(&self) -> Option<&PhSolution> {
-        match self.outcome {
-            PhOutcome::Chosen(i) => self.solutions.get(i),
-            PhOutcome::Why(_) => None,
-        }
+        self.solutions.get(*self.outcome.as_ref().ok()?)
     }
 }
 
@@ -175,7 +161,7 @@ fn why(ends: &Ends, placement: &Placement, solutions: &[PhSolution]) -> Result<W
 impl fmt::Display for PhAnswer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.outcome, self.chosen()) {
-            (PhOutcome::Why(why), _) => writeln!(f, "{}", why.sentence("PH quintic spiral"))?,
+            (Err(why), _) => writeln!(f, "{}", why.sentence("PH quintic spiral"))?,
             (_, Some(PhSolution { a, b, margin, length, energy, control_points, .. })) => {
                 writeln!(
                     f,
@@ -185,7 +171,7 @@ impl fmt::Display for PhAnswer {
                     writeln!(f, "  ({x:?}, {y:?})")?;
                 }
             }
-            (PhOutcome::Chosen(_), None) => writeln!(f, "no such solution")?,
+            (Ok(_), None) => writeln!(f, "no such solution")?,
         }
         write!(f, "{}", self.placement.described(&self.datum))
     }

@@ -14,22 +14,22 @@
 //! assert_eq!((line.length(), line.at(0.5).point), (5.0, [1.5, 2.0]));
 //! ```
 
-mod told;
+mod raw;
 
 use super::{Ends, Frame, involute_between};
 use crate::curve::vector::{Vector, add, length, lerp, scale, sub};
 use crate::curve::{CubicBezier, Jet, PhQuintic, TrigBezier, arc_length, casteljau};
 use crate::error::{Error, Result};
-use crate::family::any_spiral::{Involute, InvoluteOutcome, Spiral};
+use crate::family::any_spiral::{Image, Involute, Spiral};
+use raw::RawPiece;
 use serde::{Deserialize, Serialize};
-use told::Told;
 
 /// A curve between two points, in the user's plane and unit of length.
 ///
 /// As JSON it has its `kind`, the numbers that rebuild it exactly, its `control_points` where it has them, and its `length`.
 #[expect(clippy::large_enum_variant, reason = "paths have few pieces, and a box for one kind would show in every match")]
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(try_from = "Told")]
+#[serde(try_from = "RawPiece")]
 pub enum Piece {
     /// A cubic Bézier curve.
     Cubic(Cubic),
@@ -120,8 +120,8 @@ impl InvoluteBetween {
     pub fn new(ends: &Ends, turns: [u32; 2]) -> Result<InvoluteBetween> {
         let (found, frame) = involute_between(ends, turns)?;
         match found.outcome {
-            InvoluteOutcome::Curve { curve, .. } => Ok(InvoluteBetween { ends: *ends, turns, curve, frame }),
-            InvoluteOutcome::None(why) => Err(Error::Domain(format!("no involute has these ends: {why}"))),
+            Ok(Image { curve, .. }) => Ok(InvoluteBetween { ends: *ends, turns, curve, frame }),
+            Err(why) => Err(Error::Domain(format!("no involute has these ends: {why}"))),
         }
     }
 

@@ -6,7 +6,7 @@ use crate::curve::PhQuintic;
 use crate::curve::quintic::complex;
 use crate::curve::vector::{Vector, add, length, scale, sub, turn};
 use crate::error::{Error, Result};
-use crate::family::any_spiral::Chord;
+use crate::family::any_spiral;
 use crate::family::cubic::Datum;
 use num_complex::Complex64;
 use serde::Serialize;
@@ -70,14 +70,14 @@ impl Ends {
     }
 
     /// The ends seen from their chord, and half the chord as a vector. A half turn is [`PI`], and stands for both signs.
-    pub(super) fn chord(&self) -> Result<(Chord, Vector)> {
+    pub(super) fn chord(&self) -> Result<(any_spiral::Datum, Vector)> {
         self.check_finite()?;
         let (half, size) = self.half_chord()?;
         let chord = half[1].atan2(half[0]);
         let (alpha, beta) = (against(self.start_direction, chord), against(self.end_direction, chord));
         let k1 = by_chord("start", self.start_curvature, size)?;
         let k2 = by_chord("end", self.end_curvature, size)?;
-        Ok((Chord { alpha, beta, k1, k2 }, half))
+        Ok((any_spiral::Datum { alpha, beta, k1, k2 }, half))
     }
 
     /// Half the chord as a vector, and its length.
@@ -140,7 +140,7 @@ impl Placement {
     /// [`Error::Domain`] naming the value: not finite; coincident points; half chord or a curvature times it
     /// outside the range of normal doubles.
     pub fn normalise(ends: &Ends) -> Result<(Datum, Placement)> {
-        let (Chord { alpha, beta, k1: at_start, k2: at_end }, half) = ends.chord()?;
+        let (any_spiral::Datum { alpha, beta, k1: at_start, k2: at_end }, half) = ends.chord()?;
 
         let (alpha, beta) = half_turns_to_their_side(alpha, beta, at_start + at_end >= 0.0);
         let (sides_of_left, sides_of_right) = (alpha < 0.0 && beta > 0.0, alpha > 0.0 && beta < 0.0);

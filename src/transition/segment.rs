@@ -112,25 +112,12 @@ pub struct Added {
     pub end_direction: f64,
 }
 
-/// The segment, or why there is none.
-#[expect(clippy::large_enum_variant, reason = "one answer at a time, and nearly always a segment")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Outcome {
-    /// The segment; [`Added::level`] says whether it is a spiral.
-    Segment(Added),
-    /// No segment of this family, angle and radius ends there.
-    None {
-        /// The condition that fails, with its numbers.
-        why: String,
-    },
-}
-
 fn level_name<S: serde::Serializer>(level: &Level, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(level.name())
 }
 
-/// Adds a segment to the end of a line or circle.
+/// Adds a segment to the end of a line or circle; [`Added::level`] says whether it is a spiral. Where no segment of this
+/// family, angle and radius ends at the target, it names the condition that fails, with its numbers.
 ///
 /// # Accuracy
 /// Levels are proved (see [`Added::level`]). Control points are within a few ulp of the largest coordinate difference; a given end
@@ -142,7 +129,7 @@ fn level_name<S: serde::Serializer>(level: &Level, serializer: S) -> Result<S::O
 ///
 /// # Source
 /// Habib & Sakai (CGIV 2004), cases 1 and 2, (4), (12), (17).
-pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
+pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<Added, String>> {
     let Request { start, direction, radius, theta, target, .. } = *request;
     let finite = [("start x", start[0]), ("start y", start[1]), ("direction", direction)];
     if let Some((name, value)) = finite.iter().find(|(_, value)| !value.is_finite()) {
@@ -163,7 +150,7 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
             let [xi, eta] = frame.to_local(point)?;
             let reached = solve(kind, &Datum { theta, xi, eta })?;
             let segment = if case == 1 { reached.case1 } else { reached.case2 };
-            let Some(s) = segment else { return Ok(Outcome::None { why: why(case, theta, point, [xi, eta]) }) };
+            let Some(s) = segment else { return Ok(Err(why(case, theta, point, [xi, eta]))) };
             (xi, eta, s.m, s.q, s.level)
         }
     };
@@ -190,20 +177,7 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<Outcome> {
         )));
     }
     let end_direction = direction + if frame.right { -theta } else { theta };
-    Ok(Outcome::Segment(Added {
-        case,
-        xi,
-        eta,
-        m,
-        q,
-        level,
-        control_points,
-        local_control_points,
-        length,
-        piece,
-        legs,
-        end_direction,
-    }))
+    Ok(Ok(Added { case, xi, eta, m, q, level, control_points, local_control_points, length, piece, legs, end_direction }))
 }
 
 fn positive(name: &str, value: f64) -> Result<()> {

@@ -58,7 +58,7 @@ pub enum Why {
     /// Cubics with these ends exist, but the curvature of none is monotone.
     NotMonotone {
         /// All of them.
-        roots: Vec<Waver>,
+        roots: Vec<NonSpiral>,
         /// What would help; empty unless asked for.
         remedies: Vec<Remedy>,
     },
@@ -85,7 +85,7 @@ pub enum Why {
 
 /// A cubic that matches the ends and is no spiral.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Waver {
+pub struct NonSpiral {
     /// f0 of the root.
     pub f0: f64,
     /// f1 of the root.
@@ -119,7 +119,7 @@ impl Why {
 
     /// Explains a proved "no" of cubics, all of which are given. In double precision, so within rounding of a boundary it may name the
     /// neighbouring reason.
-    pub(super) fn no_cubic(ends: &Ends, datum: &Datum, placement: &Placement, roots: Vec<Waver>) -> Result<Why> {
+    pub(super) fn no_cubic(ends: &Ends, datum: &Datum, placement: &Placement, roots: Vec<NonSpiral>) -> Result<Why> {
         if let Some(none) = NoSpiral::of(ends)? {
             return Ok(Why::NoSpiralOfAnyKind(none));
         }
@@ -220,9 +220,9 @@ impl fmt::Display for Why {
     }
 }
 
-impl fmt::Display for Waver {
+impl fmt::Display for NonSpiral {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Waver { f0, f1, margin, extrema } = self;
+        let NonSpiral { f0, f1, margin, extrema } = self;
         write!(f, "root ({f0:?}, {f1:?}), margin {margin:?}, ")?;
         match extrema.as_slice() {
             [] => f.write_str("curvature extremum too faint to place in double precision"),
@@ -235,13 +235,21 @@ impl fmt::Display for Waver {
     }
 }
 
-/// The reason's numbers and, as `text`, its words.
-pub(super) fn with_text<S: Serializer>(why: &Why, serializer: S) -> Result<S::Ok, S::Error> {
+/// `chosen`, the index, or `why`: the reason's numbers and, as `text`, its words.
+pub(super) fn chosen_or_why<S: Serializer>(outcome: &Result<usize, Why>, serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
-    struct Told<'a> {
-        text: String,
-        #[serde(flatten)]
-        why: &'a Why,
+    #[serde(rename_all = "lowercase")]
+    enum Fields<'a> {
+        Chosen(usize),
+        Why {
+            text: String,
+            #[serde(flatten)]
+            why: &'a Why,
+        },
     }
-    Told { text: why.to_string(), why }.serialize(serializer)
+    match outcome {
+        Ok(chosen) => Fields::Chosen(*chosen),
+        Err(why) => Fields::Why { text: why.to_string(), why },
+    }
+    .serialize(serializer)
 }

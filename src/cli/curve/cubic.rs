@@ -2,14 +2,14 @@
 
 use super::{Found, SAMPLES, end_circles};
 use spiral_atlas::plot::{CurveFigure, Graph};
-use spiral_atlas::transition::{Answer, Ends, Figure, Outcome, Piece};
+use spiral_atlas::transition::{Answer, Ends, Figure, Piece};
 use spiral_atlas::{Error, Result};
 
 impl Found for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
-            Outcome::Chosen(i) => Ok(self.solutions.get(*i).map(|s| s.piece()).into_iter().collect()),
-            Outcome::Why(why) => Err(why.sentence("cubic spiral")),
+            Ok(i) => Ok(self.solutions.get(*i).map(|s| s.piece()).into_iter().collect()),
+            Err(why) => Err(why.sentence("cubic spiral")),
         }
     }
 

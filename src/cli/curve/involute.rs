@@ -2,7 +2,7 @@
 
 use super::{Found, end_circles};
 use serde::Serialize;
-use spiral_atlas::family::any_spiral::{Involute, InvoluteOutcome, InvolutePoint, Spiral, Split};
+use spiral_atlas::family::any_spiral::{Image, Involute, InvolutePoint, Spiral, Split};
 use spiral_atlas::plot::{CurveFigure, Graph};
 use spiral_atlas::transition::{Ends, Frame, InvoluteBetween, Piece, involute_between, polyline, why_no_spiral};
 use spiral_atlas::{Error, Result};
@@ -68,8 +68,8 @@ impl Found for Answer {
     fn text(&self) -> String {
         let Spiral { q, omega, turns, .. } = self.spiral;
         let text = match &self.spiral.outcome {
-            InvoluteOutcome::None(_) => self.spirals().err().unwrap_or_default() + "\n",
-            InvoluteOutcome::Curve { curve, split } => {
+            Err(_) => self.spirals().err().unwrap_or_default() + "\n",
+            Ok(Image { curve, split }) => {
                 let [rho, lambda] = curve.map();
                 let mut text = format!(
                     "spiral, the image of an involute, length {:?}; it has no control points: ask for points with `--samples 101`\n\

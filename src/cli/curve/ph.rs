@@ -2,14 +2,14 @@
 
 use super::{Found, drawn, end_circles};
 use spiral_atlas::plot::CurveFigure;
-use spiral_atlas::transition::{Ends, PhAnswer, PhOutcome, Piece};
+use spiral_atlas::transition::{Ends, PhAnswer, Piece};
 use spiral_atlas::{Error, Result};
 
 impl Found for PhAnswer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
-            PhOutcome::Chosen(i) => Ok(self.solutions.get(*i).map(|s| Piece::PhQuintic(s.curve)).into_iter().collect()),
-            PhOutcome::Why(why) => Err(why.sentence("PH quintic spiral")),
+            Ok(i) => Ok(self.solutions.get(*i).map(|s| Piece::PhQuintic(s.curve)).into_iter().collect()),
+            Err(why) => Err(why.sentence("PH quintic spiral")),
         }
     }
 

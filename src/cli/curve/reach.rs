@@ -2,11 +2,11 @@
 
 use super::super::output;
 use super::{Found, circle, drawn};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::{Kind, Level};
 use spiral_atlas::plot::CurveFigure;
 pub use spiral_atlas::transition::segment::Request;
-use spiral_atlas::transition::segment::{Added, Base, Outcome, add_segment};
+use spiral_atlas::transition::segment::{Added, Base, add_segment};
 use spiral_atlas::transition::{Piece, Turn};
 use spiral_atlas::{Error, Result};
 
@@ -16,8 +16,23 @@ pub struct Answer {
     #[serde(skip)]
     kind: Kind,
     request: Request,
-    #[serde(flatten)]
-    outcome: Outcome,
+    #[serde(flatten, serialize_with = "segment_or_none")]
+    outcome: std::result::Result<Added, String>,
+}
+
+/// `segment`, or `none` with the reason as its `why`.
+fn segment_or_none<S: Serializer>(outcome: &std::result::Result<Added, String>, to: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    #[serde(rename_all = "lowercase")]
+    enum Fields<'a> {
+        Segment(&'a Added),
+        None { why: &'a str },
+    }
+    match outcome {
+        Ok(added) => Fields::Segment(added),
+        Err(why) => Fields::None { why },
+    }
+    .serialize(to)
 }
 
 pub fn find(kind: Kind, request: &Request) -> Result<Answer> {
@@ -42,18 +57,18 @@ pub fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
 impl Found for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
-            Outcome::None { why } => Err(format!("no segment of `{}`: {why}", self.kind.name())),
-            Outcome::Segment(added) if added.level == Level::Exists => {
+            Err(why) => Err(format!("no segment of `{}`: {why}", self.kind.name())),
+            Ok(added) if added.level == Level::Exists => {
                 Err("the only segment of this family that ends there is no spiral: its curvature is not monotone".into())
             }
-            Outcome::Segment(added) => Ok(vec![added.piece.clone()]),
+            Ok(added) => Ok(vec![added.piece.clone()]),
         }
     }
 
     fn text(&self) -> String {
         match &self.outcome {
-            Outcome::None { why } => format!("no segment of `{}`: {why}", self.kind.name()),
-            Outcome::Segment(added) => {
+            Err(why) => format!("no segment of `{}`: {why}", self.kind.name()),
+            Ok(added) => {
                 let Added { case, xi, eta, m, q, level, length, end_direction, .. } = added;
                 let mut text =
                     format!("{}: case {case}, m = {m:?}, q = {q:?}, length {length:?}; control points\n", level_words(*level));
@@ -66,7 +81,7 @@ impl Found for Answer {
     }
 
     fn figure(&self) -> Result<CurveFigure> {
-        let Outcome::Segment(added) = &self.outcome else { return Err(Error::Domain("there is no segment".into())) };
+        let Ok(added) = &self.outcome else { return Err(Error::Domain("there is no segment".into())) };
         let request = &self.request;
         let (curve, curvature, derivative) = drawn(request.start, &added.local_control_points);
         let bent = if request.turn == Turn::Right { -1.0 } else { 1.0 } / request.radius;

@@ -166,7 +166,7 @@ impl<'t> Engine<'t> {
         self.pace.begin();
         loop {
             while next < range.end && flights.len() < IN_FLIGHT {
-                heed(stop)?;
+                fail_if_stopped(stop)?;
                 let (slot, flight) = self.launch(next, range.end)?;
                 next += u64::from(flight.nodes);
                 flights.push_back((slot, flight));
@@ -231,7 +231,7 @@ impl<'t> Engine<'t> {
         let mut waited = false;
         while !flight.landed(&self.gpu)? {
             waited = true;
-            heed(stop)?;
+            fail_if_stopped(stop)?;
             self.poll(wgpu::PollType::Wait { submission_index: Some(flight.index.clone()), timeout: Some(PATIENCE) })?;
         }
         Ok(waited)
@@ -261,6 +261,6 @@ impl RunStats {
 }
 
 /// Fails when the user asked to stop.
-fn heed(stop: &AtomicBool) -> Result<()> {
+fn fail_if_stopped(stop: &AtomicBool) -> Result<()> {
     if stop.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
 }

@@ -4,7 +4,7 @@
 //! its chord is `X + iP = c e^(iω)` in a suitable frame, `X = t0 sin θ`, `P = sin θ - θ cos θ`; so θ is the root of
 //! `F = cos ω P - sin ω X = c sin(ω(θ) - ω)`, where ω(θ) increases.
 
-use super::shape::Shape;
+use super::differences::Differences;
 use crate::num::roots::{Curve, bracketed, enclose};
 use crate::num::{Interval, formula};
 use std::cell::Cell;
@@ -138,7 +138,7 @@ impl Curve for Equation {
 
     fn guess(&self, theta: f64) -> f64 {
         let (sin, cos) = theta.sin_cos();
-        let shape = Shape::new(theta, sin, cos);
+        let shape = Differences::new(theta, sin, cos);
         // t0 sin ω, by the quotient that may be moderate where both are not.
         let side = self.sin.approx();
         let steep = self.q.sqrt().and_then(|root| self.sin.over(&root)).map_or(0.0, |x| x.approx());

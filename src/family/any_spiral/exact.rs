@@ -8,13 +8,18 @@ use crate::error::Result;
 use crate::family::{NO_VALUE, outer};
 use crate::num::sines::two_sum;
 use crate::num::{Interval, Number, Real, TWIN_BITS, Twin, climb, formula};
+use serde::Serialize;
 
-/// Angles against the chord and curvatures times half the chord, taken as exact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Datum {
+/// Two ends seen from their chord: the curve starts at (-1, 0) and ends at (1, 0). Its numbers are taken as exact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Datum {
+    /// Direction at the start, counter-clockwise from the chord, radians, -π to π.
     pub alpha: f64,
+    /// Direction at the end.
     pub beta: f64,
+    /// Signed curvature at the start times half the chord, positive to the left.
     pub k1: f64,
+    /// Signed curvature at the end times half the chord.
     pub k2: f64,
 }
 
@@ -30,7 +35,7 @@ pub(super) fn flags(exists: bool, k1: f64, k2: f64) -> u8 {
 
 impl Datum {
     /// The data seen in a mirror along the chord.
-    pub fn mirrored(self) -> Datum {
+    pub(crate) fn mirrored(self) -> Datum {
         Datum { alpha: -self.alpha, beta: -self.beta, k1: -self.k1, k2: -self.k2 }
     }
 
@@ -42,7 +47,7 @@ impl Datum {
     ///
     /// # Errors
     /// [`crate::Error::Undecided`] at the precision cap.
-    pub fn code(&self) -> Result<(Code, usize)> {
+    pub(crate) fn code(&self) -> Result<(Code, usize)> {
         let code = |exists| Code::new(flags(exists, self.k1, self.k2), 0);
         let side = side(self.alpha, self.beta);
         if side == 0.0 || side * self.k1 >= side * self.k2 {
@@ -70,7 +75,7 @@ impl Datum {
     }
 
     /// Q; where it is rational it comes out exactly.
-    pub fn q(&self, bits: usize) -> Interval {
+    pub(crate) fn q(&self, bits: usize) -> Interval {
         let (k1, k2) = (Interval::new(self.k1, bits), Interval::new(self.k2, bits));
         let (sin0, sin1, square) = self.sines(bits);
         if self.alpha == self.beta {
@@ -80,7 +85,7 @@ impl Datum {
     }
 
     /// Q in two doubles; `None` where angles are so small that halving their sum might not be exact.
-    pub fn q_of_twins(&self) -> Option<Twin> {
+    pub(crate) fn q_of_twins(&self) -> Option<Twin> {
         let number = |x: f64| Twin::of(x, TWIN_BITS);
         let (k1, k2) = (number(self.k1), number(self.k2));
         let ((sin0, cos0), (sin1, cos1)) = (Twin::sine_cosine(self.alpha), Twin::sine_cosine(self.beta));
@@ -101,7 +106,7 @@ impl Datum {
     }
 
     /// `(α + β)/2`.
-    pub fn omega(&self, bits: usize) -> Interval {
+    pub(crate) fn omega(&self, bits: usize) -> Interval {
         formula!(0.5 * (Interval::new(self.alpha, bits) + Interval::new(self.beta, bits)))
     }
 
@@ -109,7 +114,7 @@ impl Datum {
     ///
     /// # Errors
     /// [`crate::Error::Undecided`] at the precision cap.
-    pub fn scalars(&self, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+    pub(crate) fn scalars(&self, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
         let fast = Pair::new(self.alpha, self.beta).map(|pair| Fast::new(self.k1, self.k2, &pair));
         self.fill(code, which, out, |which| match (which, &fast) {
             (1, _) => self.rounded_omega(),
@@ -121,7 +126,7 @@ impl Datum {
     ///
     /// # Errors
     /// As there.
-    pub fn exact_scalars(&self, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
+    pub(crate) fn exact_scalars(&self, code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
         self.fill(code, which, out, |_| None)
     }
 

@@ -1,8 +1,8 @@
 //! Scalars from doubles, with proof, for most nodes.
 
 use super::arc::bracket;
+use super::differences::Differences;
 use super::pair::Pair;
-use super::shape::Shape;
 use crate::num::roots::find;
 use crate::num::sines::{cos, sin};
 use std::cell::OnceCell;
@@ -86,10 +86,10 @@ struct Value {
 }
 
 impl Equation {
-    /// For 0 < θ <= 4.7. Counts of roundings are those of [`Shape`], with a little more for their products.
+    /// For 0 < θ <= 4.7. Counts of roundings are those of [`Differences`], with a little more for their products.
     fn at(&self, theta: f64) -> Value {
         let (sin, cos) = (sin(theta), cos(theta));
-        let shape = Shape::new(theta, sin, cos);
+        let shape = Differences::new(theta, sin, cos);
         let p_error = if theta < 1.0 { 8.0 * UNIT * shape.p } else { 14.0 * UNIT * (sin.abs() + theta * cos.abs()) };
         let t0 = (theta * theta + shape.w / self.q).sqrt();
         let t0_error = 48.0 * UNIT + 0.51 * self.spread;

@@ -5,7 +5,7 @@
 //!   the sum of two doubles. Signs of curvatures and their order are plain comparisons.
 //! - θ is the root of `F = cos ω P - sin ω X` (`arc.rs`) with `P = sin θ - θ cos θ`, `X = t0 sin θ`: (5) without arctangent or branches. The bracket follows from
 //!   ω alone. Doubles guess it (`num/roots.rs`), intervals enclose it.
-//! - `sin x - x cos x`, `x² - sin² x`, `x - sin x` cancel near 0: series there (`shape.rs`).
+//! - `sin x - x cos x`, `x² - sin² x`, `x - sin x` cancel near 0: series there (`differences.rs`).
 //! - Scalars are proved in doubles for most nodes (`fast.rs`) because intervals for each node would cost far more.
 //! - `involute/` evaluates each half of the curve in a form seen from its own end (`half.rs`), where all that cancels does so in letters; ends and
 //!   end curvatures are met to a rounding. Each half has the width of its own peak of speed as unit, so that nothing leaves the range of doubles.
@@ -16,17 +16,18 @@
 
 mod arc;
 mod bound;
+mod differences;
 mod exact;
 mod fast;
 mod involute;
 mod pair;
 mod region;
 mod shader;
-mod shape;
 mod table;
 
 pub use bound::least_end_curvature;
-pub use involute::{Chord, GREATEST, Involute, InvolutePoint, Outcome as InvoluteOutcome, Spiral, Split, WhyNone, involute};
+pub use exact::Datum;
+pub use involute::{GREATEST, Image, Involute, InvolutePoint, Spiral, Split, WhyNone, involute};
 
 use super::{Answer, Chart, Code, Count, Family, Flag, Region, Scalar, Table, coordinates, verdict};
 use crate::error::Result;
@@ -126,7 +127,7 @@ impl Family for AnySpiral {
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;
         let [first, beta, k1, k2] = *coordinates(point)?;
-        let found = involute(&Chord { alpha: if chart == 0 { first } else { -first }, beta, k1, k2 }, [0, 0])?;
+        let found = involute(&Datum { alpha: if chart == 0 { first } else { -first }, beta, k1, k2 }, [0, 0])?;
         let other = CHARTS[1 - chart].axes.iter().zip([-first, beta, k1, k2]);
         let invariants = [("Q", found.q), ("omega", found.omega)];
         let solution = |curve: &Involute| {

@@ -12,8 +12,10 @@
 
 use super::{AnySpiral, EXISTS, INFLECTION, RISING};
 use crate::family::outer_region::rising;
-use crate::family::region::{Facts, Known, MOST_SIDES, Region, and};
+use crate::family::region::{Facts, MOST_SIDES, Region};
 use crate::num::Form;
+use crate::num::Verdict;
+use crate::num::verdict::and;
 use std::f64::consts::PI;
 
 /// A form in φ0, φ1, κ0, κ1.
@@ -24,13 +26,13 @@ fn negative([low, high]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Whether a spiral of rising curvature exists, wherever `φ0 < φ1`.
-fn side(data: [[f64; 2]; 4], pull: &mut [f64; MOST_SIDES]) -> Known {
+fn side(data: [[f64; 2]; 4], pull: &mut [f64; MOST_SIDES]) -> Verdict {
     let forms: [Four; 4] = std::array::from_fn(|i| Four::centred(data[i], i));
     rising(&forms, pull)
 }
 
 /// Whether `a < b`, for every a and b of two ranges.
-fn below(a: [f64; 2], b: [f64; 2]) -> Known {
+fn below(a: [f64; 2], b: [f64; 2]) -> Verdict {
     if a[1] < b[0] {
         Some(true)
     } else if a[0] >= b[1] {
@@ -41,7 +43,7 @@ fn below(a: [f64; 2], b: [f64; 2]) -> Known {
 }
 
 /// Whether two numbers have opposite signs.
-fn opposite(a: [f64; 2], b: [f64; 2]) -> Known {
+fn opposite(a: [f64; 2], b: [f64; 2]) -> Verdict {
     if a[1] < 0.0 && b[0] > 0.0 || a[0] > 0.0 && b[1] < 0.0 {
         Some(true)
     } else if (a[0] >= 0.0 || b[1] <= 0.0) && (a[1] <= 0.0 || b[0] >= 0.0) {
@@ -78,7 +80,7 @@ impl Region for AnySpiral {
                 (Some(true), _) => side(data, &mut pull),
                 (_, Some(true)) => side(data.map(negative), &mut pull),
                 (up, down) => {
-                    let refuted = |sign: Known, data, pull: &mut _| sign == Some(false) || side(data, pull) == Some(false);
+                    let refuted = |sign: Verdict, data, pull: &mut _| sign == Some(false) || side(data, pull) == Some(false);
                     let none = refuted(up, data, &mut pull) && refuted(down, data.map(negative), &mut pull);
                     if !none {
                         // The angles alone may part the two.

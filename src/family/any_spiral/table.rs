@@ -1,6 +1,6 @@
 //! Any spiral on a grid.
 
-use super::exact::Datum;
+use super::Datum;
 use super::pair::{PAIR_ERROR, Pair};
 use super::{AnySpiral, Code, EXISTS, INFLECTION, RISING};
 use crate::error::{Error, Result};

@@ -7,7 +7,8 @@ use crate::error::Result;
 use crate::family::outer;
 use crate::num::bernstein::{MOST_HALVINGS, Quintic, positive};
 use crate::num::roots::{Curve, bracketed, enclose};
-use crate::num::{Interval, Number, climb, formula};
+use crate::num::verdict;
+use crate::num::{Interval, Number, Verdict, climb, formula};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// A datum in one of the two charts, its numbers taken as exact.
@@ -222,26 +223,13 @@ fn judge(angles: &Angles, x: Interval, y: Interval, any: bool) -> Option<ExactRo
         &x * &end[1],
         formula!(5.0 * (x.square() * end[0])),
     ];
-    let theorem = any && three_valued(x_or_y.iter().map(|(b, w)| half_theorem(b, w)))?;
+    let theorem = any && verdict::all(x_or_y.iter().map(|(b, w)| half_theorem(b, w)))?;
     let spiral = theorem || any && positive(&quintic, 0.0, 0.0, MOST_HALVINGS)?;
     Some(ExactRoot { x, y, theorem, spiral, quintic })
 }
 
-/// Whether all hold: `Some(false)` as soon as one certainly does not.
-fn three_valued(conditions: impl Iterator<Item = Option<bool>>) -> Option<bool> {
-    let mut all = Some(true);
-    for condition in conditions {
-        match condition {
-            Some(false) => return Some(false),
-            None => all = None,
-            Some(true) => {}
-        }
-    }
-    all
-}
-
 /// One half of Theorem 3.1; see `filter::half_theorem`. Exact zeros count as holding, as in the paper.
-fn half_theorem(b: &[Interval; 3], w: &Interval) -> Option<bool> {
+fn half_theorem(b: &[Interval; 3], w: &Interval) -> Verdict {
     let not_negative = |v: &Interval| v.sign().map(|s| s != Less);
     let root = || {
         let over = formula!(8.0 * (b[0] * b[2] * w) - b[1].square());
@@ -251,5 +239,5 @@ fn half_theorem(b: &[Interval; 3], w: &Interval) -> Option<bool> {
             _ => None,
         }
     };
-    three_valued([not_negative(&b[0]), not_negative(&b[2]), root()].into_iter())
+    verdict::all([not_negative(&b[0]), not_negative(&b[2]), root()])
 }

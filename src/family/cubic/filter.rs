@@ -6,6 +6,7 @@
 use super::precision::{Precision, Prepared};
 use super::root::{Data, Root, Side, bernstein, bits, residual, root, sides};
 use crate::family::outer;
+use crate::num::Verdict;
 use crate::num::bernstein::{Quintic, positive};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask};
@@ -173,7 +174,7 @@ fn negative<S: Simd>(simd: S, polynomial: &[(S::f64s, S::f64s); 6], s: f64) -> u
 }
 
 /// [`positive`] with the f64 bounds: twenty halvings reach features of 2^-20 of the segment, finer than the bounds show.
-pub(super) fn spiral(c: &Quintic<f64>, error: f64) -> Option<bool> {
+pub(super) fn spiral(c: &Quintic<f64>, error: f64) -> Verdict {
     const DEPTH: u32 = 20;
     let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     positive(c, error, 5.0 * Precision::F64.unit * (largest + error), DEPTH)
@@ -206,7 +207,7 @@ fn count(counter: &mut [u64; 2], bit: u64) {
 }
 
 /// What is known of one root in a vector, for callers that want more than codes.
-pub(super) struct Found<'r, S: Simd> {
+pub(super) struct RootLanes<'r, S: Simd> {
     pub root: &'r Root<S>,
     pub start: &'r Side<S>,
     pub end: &'r Side<S>,
@@ -231,7 +232,7 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
     simd: S,
     prepared: &Prepared,
     d: &Data<S>,
-    mut seen: impl FnMut(Found<'_, S>),
+    mut seen: impl FnMut(RootLanes<'_, S>),
 ) -> Planes {
     const { assert!(S::f64s::LEN <= 8, "a plane is a byte") };
     let all = (1 << S::f64s::LEN) - 1;
@@ -288,7 +289,7 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
         planes.flags[2] |= theorem;
         planes.flags[3] |= spirals;
         count(&mut planes.spirals, spirals);
-        seen(Found { root: &root, start: &start, end: &end, wanted, theorem, spirals });
+        seen(RootLanes { root: &root, start: &start, end: &end, wanted, theorem, spirals });
     }
     planes
 }

@@ -2,7 +2,7 @@
 
 use super::Code;
 use super::exact::{self, Ends, ExactDatum, ExactRoot};
-use super::filter::{Found, visit};
+use super::filter::{RootLanes, visit};
 use super::precision::Prepared;
 use super::root::{Data, bernstein};
 use crate::curve::CubicBezier;
@@ -273,7 +273,7 @@ impl Solved {
 
 impl SolvedRoot {
     #[inline(always)]
-    fn new<S: Simd>(found: &Found<'_, S>) -> SolvedRoot {
+    fn new<S: Simd>(found: &RootLanes<'_, S>) -> SolvedRoot {
         let (c, error) = bernstein(found.start, found.end, found.root, 0);
         let at = |v: &S::f64s| v.as_slice()[0];
         let delta = at(&found.root.delta);

@@ -22,7 +22,7 @@ mod table;
 mod truth;
 
 pub(crate) use arc::bends_less;
-pub(crate) use range::{Found, Search};
+pub(crate) use range::{Candidate, Search};
 
 use super::{Answer, Chart, Count, Family, Flag, Scalar, Table};
 use crate::error::Result;

@@ -16,7 +16,7 @@ pub(crate) struct Search {
 
 /// One solution: its greatest |κ|, as doubles see it, how much longer it is than the chord, and its pre-image, for the chord from 0 to 1.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Found {
+pub(crate) struct Candidate {
     pub most: f64,
     pub beyond: f64,
     pub preimage: [[f64; 2]; 3],
@@ -36,14 +36,14 @@ impl Search {
     }
 
     /// The solution at these sizes that bends least.
-    pub fn at(&self, size: [f64; 2]) -> Option<Found> {
+    pub fn at(&self, size: [f64; 2]) -> Option<Candidate> {
         let curves = curves::<Ball>(&Datum { kind: Kind::Hermite, theta: self.theta, size }, 53)?;
         if curves.straight {
             let [a, b] = size.map(f64::sqrt);
             let middle = ((120.0 - 15.0 * (a * a + b * b) + 10.0 * a * b).sqrt() - 3.0 * (a + b)) / 4.0;
-            return Some(Found { most: 0.0, beyond: 0.0, preimage: [[a, 0.0], [middle, 0.0], [b, 0.0]] });
+            return Some(Candidate { most: 0.0, beyond: 0.0, preimage: [[a, 0.0], [middle, 0.0], [b, 0.0]] });
         }
-        let found = |part: Arc<Ball>, whole: &Arc<Ball>| Found {
+        let found = |part: Arc<Ball>, whole: &Arc<Ball>| Candidate {
             most: part.guess().1,
             beyond: whole.beyond_chord().value,
             preimage: whole.w.map(|z| z.map(|x| x.value)),

@@ -4,13 +4,13 @@
 //! w1 can do: `√Z > 3(a + b) - 4m`, or `5 > l0 + l1 + ab - (a + b)m`. Squared twice that is a question about the sign of `x + y ab` for
 //! polynomials x, y in l0, l1, and so of `x² - y² l0 l1`: in doubles' intervals that is exact at some precision, and 0 is known as 0.
 
-use crate::num::{Interval, formula};
+use crate::num::{Interval, Verdict, formula};
 use std::cmp::Ordering::{self, Equal, Greater};
 
 /// Whether some line with these end speeds, in chords, moves on throughout; `None` where the precision does not suffice.
 ///
 /// Z must not be negative.
-pub(super) fn moves_on(size: [f64; 2], bits: usize) -> Option<bool> {
+pub(super) fn moves_on(size: [f64; 2], bits: usize) -> Verdict {
     let [l0, l1] = size.map(|l| Interval::new(l, bits));
     let (sum, product) = (&l0 + &l1, &l0 * &l1);
     let less = sum.plus(-5.0);

@@ -6,6 +6,7 @@ use super::datum::{Datum, Turned};
 use super::{ONE_WAY, PAPER, PEAK_INSIDE, REGULAR};
 use crate::family::Code;
 use crate::num::Real;
+use crate::num::Verdict;
 use crate::num::bernstein::positive;
 use std::cmp::Ordering::{Greater, Less};
 
@@ -145,7 +146,7 @@ fn winners<'c, N: Real>(mut close: Vec<Seen<'c, N>>, datum: &Datum, bits: usize)
 }
 
 /// Whether h keeps its sign.
-fn one_way<N: Real>(curve: &Arc<N>) -> Option<bool> {
+fn one_way<N: Real>(curve: &Arc<N>) -> Verdict {
     let turn = &curve.turn;
     let depth = if turn[0].bits() <= 53 { 20 } else { 100 };
     let [first, _, last] = [0, 1, 2].map(|i| turn[i].certain_sign(0.0));
@@ -157,7 +158,7 @@ fn one_way<N: Real>(curve: &Arc<N>) -> Option<bool> {
 }
 
 /// Whether |κ| is greatest strictly inside, and greater there than at both ends.
-fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
+fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Verdict {
     if seen.curve.tied {
         return Some(false);
     }

@@ -26,9 +26,10 @@ use super::shape::Shape;
 use super::{ANY_SPIRAL, PhQuintic, SOLVABLE, SPIRAL};
 use crate::family::hermite::holds_box;
 use crate::family::outer_region::any;
-use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
+use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
 use crate::num::bernstein::Certain;
-use crate::num::{Form, Number, Real};
+use crate::num::verdict::{and, or};
+use crate::num::{Form, Number, Real, Verdict};
 
 /// A form in φ0, φ1, κ0, κ1.
 type Four = Form<4, 10>;
@@ -75,7 +76,7 @@ fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four
 }
 
 /// Whether the curvature of a solution rises all along, over the box.
-fn rises(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>, pull: &mut [f64; MOST_SIDES]) -> Known {
+fn rises(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>, pull: &mut [f64; MOST_SIDES]) -> Verdict {
     let root = root(march, a, b)?;
     let quintic = Shape::new(&march.curves, &root)?.quintic();
     let known = unit_sign(&quintic);

@@ -10,12 +10,12 @@ use std::cmp::Ordering::{Greater, Less};
 
 /// The segment of a case: `u`, `m > 0`.
 #[derive(Debug, Clone)]
-pub(super) struct Shape<N> {
+pub(super) struct SegmentShape<N> {
     pub u: N,
     pub m: N,
 }
 
-impl<N: Real> Shape<N> {
+impl<N: Real> SegmentShape<N> {
     /// q.
     pub fn q(&self, angle: &ExactAngle<N>) -> Option<N> {
         angle.length.over(&self.u)
@@ -23,7 +23,12 @@ impl<N: Real> Shape<N> {
 }
 
 /// One attempt at one case (0 or 1): its bits and its segment; `None` when something is undecided at this precision.
-pub(super) fn judge<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, end: [f64; 2], case: usize) -> Option<(u8, Option<Shape<N>>)> {
+pub(super) fn judge<N: Rooted>(
+    kind: Kind,
+    angle: &ExactAngle<N>,
+    end: [f64; 2],
+    case: usize,
+) -> Option<(u8, Option<SegmentShape<N>>)> {
     let shape = shape(kind, angle, end, case)?;
     let flags = match &shape {
         Some(shape) => judge_shape(kind, angle, shape)?,
@@ -33,7 +38,7 @@ pub(super) fn judge<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, end: [f64; 2],
 }
 
 /// The segment with this end point, if there is one.
-fn shape<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, [xi, eta]: [f64; 2], case: usize) -> Option<Option<Shape<N>>> {
+fn shape<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, [xi, eta]: [f64; 2], case: usize) -> Option<Option<SegmentShape<N>>> {
     let bits = angle.sin.bits();
     let h = formula!(angle.sin * { xi } - angle.cos * { eta });
     let eta = N::of(eta, bits);
@@ -48,10 +53,10 @@ fn shape<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, [xi, eta]: [f64; 2], case
         Kind::Cubic => {
             let u = N::of(1.0, bits).over(&alpha)?;
             let m = formula!(beta * (u * u) - 1.0);
-            Shape { u, m }
+            SegmentShape { u, m }
         }
         Kind::Ph => match ph_root(&alpha, &beta, &angle.g)? {
-            Some(u) => Shape { m: ph_m(&alpha, &angle.g, &u), u },
+            Some(u) => SegmentShape { m: ph_m(&alpha, &angle.g, &u), u },
             None => return Some(None),
         },
     };
@@ -59,7 +64,7 @@ fn shape<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, [xi, eta]: [f64; 2], case
 }
 
 /// The four levels of an existing segment.
-pub(super) fn judge_shape<N: Real>(kind: Kind, angle: &ExactAngle<N>, shape: &Shape<N>) -> Option<u8> {
+pub(super) fn judge_shape<N: Real>(kind: Kind, angle: &ExactAngle<N>, shape: &SegmentShape<N>) -> Option<u8> {
     let c = coefficients(kind, &shape.m, &shape.u, &angle.g, -1.0);
     let sign = |x: &N| x.certain_sign(0.0);
     if sign(&c[0])? == Less {

@@ -8,6 +8,7 @@ use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::family::Code;
 use crate::num::Lanes;
+use crate::num::Verdict;
 use crate::num::bernstein::positive;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask};
 
@@ -111,7 +112,7 @@ impl<S: Simd> Near<S> {
 }
 
 /// The segment of one case, where there is one.
-pub(super) struct Shape<S: Simd> {
+pub(super) struct SegmentLanes<S: Simd> {
     /// u; its error is relative.
     pub u: Near<S>,
     pub m: Near<S>,
@@ -121,7 +122,7 @@ pub(super) struct Shape<S: Simd> {
     none: u64,
 }
 
-impl<S: Simd> Shape<S> {
+impl<S: Simd> SegmentLanes<S> {
     /// Whether a lane's segment is proved to exist.
     pub fn is_found(&self, lane: u32) -> bool {
         self.found >> lane & 1 == 1
@@ -141,7 +142,7 @@ pub(super) fn sides<S: Simd>(simd: S, angle: &Angle, xi: f64, eta: S::f64s) -> [
 
 /// The segment with α from `a` and β from `b`.
 #[inline(always)]
-pub(super) fn shape<S: Simd>(simd: S, kind: Kind, angle: &Angle, a: &Near<S>, b: &Near<S>, none: u64) -> Shape<S> {
+pub(super) fn shape<S: Simd>(simd: S, kind: Kind, angle: &Angle, a: &Near<S>, b: &Near<S>, none: u64) -> SegmentLanes<S> {
     let (alpha, beta) = (a.scaled(angle.to_alpha), b.scaled(angle.to_beta));
     let (least, most) = (S::f64s::splat(simd, 1.0 / P.most_alpha), S::f64s::splat(simd, P.most_alpha));
     let usable = alpha.value.simd_gt(least) & alpha.value.simd_lt(most);
@@ -162,7 +163,7 @@ pub(super) fn shape<S: Simd>(simd: S, kind: Kind, angle: &Angle, a: &Near<S>, b:
 
 /// `αu = 1`, `m = βu² - 1`.
 #[inline(always)]
-fn cubic<S: Simd>(simd: S, alpha: &Near<S>, beta: &Near<S>) -> Shape<S> {
+fn cubic<S: Simd>(simd: S, alpha: &Near<S>, beta: &Near<S>) -> SegmentLanes<S> {
     let one = S::f64s::splat(simd, 1.0);
     let u = one / alpha.value;
     // |u - u*| / u* = |α* u - 1|
@@ -170,7 +171,7 @@ fn cubic<S: Simd>(simd: S, alpha: &Near<S>, beta: &Near<S>) -> Shape<S> {
     let square = u * u;
     let sum = beta.value * square;
     let error = (beta.error * square + sum.abs() * rho * 2.0) * 1.05 + (sum.abs() + one) * (4.0 * P.unit);
-    Shape { u: Near { value: u, error: rho }, m: Near { value: sum - one, error }, found: u64::MAX, none: 0 }
+    SegmentLanes { u: Near { value: u, error: rho }, m: Near { value: sum - one, error }, found: u64::MAX, none: 0 }
 }
 
 /// `m = αu² - 24gu - 3` with the error that the constants bring.
@@ -217,7 +218,7 @@ impl<S: Simd> Curve<S> {
 
 /// Newton's method for G/u³ from where `m = LEAST_M`, then a proof: G has certain signs on both sides of a short interval.
 #[inline(always)]
-fn ph<S: Simd>(simd: S, g: f64, alpha: &Near<S>, beta: &Near<S>, wanted: u64) -> Shape<S> {
+fn ph<S: Simd>(simd: S, g: f64, alpha: &Near<S>, beta: &Near<S>, wanted: u64) -> SegmentLanes<S> {
     const MOST_STEPS: u32 = 16;
     let (zero, g) = (S::f64s::splat(simd, 0.0), S::f64s::splat(simd, g));
     let curve: Curve<S> = Curve { g, alpha: *alpha, beta: *beta };
@@ -251,7 +252,7 @@ fn ph<S: Simd>(simd: S, g: f64, alpha: &Near<S>, beta: &Near<S>, wanted: u64) ->
     let found = bits::<S>(crossing & low.simd_gt(zero) & delta.simd_gt(zero));
     let rho = delta / u * 1.01 + 4.0 * P.unit;
     let error = m.error + (alpha.value * u + g * 12.0) * u * 2.2 * rho;
-    Shape { u: Near { value: u, error: rho }, m: Near { value: m.value, error }, found, none }
+    SegmentLanes { u: Near { value: u, error: rho }, m: Near { value: m.value, error }, found, none }
 }
 
 /// Verdicts of a vector of nodes about one case, one bit a lane.
@@ -265,7 +266,7 @@ pub(super) struct Planes {
 
 /// Decides the four levels of one case.
 #[inline(always)]
-pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Shape<S>) -> Planes {
+pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &SegmentLanes<S>) -> Planes {
     let (m, u, g) = (shape.m.value, shape.u.value, S::f64s::splat(simd, angle.g));
     // m itself must be known well, relative to its size.
     let open = shape.found & bits::<S>(shape.m.error.simd_lt(m * SMALL));
@@ -309,7 +310,7 @@ pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Shape<
 }
 
 /// Whether the quintic is positive, from its coefficients and their errors: the least quintic may prove it, the greatest disprove it.
-fn spiral(value: [f64; 6], error: [f64; 6]) -> Option<bool> {
+fn spiral(value: [f64; 6], error: [f64; 6]) -> Verdict {
     const DEPTH: u32 = 20;
     let sign = |side: f64| {
         let c: [f64; 6] = std::array::from_fn(|i| (value[i] + side * error[i]) * BERNSTEIN[i]);

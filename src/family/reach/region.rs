@@ -21,8 +21,9 @@ use super::angle::check;
 use super::filter::least_drawn_m;
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, Reach, THEOREM};
-use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
-use crate::num::{Ball, Form, Number, Real, formula};
+use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
+use crate::num::verdict::{and, or};
+use crate::num::{Ball, Form, Number, Real, Verdict, formula};
 
 /// A form in θ, ξ, η.
 type Three = Form<3, 6>;
@@ -55,9 +56,9 @@ impl Angle {
 
 /// What is known of a case.
 struct Case {
-    exists: Known,
+    exists: Verdict,
     /// c0 >= 0.
-    first: Known,
+    first: Verdict,
     /// m and u of the segment, where they are known.
     shape: Option<[Three; 2]>,
 }
@@ -155,7 +156,7 @@ fn ph_root(alpha: &Three, beta: &Three, g: &Three) -> Option<Three> {
 
 /// Whether `m >= m*`. Its double and the sum with the slack are each off by at most a quarter of 2^-52, and the slack is
 /// more than half of that.
-fn drawn(kind: Kind, m: &Three) -> Known {
+fn drawn(kind: Kind, m: &Three) -> Verdict {
     let least = least_drawn_m(kind);
     let slack = f64::EPSILON * least;
     if m.low() > least + slack {

@@ -1,7 +1,7 @@
 //! The exact answer for one end point: the segments of both cases and how far each is proved.
 
 use super::angle::{Angle, ExactAngle, check};
-use super::exact::{Rooted, Shape, judge, judge_shape};
+use super::exact::{Rooted, SegmentShape, judge, judge_shape};
 use super::filter::{Near, shape, sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::error::{Error, Result};
@@ -153,7 +153,7 @@ pub fn level_of_shape(kind: Kind, theta: f64, m: f64, q: f64) -> Result<Level> {
     let attempt = |bits| {
         let angle = ExactAngle::cached(kind, theta, bits)?;
         let u = angle.length.over(&Interval::new(q, bits))?;
-        judge_shape(kind, &angle, &Shape { u, m: Interval::new(m, bits) })
+        judge_shape(kind, &angle, &SegmentShape { u, m: Interval::new(m, bits) })
     };
     let found = climb(&format_args!("theta = {theta:?}, m = {m:?}, q = {q:?}"), "a segment's level", attempt);
     let level = found.map(|(flags, _)| level(flags))?;

@@ -6,6 +6,7 @@ use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use super::{END_RISES, PRINTED_RATIO, SPIRAL};
 use crate::family::Code;
 use crate::num::Lanes;
+use crate::num::Verdict;
 use crate::num::bernstein::{Certain, positive};
 use fearless_simd::{Simd, SimdBase};
 
@@ -36,7 +37,7 @@ pub(super) fn is_ordinary(m: f64, ratio: f64) -> bool {
 pub(super) const ERROR: f64 = coefficient_error(FRAME_ERRORS, 0.0, 1.0) * UNIT;
 
 /// The sign of the numerator from Bernstein coefficients and the sums of absolute values of their terms.
-pub(super) fn decide<N: Certain>(value: &[N; K], size: &[f64; K], relative: f64) -> Option<bool> {
+pub(super) fn decide<N: Certain>(value: &[N; K], size: &[f64; K], relative: f64) -> Verdict {
     // The least polynomial may prove it positive, the greatest disprove it: coefficients differ much in size, and so do their errors.
     let side = |sign: f64| {
         let c: [N; K] = std::array::from_fn(|i| value[i].plus(sign * relative * size[i]));

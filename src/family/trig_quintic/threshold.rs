@@ -14,7 +14,7 @@ use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
 use crate::num::bernstein::{Certain, positive};
-use crate::num::{Interval, Number, climb, formula};
+use crate::num::{Interval, Number, Verdict, climb, formula};
 use std::array::from_fn;
 
 /// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute terms: the
@@ -189,7 +189,7 @@ impl<N: Certain> Sweep<N> {
     }
 
     /// Whether a ratio gives a spiral.
-    fn spiral(&self, ratio: f64) -> Option<bool> {
+    fn spiral(&self, ratio: f64) -> Verdict {
         let mut powers = [1.0; DEGREE + 1];
         let value = from_fn(|i| {
             let rest = self.c[..DEGREE].iter().rev();
@@ -202,7 +202,7 @@ impl<N: Certain> Sweep<N> {
     }
 
     /// The sign of a form that combines the coefficients from `first` on with weights of about these sizes.
-    fn positive(&self, value: &[N; K], weights: &[f64], first: usize) -> Option<bool> {
+    fn positive(&self, value: &[N; K], weights: &[f64], first: usize) -> Verdict {
         if self.error == 0.0 {
             return positive(value, 0.0, 0.0, HALVINGS);
         }

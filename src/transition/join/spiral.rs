@@ -12,7 +12,7 @@ use super::super::involute::involute_between;
 use super::super::ph_quintic::ph_spiral;
 use super::super::piece::{Arc, Cubic, InvoluteBetween, Line, Piece, TrigPart};
 use super::super::placement::Ends;
-use super::super::segment::{Base, Outcome, Request, Target, add_segment};
+use super::super::segment::{Base, Request, Target, add_segment};
 use super::super::turn::Turn;
 use super::request::Family;
 use crate::curve::vector::{Vector, add, length, scale, sub, turn, unit};
@@ -202,7 +202,7 @@ impl Spiral {
         };
         let kind = if family == Family::PhQuintic { Kind::Ph } else { Kind::Cubic };
         Ok(match add_segment(kind, &request)? {
-            Outcome::Segment(added) if added.level >= Level::Exact => Some(added.piece),
+            Ok(added) if added.level >= Level::Exact => Some(added.piece),
             _ => None,
         })
     }

@@ -2,7 +2,7 @@
 
 use super::Random;
 use serde::Deserialize;
-use spiral_atlas::family::any_spiral::{Chord, Involute, InvoluteOutcome as Outcome, InvolutePoint, Split, WhyNone, involute};
+use spiral_atlas::family::any_spiral::{Datum, Image, Involute, InvolutePoint, Split, WhyNone, involute};
 use spiral_atlas::transition::{Ends, involute_between};
 use std::f64::consts::{PI, TAU};
 
@@ -54,11 +54,11 @@ fn reference() -> Reference {
 }
 
 impl Item {
-    fn chord(&self) -> Chord {
+    fn chord(&self) -> Datum {
         let angle = |plain: Option<f64>, over_pi: Option<f64>| plain.or(over_pi.map(|x| x * PI)).expect("an angle");
         let (alpha, beta) = (angle(self.alpha, self.alpha_over_pi), angle(self.beta, self.beta_over_pi));
         let c = self.c.unwrap_or(1.0);
-        Chord { alpha, beta, k1: self.k1 * c, k2: self.k2 * c }
+        Datum { alpha, beta, k1: self.k1 * c, k2: self.k2 * c }
     }
 }
 
@@ -80,7 +80,7 @@ fn faults(item: &Item) -> Vec<String> {
         check("omega", found.omega, item.omega);
     }
     match &found.outcome {
-        Outcome::Curve { curve, split } => {
+        Ok(Image { curve, split }) => {
             check("theta", curve.theta(), item.theta);
             check("t0", curve.t0(), item.t0);
             check("rho", curve.map()[0], item.rho);
@@ -101,8 +101,8 @@ fn faults(item: &Item) -> Vec<String> {
                 faults.push("there must be no curve".into());
             }
         }
-        Outcome::None(why) if item.exists => faults.push(format!("there must be a curve, not {why:?}")),
-        Outcome::None(_) => {}
+        Err(why) if item.exists => faults.push(format!("there must be a curve, not {why:?}")),
+        Err(_) => {}
     }
     faults
 }
@@ -148,7 +148,7 @@ fn reference_points() {
         let ends = [samples.by_parameter[0], samples.by_parameter[samples.by_parameter.len() - 1]];
         let (c, turns) = (ends[1][1], ends.map(|row| (row[3] / TAU).round()));
         let [alpha, beta] = [0, 1].map(|i| ends[i][3] - TAU * turns[i]);
-        let chord = Chord { alpha, beta, k1: c * ends[0][4], k2: c * ends[1][4] };
+        let chord = Datum { alpha, beta, k1: c * ends[0][4], k2: c * ends[1][4] };
         let found = involute(&chord, turns.map(|n| n.abs() as u32)).unwrap();
         let curve = found.curve().expect("a curve");
         assert!(near(c * curve.length(), samples.length), "{}", samples.id);
@@ -179,7 +179,7 @@ fn reference_points() {
 }
 
 /// Where a curve fails its ends by more than 1e-12, or its curvature is not monotone.
-fn broken(chord: &Chord, curve: &Involute) -> Option<String> {
+fn broken(chord: &Datum, curve: &Involute) -> Option<String> {
     let (start, end) = (curve.at(0.0), curve.at(1.0));
     let meets = |at: &InvolutePoint, x: f64, angle: f64, k: f64| {
         // Within what the cumulative direction says of itself; the angle is that of an exact double.
@@ -223,7 +223,7 @@ fn curves_meet_their_ends_with_monotone_curvature() {
         let wanted = 10f64.powf(r.uniform(-10.0, 6.0));
         let room0 = wanted.sqrt() * 10f64.powf(r.uniform(-1.0, 1.0));
         let room1 = (wanted + (0.5 * (alpha + beta)).sin().powi(2)) / room0;
-        let chord = Chord { alpha, beta, k1: -side * room0 - alpha.sin(), k2: side * room1 + beta.sin() };
+        let chord = Datum { alpha, beta, k1: -side * room0 - alpha.sin(), k2: side * room1 + beta.sin() };
         let found = involute(&chord, turns).unwrap();
         let Some(curve) = found.curve() else { continue };
         if let Some(what) = broken(&chord, curve) {
@@ -240,7 +240,7 @@ fn curves_meet_their_ends_with_monotone_curvature() {
 
 #[test]
 fn a_broken_curve_is_noticed() {
-    let chord = Chord { alpha: 0.5, beta: 0.6, k1: -2.0, k2: 3.0 };
+    let chord = Datum { alpha: 0.5, beta: 0.6, k1: -2.0, k2: 3.0 };
     let found = involute(&chord, [0, 0]).unwrap();
     let curve = found.curve().unwrap();
     assert_eq!(broken(&chord, curve), None);
@@ -249,7 +249,7 @@ fn a_broken_curve_is_noticed() {
         *[&mut chord.alpha, &mut chord.beta, &mut chord.k1, &mut chord.k2][which] += off;
         assert!(broken(&chord, curve).is_some(), "{which}");
     }
-    assert!(broken(&Chord { k1: 4.0, ..chord }, curve).is_some());
+    assert!(broken(&Datum { k1: 4.0, ..chord }, curve).is_some());
 }
 
 /// Directions and curvatures are those of the points: differences of neighbours; and crossings of the chord's line are counted.
@@ -298,10 +298,10 @@ fn points_directions_and_turns_agree() {
 
 #[test]
 fn reasons_and_bad_input() {
-    let chord = |alpha, beta, k1, k2| Chord { alpha, beta, k1, k2 };
-    let why = |chord: Chord, turns| match involute(&chord, turns).unwrap().outcome {
-        Outcome::None(why) => why,
-        Outcome::Curve { .. } => panic!("{chord:?} has a curve"),
+    let chord = |alpha, beta, k1, k2| Datum { alpha, beta, k1, k2 };
+    let why = |chord: Datum, turns| match involute(&chord, turns).unwrap().outcome {
+        Err(why) => why,
+        Ok(_) => panic!("{chord:?} has a curve"),
     };
     assert_eq!(why(chord(0.1, 0.2, 1.0, 1.0), [0, 0]), WhyNone::SameCurvature);
     assert_eq!(why(chord(0.1, 0.2, 3.0, -2.0), [0, 0]), WhyNone::WrongSide);

@@ -1,6 +1,6 @@
 //! The numbers of the paper's figures.
 
-use spiral_atlas::family::any_spiral::{Chord, Involute, involute};
+use spiral_atlas::family::any_spiral::{Datum, Involute, involute};
 use std::f64::consts::PI;
 
 fn degrees(x: f64) -> f64 {
@@ -12,7 +12,7 @@ fn near(got: f64, want: f64, digits: i32) {
 }
 
 fn curve(alpha: f64, beta: f64, k1: f64, k2: f64, turns: [u32; 2]) -> (f64, f64, Involute) {
-    let found = involute(&Chord { alpha, beta, k1, k2 }, turns).unwrap();
+    let found = involute(&Datum { alpha, beta, k1, k2 }, turns).unwrap();
     let curve = found.curve().expect("a curve").clone();
     (found.q, degrees(found.omega), curve)
 }
@@ -106,7 +106,7 @@ fn figure_6() {
     let turns = (degrees(alpha - principal(alpha)).round(), degrees(beta - principal(beta)).round());
     let mut met = 0;
     for total in 0..3 {
-        let chord = Chord { alpha: principal(alpha), beta: principal(beta), k1, k2 };
+        let chord = Datum { alpha: principal(alpha), beta: principal(beta), k1, k2 };
         let Some(curve) = involute(&chord, [0, total]).unwrap().curve().cloned() else { continue };
         // The one whose direction turns as much as the tractrix's.
         if ((curve.at(1.0).direction - curve.at(0.0).direction) - (beta - alpha)).abs() > 1e-6 {

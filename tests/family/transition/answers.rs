@@ -5,7 +5,7 @@ use serde::Deserialize;
 use spiral_atlas::curve::CubicBezier;
 use spiral_atlas::family::any_spiral::least_end_curvature;
 use spiral_atlas::family::cubic::Root;
-use spiral_atlas::transition::{Answer, Bound, Ends, Figure, NoSpiral, Outcome, Placement, Turn, Which, Why, spiral};
+use spiral_atlas::transition::{Answer, Bound, Ends, Figure, NoSpiral, Placement, Turn, Which, Why, spiral};
 use std::f64::consts::{PI, TAU};
 
 /// Section 4 of the paper: φ0, φ1, κ0, κ1, and the root, found with 40 digits.
@@ -51,8 +51,8 @@ fn mirrored(e: &Ends) -> Ends {
 
 fn why(ends: &Ends) -> Why {
     match answer(ends).outcome {
-        Outcome::Why(why) => why,
-        Outcome::Chosen(i) => panic!("solution {i} was chosen for {ends:?}"),
+        Err(why) => why,
+        Ok(i) => panic!("solution {i} was chosen for {ends:?}"),
     }
 }
 
@@ -164,13 +164,13 @@ fn reasons_agree_with_the_reference() {
             continue;
         }
         let name = match (&found.outcome, point.kneser) {
-            (Outcome::Chosen(_), true) => "spiral",
-            (Outcome::Why(Why::NoRoot { .. }), true) if roots.is_empty() => "no root",
-            (Outcome::Why(Why::NotMonotone { roots: all, .. }), true) => {
+            (Ok(_), true) => "spiral",
+            (Err(Why::NoRoot { .. }), true) if roots.is_empty() => "no root",
+            (Err(Why::NotMonotone { roots: all, .. }), true) => {
                 assert!(all.len() == roots.len() && all.iter().all(|r| !r.extrema.is_empty() && r.margin < 0.0));
                 "not monotone"
             }
-            (Outcome::Why(Why::NoSpiralOfAnyKind(none)), false) => match none {
+            (Err(Why::NoSpiralOfAnyKind(none)), false) => match none {
                 NoSpiral::EqualCurvatures { .. } => "equal",
                 NoSpiral::WrongSide { .. } => "angles",
                 NoSpiral::CirclesCross { needs, alone } => {

@@ -1,7 +1,7 @@
 //! Half and quarter turns against the chord, however they are written: the same answer as for the ends on the x axis.
 
 use super::EPS;
-use spiral_atlas::family::any_spiral::{Chord, involute};
+use spiral_atlas::family::any_spiral::{Datum, involute};
 use spiral_atlas::transition::{Ends, Placement, involute_between, ph_spiral};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -46,7 +46,7 @@ fn half_and_quarter_turns_land_in_the_domain_however_they_are_written() {
             for last in -2..=2 {
                 for k in [[-1.5, 2.5], [0.3, 7.0], [-7.0, -0.3], [2.5, -1.5], [7.0, 0.3], [-0.3, -7.0]] {
                     let plain =
-                        involute(&Chord { alpha: quarter(first), beta: quarter(last), k1: k[0], k2: k[1] }, [0, 0]).unwrap();
+                        involute(&Datum { alpha: quarter(first), beta: quarter(last), k1: k[0], k2: k[1] }, [0, 0]).unwrap();
                     for (a, b) in written(first, chord).into_iter().zip(written(last, chord)) {
                         // The directions that differ from the chord's by nothing may come out on either side of it.
                         let placed = ends(vector, [a, b], k);

@@ -4,7 +4,7 @@ use super::EPS;
 use super::sides::{check, ends};
 use proptest::prelude::*;
 use spiral_atlas::curve::{Jet, arc_length};
-use spiral_atlas::transition::{Ends, PhOutcome, ph_spiral};
+use spiral_atlas::transition::{Ends, ph_spiral};
 
 #[test]
 fn meets_its_ends_in_every_orientation() {
@@ -40,8 +40,8 @@ fn meets_its_ends_in_every_orientation() {
 #[test]
 fn no_spiral_has_a_reason_with_numbers() {
     let why = |datum| match ph_spiral(&ends(datum, 0.3, 2.0, false, false)).unwrap().outcome {
-        PhOutcome::Why(why) => why.to_string(),
-        PhOutcome::Chosen(i) => panic!("solution {i} was chosen for {datum:?}"),
+        Err(why) => why.to_string(),
+        Ok(i) => panic!("solution {i} was chosen for {datum:?}"),
     };
     let says = |datum, parts: &[&str]| {
         let text = why(datum);

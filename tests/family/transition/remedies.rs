@@ -2,9 +2,7 @@
 
 use super::sides::ends;
 use crate::oracle::random::Random;
-use spiral_atlas::transition::{
-    Bound, Ends, NoSpiral, Outcome, PhOutcome, Remedy, Which, Why, involute_between, ph_spiral, spiral,
-};
+use spiral_atlas::transition::{Bound, Ends, NoSpiral, Remedy, Which, Why, involute_between, ph_spiral, spiral};
 
 /// Ends anywhere: `alpha` and `beta` against the chord, curvatures by half of it.
 fn anywhere(random: &mut Random, [alpha, beta, k1, k2]: [f64; 4]) -> Ends {
@@ -145,7 +143,7 @@ fn curvatures_named_instead_give_a_spiral() {
         let ends = ends([phi0, phi1, kappa0, kappa1], random.uniform(-3.0, 3.0), half, n % 2 == 1, n % 4 > 1);
         let has = |ends: &Ends| spiral(ends).unwrap().chosen().is_some();
         let found = spiral(&ends).unwrap().with_remedies().unwrap();
-        if let Outcome::Why(why @ (Why::NoRoot { remedies, .. } | Why::NotMonotone { remedies, .. })) = &found.outcome {
+        if let Err(why @ (Why::NoRoot { remedies, .. } | Why::NotMonotone { remedies, .. })) = &found.outcome {
             cubic[0] += 1;
             cubic[1] += usize::from(check(&ends, remedies, &why.to_string(), has) > 0);
         }
@@ -154,7 +152,7 @@ fn curvatures_named_instead_give_a_spiral() {
         }
         let has = |ends: &Ends| ph_spiral(ends).unwrap().chosen().is_some();
         let found = ph_spiral(&ends).unwrap().with_remedies().unwrap();
-        if let PhOutcome::Why(why @ (Why::NoPhQuintic { remedies } | Why::NoPhSpiral { remedies, .. })) = &found.outcome {
+        if let Err(why @ (Why::NoPhQuintic { remedies } | Why::NoPhSpiral { remedies, .. })) = &found.outcome {
             ph[0] += 1;
             ph[1] += usize::from(check(&ends, remedies, &why.to_string(), has) > 0);
         }

@@ -2,7 +2,7 @@
 
 use spiral_atlas::family::reach::{Kind, Level};
 use spiral_atlas::transition::Turn;
-use spiral_atlas::transition::segment::{Added, Base, Outcome, Request, Target, add_segment};
+use spiral_atlas::transition::segment::{Added, Base, Request, Target, add_segment};
 use std::f64::consts::PI;
 
 type Point = [f64; 2];
@@ -76,8 +76,8 @@ fn faults(request: &Request, added: &Added) -> Vec<String> {
 
 fn segment(kind: Kind, request: &Request) -> Added {
     match add_segment(kind, request).unwrap() {
-        Outcome::Segment(added) => added,
-        Outcome::None { why } => panic!("{request:?}: {why}"),
+        Ok(added) => added,
+        Err(why) => panic!("{request:?}: {why}"),
     }
 }
 
@@ -153,8 +153,8 @@ fn what_cannot_be_had_is_said() {
         target: Target::Point([3.0, -1.0]),
     };
     let why = |request: &Request| match add_segment(Kind::Cubic, request).unwrap() {
-        Outcome::None { why } => why,
-        Outcome::Segment(added) => panic!("{added:?}"),
+        Err(why) => why,
+        Ok(added) => panic!("{added:?}"),
     };
     assert!(why(&request).contains("eta = -0.5, which must be above 0"), "{}", why(&request));
     let near = Request { target: Target::Point([0.1, 1.0]), ..request };

@@ -15,7 +15,7 @@
 //! end: `w = v/s`, and a by `s(s + T)`, with `r max(1, |q|) s(s + T) <= 2` and s <= 1, s <= θ. The divisor `2 + pA` is measured by
 //! `n = (1 + w)(1 + εw)`, `ε = s/(s + T)`, which grows like a does. What is left are numbers of moderate size: [`Half`] has nothing else.
 
-use super::super::shape::Shape;
+use super::super::differences::Differences;
 use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
 use crate::num::roots::find;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -84,7 +84,7 @@ impl Half {
         let ratio = |x: f64| if x == 0.0 { 1.0 } else { x.sin() / x };
         let (sinc, half) = (ratio(v), ratio(0.5 * v));
         let h = 0.5 * half * half;
-        let p = Shape::by_powers(v).p;
+        let p = Differences::by_powers(v).p;
         let shrink = 1.0 / (1.0 + far * w);
         let a =
             [side * far * w * (sinc - h) + near * sinc, -v * (p * far * w + side * near * h)].map(|x| w / (1.0 + w) * shrink * x);
@@ -104,8 +104,8 @@ impl Half {
         let [x, y] = turn(turn([cos_angle, sin_angle], a), [divisor[0], -divisor[1]])
             .map(|x| 2.0 * side * self.scale * x / dot(divisor, divisor));
         // (v² - 2h)/v⁴ = (v² - 4 sin²(v/2))/v⁴.
-        let square = 0.25 * Shape::by_powers(0.5 * v).w;
-        let last = 0.25 * length(self.grow) * (square * far * w + 2.0 * side * near * Shape::by_powers(v).rest);
+        let square = 0.25 * Differences::by_powers(0.5 * v).w;
+        let last = 0.25 * length(self.grow) * (square * far * w + 2.0 * side * near * Differences::by_powers(v).rest);
         let bend = self.bend * u * u * (w * far * (last / t));
         let turning = side * self.swing * u * h - self.sway * sinc;
         Place { point: [x - side, y], direction: angle - side * v, curvature: (near * curvature + turning * far * w) / t + bend }

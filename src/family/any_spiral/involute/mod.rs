@@ -2,11 +2,11 @@
 //! spiral joins, short or long, with increasing or decreasing curvature, with or without an inflection.
 //!
 //! ```
-//! use spiral_atlas::family::any_spiral::{Chord, involute};
+//! use spiral_atlas::family::any_spiral::{Datum, involute};
 //!
 //! // Fig. 5: the circles of curvature at the ends are concentric, with radii 2 : 1.
 //! let (k, pi) = (0.75f64.sqrt() / 2.0, std::f64::consts::PI);
-//! let chord = Chord { alpha: -2.0 * pi / 3.0, beta: pi, k1: k, k2: 2.0 * k };
+//! let chord = Datum { alpha: -2.0 * pi / 3.0, beta: pi, k1: k, k2: 2.0 * k };
 //! let found = involute(&chord, [0, 0])?;
 //! let curve = found.curve().expect("Q < 0 and omega = 30 degrees");
 //! assert!((curve.theta() - 2.478559516339784).abs() < 1e-12);
@@ -24,9 +24,9 @@ mod turns;
 pub use solve::{Involute, InvolutePoint};
 pub use turns::Split;
 
-use super::exact::Datum;
+use super::Datum;
 use crate::error::{Error, Result};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -35,49 +35,44 @@ pub const GREATEST: f64 = 1e100;
 /// Most turns about one end.
 const MOST_TURNS: u32 = 1000;
 
-/// Two ends seen from their chord: the curve starts at (-1, 0) and ends at (1, 0).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Chord {
-    /// Direction at the start, counter-clockwise from the chord, radians, -π to π.
-    pub alpha: f64,
-    /// Direction at the end.
-    pub beta: f64,
-    /// Signed curvature at the start times half the chord, positive to the left.
-    pub k1: f64,
-    /// Signed curvature at the end times half the chord.
-    pub k2: f64,
-}
-
 /// What is known of two ends and the turns that were asked for.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Spiral {
     /// The ends.
-    pub chord: Chord,
+    pub chord: Datum,
     /// Turns about start and end that were asked for.
     pub turns: [u32; 2],
     /// `(k1 + sin α)(k2 - sin β) + sin²((α + β)/2)`: an invariant of the two circles of curvature, negative where they are disjoint.
     pub q: f64,
     /// `(α + β)/2`, and π for each turn, with the sign of k2 - k1; radians.
     pub omega: f64,
-    /// The curve, or why there is none.
-    #[serde(flatten)]
-    pub outcome: Outcome,
+    /// The curve, or why no spiral of any kind joins the ends with so many turns.
+    #[serde(flatten, serialize_with = "curve_or_none")]
+    pub outcome: Result<Image, WhyNone>,
 }
 
-/// Whether there is a spiral.
-#[expect(clippy::large_enum_variant, reason = "one answer at a time, and nearly always a curve")]
+/// The involute's image between two ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Outcome {
-    /// The involute's image.
-    Curve {
-        /// The curve.
-        curve: Involute,
-        /// Whether it turns about its ends as asked.
-        split: Split,
-    },
-    /// No spiral of any kind joins the ends with so many turns.
-    None(WhyNone),
+pub struct Image {
+    /// The curve.
+    pub curve: Involute,
+    /// Whether it turns about its ends as asked.
+    pub split: Split,
+}
+
+/// `curve`, or `none` with the reason.
+fn curve_or_none<S: Serializer>(outcome: &Result<Image, WhyNone>, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    #[serde(rename_all = "lowercase")]
+    enum Fields<'a> {
+        Curve(&'a Image),
+        None(WhyNone),
+    }
+    match outcome {
+        Ok(image) => Fields::Curve(image),
+        Err(why) => Fields::None(*why),
+    }
+    .serialize(serializer)
 }
 
 /// Why no spiral of any kind joins two ends.
@@ -97,16 +92,13 @@ pub enum WhyNone {
 impl Spiral {
     /// The curve, if there is one.
     pub fn curve(&self) -> Option<&Involute> {
-        match &self.outcome {
-            Outcome::Curve { curve, .. } => Some(curve),
-            Outcome::None(_) => None,
-        }
+        self.outcome.as_ref().ok().map(|image| &image.curve)
     }
 }
 
 /// Finds the involute's image between two ends with `turns[0]` turns about the start and `turns[1]` about the end (0, 0: a short
 /// spiral, which meets the line of the chord outside the chord nowhere inside). Only their sum is sure to be had:
-/// [`Outcome::Curve`] says whether the split is as asked.
+/// [`Image::split`] says whether the split is as asked.
 ///
 /// Directions of exactly ±π (the double) are a half turn: they count as π where the curvature increases and as -π where it
 /// decreases, as (1) in the paper has it.
@@ -121,7 +113,7 @@ impl Spiral {
 ///
 /// # Source
 /// Kurnosenko, arXiv 2603.29596, (2) to (6), with the sign of z0 in (6) corrected.
-pub fn involute(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
+pub fn involute(chord: &Datum, turns: [u32; 2]) -> Result<Spiral> {
     for (name, angle) in [("alpha", chord.alpha), ("beta", chord.beta)] {
         if angle.is_nan() || angle.abs() > PI {
             return Err(Error::Domain(format!("{name} is {angle:?}; it must be -pi to pi (radians)")));
@@ -138,13 +130,6 @@ pub fn involute(chord: &Chord, turns: [u32; 2]) -> Result<Spiral> {
         return Err(Error::Domain(format!("{n} turns about an end are asked for; at most {MOST_TURNS} can be had")));
     }
     Ok(solve::solve(chord, turns)?.0)
-}
-
-impl Chord {
-    fn datum(&self) -> Datum {
-        let Chord { alpha, beta, k1, k2 } = *self;
-        Datum { alpha, beta, k1, k2 }
-    }
 }
 
 impl fmt::Display for WhyNone {

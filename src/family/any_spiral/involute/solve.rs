@@ -1,11 +1,11 @@
 //! From two ends to the curve.
 
+use super::super::Datum;
 use super::super::arc::{Arc, Equation};
-use super::super::exact::Datum;
 use super::half::Half;
 use super::track::Track;
 use super::turns::{Split, range};
-use super::{Chord, Outcome, Spiral, WhyNone};
+use super::{Image, Spiral, WhyNone};
 use crate::error::{Error, Result};
 use crate::num::bernstein::Certain;
 use crate::num::{Interval, climb, formula};
@@ -71,9 +71,9 @@ pub(super) struct Work {
     pub pieces: usize,
 }
 
-pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<(Spiral, Option<Work>)> {
+pub(super) fn solve(chord: &Datum, turns: [u32; 2]) -> Result<(Spiral, Option<Work>)> {
     let rising = chord.k1 < chord.k2;
-    let datum = if rising { chord.datum() } else { chord.datum().mirrored() };
+    let datum = if rising { *chord } else { chord.mirrored() };
     // Half-open ranges: what the mirror image has at -π is π.
     let cuts = [datum.alpha, datum.beta].iter().filter(|x| **x == -PI).count();
     let half_turns = turns[0] + turns[1] + cuts as u32;
@@ -106,16 +106,16 @@ pub(super) fn solve(chord: &Chord, turns: [u32; 2]) -> Result<(Spiral, Option<Wo
         (Greater, Less) => {
             let (curve, work) = found(&datum, half_turns, turns[0] + turns[1], !rising)?;
             let split = split(&datum, turns, &curve);
-            return Ok((answer(Outcome::Curve { curve, split }), Some(work)));
+            return Ok((answer(Ok(Image { curve, split })), Some(work)));
         }
     };
-    Ok((answer(Outcome::None(why)), None))
+    Ok((answer(Err(why)), None))
 }
 
 fn split(datum: &Datum, turns: [u32; 2], curve: &Involute) -> Split {
     let Datum { alpha, beta, k1, k2 } = *datum;
     let up = |x: f64| if x == -PI { PI } else { x };
-    let (least, most) = range(&Chord { alpha: up(alpha), beta: up(beta), k1, k2 }, turns[0] + turns[1]);
+    let (least, most) = range(&Datum { alpha: up(alpha), beta: up(beta), k1, k2 }, turns[0] + turns[1]);
     if curve.turns == turns {
         Split::Asked
     } else if (least..=most).contains(&turns[0]) {

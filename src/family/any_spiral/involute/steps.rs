@@ -9,8 +9,7 @@
 //! - The length has pieces of a unit and a half of y, which is at most ln of the largest w; of a unit and a half of v,
 //!   which is at most θ; and some 4 for each halving towards a peak inside, of which doubles leave 54.
 
-use super::super::exact::Datum;
-use super::Chord;
+use super::super::Datum;
 use super::solve::{Work, solve};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -21,13 +20,13 @@ struct Most {
     bits: usize,
     evaluations: usize,
     pieces: usize,
-    worst: Option<(Chord, [u32; 2])>,
+    worst: Option<(Datum, [u32; 2])>,
 }
 
 impl Most {
-    fn case(&mut self, chord: Chord, turns: [u32; 2]) {
+    fn case(&mut self, chord: Datum, turns: [u32; 2]) {
         let within = |x: f64| x.clamp(-PI, PI);
-        let chord = Chord { alpha: within(chord.alpha), beta: within(chord.beta), ..chord };
+        let chord = Datum { alpha: within(chord.alpha), beta: within(chord.beta), ..chord };
         let (found, Some(Work { bits, evaluations, pieces })) = solve(&chord, turns).unwrap() else { return };
         let more = bits > self.bits || evaluations > self.evaluations || pieces > self.pieces;
         if more {
@@ -75,7 +74,7 @@ fn few_steps_near_every_limit_of_the_angles() {
             for (i, k1) in signed().into_iter().enumerate() {
                 // Two k2 for each k1, others for each.
                 for k2 in signed().into_iter().skip(i % 13).step_by(13) {
-                    most.case(Chord { alpha, beta, k1, k2 }, [0, 0]);
+                    most.case(Datum { alpha, beta, k1, k2 }, [0, 0]);
                 }
             }
         }
@@ -110,7 +109,7 @@ fn few_steps_near_circles_that_touch() {
                 }
                 let mut k2 = high;
                 for _ in 0..3 {
-                    most.case(Chord { alpha, beta, k1, k2 }, [0, 0]);
+                    most.case(Datum { alpha, beta, k1, k2 }, [0, 0]);
                     k2 = k2.next_up();
                 }
             }
@@ -131,7 +130,7 @@ fn steps_grow_with_the_turns_alone() {
                 for (k1, k2) in
                     [(-1e100, 1e100), (-8.0, 13.0), (-1e17, 1e-300), (-1e-300, 0.6), (-3.0, -1.0), (2.0, 1e8), (7.0, -3.0)]
                 {
-                    most.case(Chord { alpha, beta, k1, k2 }, turns);
+                    most.case(Datum { alpha, beta, k1, k2 }, turns);
                 }
             }
         }
@@ -153,7 +152,7 @@ fn few_steps_where_both_directions_lie_along_the_chord() {
         let before = most.curves;
         for (alpha, beta) in written.iter().flat_map(|a| written.map(|b| (a - chord, b - chord))) {
             for (k1, k2) in [(-0.3, 6.0), (6.0, -0.3), (-4e-4, 1e-3)] {
-                most.case(Chord { alpha, beta, k1, k2 }, [0, 0]);
+                most.case(Datum { alpha, beta, k1, k2 }, [0, 0]);
             }
         }
         assert!(most.curves > before, "{chord}");

@@ -1,6 +1,6 @@
 //! How many turns about either end a spiral can take.
 
-use super::Chord;
+use super::super::Datum;
 use serde::Serialize;
 use std::f64::consts::PI;
 
@@ -28,7 +28,7 @@ pub enum Split {
 /// start; likewise for k2 <= 0 and the end. Between, its tangent at the inflection parts the two circles: directions of such lines
 /// lie in an interval within (-π, 0), and the curve turns right from its start, and left to its end, from or to one of them.
 /// Without a turn about the start (the end) α (β) must lie above the least of these directions.
-pub(super) fn range(chord: &Chord, turns: u32) -> (u32, u32) {
+pub(super) fn range(chord: &Datum, turns: u32) -> (u32, u32) {
     if turns == 0 || chord.k1 >= 0.0 {
         return (0, 0);
     }
@@ -40,7 +40,7 @@ pub(super) fn range(chord: &Chord, turns: u32) -> (u32, u32) {
 }
 
 /// The least direction, in (-π, 0), of lines with the circle at the start on their right and that at the end on their left.
-fn least_direction(chord: &Chord) -> f64 {
+fn least_direction(chord: &Datum) -> f64 {
     let (r1, r2) = (-1.0 / chord.k1, 1.0 / chord.k2);
     // From centre to centre; centres lie to the right at the start and to the left at the end.
     let x = 2.0 - r2 * chord.beta.sin() - r1 * chord.alpha.sin();

@@ -41,8 +41,9 @@ use super::poly::side;
 use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::family::hermite::holds_box;
 use crate::family::outer_region::{any, rising};
-use crate::family::region::{Facts, Known, MOST_SIDES, Region, add_pull, and, or, positive, unit_sign};
-use crate::num::{Form, Number, formula};
+use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
+use crate::num::verdict::{and, or};
+use crate::num::{Form, Number, Verdict, formula};
 use angles::Angles;
 use root::{Root, span};
 use std::cell::Cell;
@@ -53,9 +54,9 @@ type Four = Form<4, 10>;
 /// Whether a root exists, and Theorem 3.1 and the exact test at it, wherever it exists.
 #[derive(Clone, Copy)]
 struct Branch {
-    exists: Known,
-    theorem: Known,
-    spiral: Known,
+    exists: Verdict,
+    theorem: Verdict,
+    spiral: Verdict,
 }
 
 impl Branch {
@@ -92,7 +93,7 @@ impl Region for Cubic {
 }
 
 /// ANY_SPIRAL of the chart (a, k): κ0 and κ1 follow from a, k and the angles.
-fn any_normalised(sides: &[[f64; 2]; 4]) -> (Known, [f64; MOST_SIDES]) {
+fn any_normalised(sides: &[[f64; 2]; 4]) -> (Verdict, [f64; MOST_SIDES]) {
     let [phi0, phi1, a, k] = *sides;
     let mut pull = [0.0; MOST_SIDES];
     if phi0[0] >= phi1[1] {
@@ -142,14 +143,14 @@ fn prove(normalised: bool, sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     let solvable = data.solvable();
     // What holds of some datum only where it has roots needs both curvatures positive.
     let rooted = kappa0[0] > 0.0 && kappa1[0] > 0.0;
-    let sure = |known: Known| if rooted { known } else { known.filter(|holds| !holds) };
+    let sure = |known: Verdict| if rooted { known } else { known.filter(|holds| !holds) };
     facts.note(wanted & SOLVABLE, sure(solvable));
     if open & SOLVABLE != 0 && solvable.is_none() {
         data.pull_edges(&mut facts.pull);
     }
     if open & curves != 0 {
         let branches = data.branches(open, any, &mut facts.pull);
-        let some = |of: fn(&Branch) -> Known| {
+        let some = |of: fn(&Branch) -> Verdict| {
             let [left, middle, right] = branches.map(|b| and(b.exists, of(&b)));
             or(or(left, middle), right)
         };
@@ -167,9 +168,9 @@ struct Data {
     a: Four,
     k: Four,
     /// Whether a and k are above 1/3.
-    above: [Known; 2],
+    above: [Verdict; 2],
     /// Whether the middle root exists: Δ > 0, or a and k above 1/3.
-    wedge: Known,
+    wedge: Verdict,
     delta: Four,
 }
 
@@ -182,7 +183,7 @@ impl Data {
         Data { angles, a, k, above, wedge, delta }
     }
 
-    fn solvable(&self) -> Known {
+    fn solvable(&self) -> Verdict {
         and(self.above[1], self.wedge)
     }
 
@@ -195,7 +196,7 @@ impl Data {
     }
 
     /// The left, middle and right root; for a lone root the first alone.
-    fn branches(&self, open: u8, any: Known, pull: &mut [f64; 4]) -> [Branch; 3] {
+    fn branches(&self, open: u8, any: Verdict, pull: &mut [f64; 4]) -> [Branch; 3] {
         let (a, k) = (&self.a, &self.k);
         let below = self.above.map(|above| above.map(|above| !above));
         match self.wedge {
@@ -230,7 +231,7 @@ impl Data {
     }
 
     /// One root: `exists` is what is known of it from the case.
-    fn branch(&self, exists: Known, find: fn(&Four, &Four) -> Option<Root>, open: u8, pull: &mut [f64; 4]) -> Branch {
+    fn branch(&self, exists: Verdict, find: fn(&Four, &Four) -> Option<Root>, open: u8, pull: &mut [f64; 4]) -> Branch {
         if exists == Some(false) {
             return Branch::ABSENT;
         }
@@ -273,7 +274,7 @@ impl Data {
 }
 
 /// One half of Theorem 3.1: `B0 >= 0, B2 >= 0, B1 >= 0 or B1² <= 8 w B0 B2`.
-fn half(b: &[Four; 3], w: &Four) -> Known {
+fn half(b: &[Four; 3], w: &Four) -> Verdict {
     let outer = and(positive(&b[0]), positive(&b[2]));
     if outer == Some(false) {
         return outer;
@@ -290,7 +291,7 @@ fn half(b: &[Four; 3], w: &Four) -> Known {
 ///
 /// x and y are positive at the root that is asked about, wherever there is one. So the sign of B0 or C0, H0 and H5
 /// without their squares, says it all when it is negative, also where x or y comes near 0.
-fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Known {
+fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Verdict {
     if positive(&start[0]) == Some(false) || positive(&end[0]) == Some(false) {
         return Some(false);
     }

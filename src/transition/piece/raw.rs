@@ -15,7 +15,7 @@ type Points<const N: usize> = [[f64; 2]; N];
 /// All fields of all kinds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename = "piece")]
-pub(super) struct Told {
+pub(super) struct RawPiece {
     kind: Kind,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     start: Option<[f64; 2]>,
@@ -56,7 +56,7 @@ pub(super) struct Told {
 
 impl Serialize for Piece {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        Told::of(self).serialize(serializer)
+        RawPiece::of(self).serialize(serializer)
     }
 }
 
@@ -66,9 +66,9 @@ impl Serialize for PhQuintic {
     }
 }
 
-impl Told {
-    fn of(piece: &Piece) -> Told {
-        let told = |kind: Kind| Told {
+impl RawPiece {
+    fn of(piece: &Piece) -> RawPiece {
+        let told = |kind: Kind| RawPiece {
             kind,
             start: None,
             end: None,
@@ -89,11 +89,11 @@ impl Told {
             length: Some(piece.length()),
         };
         match piece {
-            Piece::Cubic(cubic) => Told { legs: Some(cubic.legs.to_vec()), ..told(Kind::Cubic) },
+            Piece::Cubic(cubic) => RawPiece { legs: Some(cubic.legs.to_vec()), ..told(Kind::Cubic) },
             Piece::PhQuintic(PhQuintic { start, end, preimage }) => {
-                Told { start: Some(*start), end: Some(*end), preimage: Some(*preimage), ..told(Kind::PhQuintic) }
+                RawPiece { start: Some(*start), end: Some(*end), preimage: Some(*preimage), ..told(Kind::PhQuintic) }
             }
-            Piece::TrigQuintic(TrigPart { curve, from, to }) => Told {
+            Piece::TrigQuintic(TrigPart { curve, from, to }) => RawPiece {
                 p: Some(curve.p),
                 q: Some(curve.q),
                 from: Some(*from),
@@ -103,7 +103,7 @@ impl Told {
             },
             Piece::Involute(InvoluteBetween { ends, turns, .. }) => {
                 let Ends { start, end, start_direction, end_direction, start_curvature, end_curvature } = *ends;
-                Told {
+                RawPiece {
                     start: Some(start),
                     end: Some(end),
                     start_direction: Some(start_direction),
@@ -114,14 +114,14 @@ impl Told {
                     ..told(Kind::Involute)
                 }
             }
-            Piece::Line(Line { start, end }) => Told {
+            Piece::Line(Line { start, end }) => RawPiece {
                 start: Some(*start),
                 end: Some(*end),
                 direction: Some(piece.at(0.0).heading),
                 curvature: Some(0.0),
                 ..told(Kind::Line)
             },
-            Piece::Arc(Arc { start, start_direction, curvature, .. }) => Told {
+            Piece::Arc(Arc { start, start_direction, curvature, .. }) => RawPiece {
                 start: Some(*start),
                 end: Some(piece.end()),
                 direction: Some(*start_direction),
@@ -161,7 +161,7 @@ impl Told {
     }
 
     fn piece(&self) -> Result<Piece> {
-        let Told { start, end, start_direction, curvature, .. } = *self;
+        let RawPiece { start, end, start_direction, curvature, .. } = *self;
         let numbers = [self.p, self.q, self.from, self.to, start_direction, self.end_direction, self.start_curvature];
         let more = [self.end_curvature, self.direction, curvature, self.length];
         let points = [start, end].into_iter().flatten().chain(self.preimage.into_iter().flatten());
@@ -220,10 +220,10 @@ impl Told {
     }
 }
 
-impl TryFrom<Told> for Piece {
+impl TryFrom<RawPiece> for Piece {
     type Error = Error;
 
-    fn try_from(told: Told) -> Result<Piece> {
+    fn try_from(told: RawPiece) -> Result<Piece> {
         told.piece()
     }
 }

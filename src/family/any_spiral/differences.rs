@@ -7,7 +7,7 @@
 /// From 1 on as good as the sine and cosine allow: with both within 10 units, 14 units of `|sin x| + x |cos x|` for the first
 /// and, as `sin x <= 0.842 x`, 80 and 70 units of themselves for the others.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Shape {
+pub(crate) struct Differences {
     /// `P = sin x - x cos x`.
     pub p: f64,
     /// `x² - sin² x`.
@@ -26,27 +26,27 @@ fn series(x2: f64, ratios: &[f64]) -> f64 {
     ratios.iter().rev().fold(1.0, |sum, ratio| 1.0 - x2 / ratio * sum)
 }
 
-impl Shape {
+impl Differences {
     /// All three divided by their first powers of x: `P/x³`, `(x² - sin² x)/x⁴` and `(x - sin x)/x³`. So nothing underflows, however small
     /// x >= 0 is.
-    pub fn by_powers(x: f64) -> Shape {
+    pub fn by_powers(x: f64) -> Differences {
         let (sin, cos) = x.sin_cos();
         let x2 = x * x;
         if x >= 1.0 {
-            let Shape { p, w, rest } = Shape::new(x, sin, cos);
-            return Shape { p: p / (x2 * x), w: w / (x2 * x2), rest: rest / (x2 * x) };
+            let Differences { p, w, rest } = Differences::new(x, sin, cos);
+            return Differences { p: p / (x2 * x), w: w / (x2 * x2), rest: rest / (x2 * x) };
         }
-        Shape { p: series(x2, &P) / 3.0, w: series(x2, &W) / 3.0, rest: series(x2, &REST) / 6.0 }
+        Differences { p: series(x2, &P) / 3.0, w: series(x2, &W) / 3.0, rest: series(x2, &REST) / 6.0 }
     }
 
     /// From x and its sine and cosine.
-    pub fn new(x: f64, sin: f64, cos: f64) -> Shape {
+    pub fn new(x: f64, sin: f64, cos: f64) -> Differences {
         if x >= 1.0 {
-            return Shape { p: sin - x * cos, w: (x - sin) * (x + sin), rest: x - sin };
+            return Differences { p: sin - x * cos, w: (x - sin) * (x + sin), rest: x - sin };
         }
         let x2 = x * x;
         let cube = x2 * x;
-        Shape { p: cube / 3.0 * series(x2, &P), w: x2 * x2 / 3.0 * series(x2, &W), rest: cube / 6.0 * series(x2, &REST) }
+        Differences { p: cube / 3.0 * series(x2, &P), w: x2 * x2 / 3.0 * series(x2, &W), rest: cube / 6.0 * series(x2, &REST) }
     }
 }
 
@@ -61,7 +61,7 @@ mod tests {
         for i in 0..400 {
             let x = if i < 40 { 0.7f64.powi(i) } else { f64::from(i) * 0.0117 };
             let (sin, cos) = Interval::sin_cos(x, 400);
-            let shape = Shape::new(x, crate::num::sines::sin(x), crate::num::sines::cos(x));
+            let shape = Differences::new(x, crate::num::sines::sin(x), crate::num::sines::cos(x));
             let n = Interval::new(x, 400);
             let truths = [&sin - &(&n * &cos), &n.square() - &sin.square(), &n - &sin];
             let scale = if x < 1.0 { truths[0].approx() } else { sin.approx().abs() + x * cos.approx().abs() };
