@@ -23,23 +23,23 @@ fn main() -> Result<()> {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     println!("{:16} {:6} {:>10} {:>10} {:>10} {:>10}   microseconds", "", "", "answer", "99 %", "verdict", "99 %");
     for family in all().iter().copied() {
-        if !wanted.is_empty() && !wanted.iter().any(|word| family.name().contains(word.as_str())) {
+        if !wanted.is_empty() && !wanted.iter().any(|word| family.about().name.contains(word.as_str())) {
             continue;
         }
         let (rate, left) = dense(family)?;
-        println!("{:16} dense {rate:59.3} million nodes a second, {left} left", family.name());
+        println!("{:16} dense {rate:59.3} million nodes a second, {left} left", family.about().name);
         let mut noise = Noise(7);
-        let usual: Vec<Vec<f64>> = (0..USUAL).map(|_| datum(family.name(), &mut noise)).collect();
+        let usual: Vec<Vec<f64>> = (0..USUAL).map(|_| datum(family.about().name, &mut noise)).collect();
         let mut hard = vec![];
         while hard.len() < HARD {
-            let ends = [datum(family.name(), &mut noise), datum(family.name(), &mut noise)];
+            let ends = [datum(family.about().name, &mut noise), datum(family.about().name, &mut noise)];
             hard.extend(border(family, ends)?);
         }
         for (name, data) in [("usual", usual), ("hard", hard)] {
             let answer = times(&data, |point| family.answer(0, point).map(|_| ()))?;
             let verdict = times(&data, |point| verdict(family, 0, point).map(|_| ()))?;
             let [a, b, c, d] = [answer.0, answer.1, verdict.0, verdict.1];
-            println!("{:16} {name:6} {a:10.2} {b:10.2} {c:10.2} {d:10.2}", family.name());
+            println!("{:16} {name:6} {a:10.2} {b:10.2} {c:10.2} {d:10.2}", family.about().name);
         }
     }
     Ok(())
@@ -63,14 +63,14 @@ fn times(data: &[Vec<f64>], work: impl Fn(&[f64]) -> Result<()>) -> Result<(f64,
 /// Nodes a microsecond of the f64 step, the best of three rounds, and how many it leaves undecided.
 fn dense(family: &dyn Family) -> Result<(f64, usize)> {
     // Some 30,000 nodes, many along the last axis.
-    let names = family.charts()[0].axes;
+    let names = family.about().charts[0].axes;
     let counts: &[usize] = match names.len() {
         3 => &[12, 48, 52],
         4 => &[9, 8, 20, 21],
         _ => &[5, 6, 5, 14, 15],
     };
     let mut noise = Noise(3);
-    let data: Vec<Vec<f64>> = (0..4000).map(|_| datum(family.name(), &mut noise)).collect();
+    let data: Vec<Vec<f64>> = (0..4000).map(|_| datum(family.about().name, &mut noise)).collect();
     let axis = |(i, (name, count)): (usize, (&&str, &usize))| {
         let all = data.iter().map(|point| point[i]);
         let (lo, hi) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (x.min(lo), x.max(hi)));

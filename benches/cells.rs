@@ -53,7 +53,7 @@ fn main() -> spiral_atlas::Result<()> {
         }
         let shares = mixed
             .iter()
-            .zip(family.flags())
+            .zip(family.about().flags)
             .map(|(n, flag)| format!("{} {:.2} %", flag.name, f64::from(*n) / points.len() as f64 * 100.0));
         println!("MIXED of queries, {what}: {}", shares.collect::<Vec<_>>().join(", "));
     }

@@ -245,12 +245,12 @@ fn describe(grid: &Grid, codes: &[Code], peer: Option<&Peer>) {
     let line = |name: &str, yes: usize, off: Option<usize>| {
         println!("{name:44} {yes:12} {:>10}", off.map_or("-".into(), |n| n.to_string()));
     };
-    for (bit, flag) in Cubic.flags().iter().enumerate() {
+    for (bit, flag) in Cubic.about().flags.iter().enumerate() {
         let yes = codes.iter().filter(|c| c.flags() >> bit & 1 == 1).count();
         let off = |p: &Peer| codes.iter().zip(&p.flags).filter(|(c, f)| (c.flags() ^ **f) >> bit & 1 == 1).count();
         line(flag.name, yes, peer.map(off));
     }
-    for count in Cubic.counts() {
+    for count in Cubic.about().counts {
         let sum = codes.iter().map(|c| usize::from(count.of(c.counts()))).sum();
         let off = |p: &Peer| codes.iter().zip(&p.solutions).filter(|(c, s)| count.of(c.counts()) != count.of(**s)).count();
         line(count.name, sum, peer.map(off));

@@ -8,7 +8,7 @@ fuzz_target!(|text: &str| {
     let Ok(recipe) = Recipe::parse(text) else { return };
     assert!(!recipe.atlases.is_empty());
     for atlas in &recipe.atlases {
-        assert!(atlas.scalars.iter().all(|i| *i < atlas.family.scalars().len()));
+        assert!(atlas.scalars.iter().all(|i| *i < atlas.family.about().scalars.len()));
         let shape = atlas.grid.shape();
         for picture in &atlas.pictures {
             assert!(picture.x != picture.y && picture.x < shape.len() && picture.y < shape.len());

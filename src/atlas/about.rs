@@ -136,13 +136,14 @@ impl About {
     pub(crate) fn of(spec: &Spec) -> Result<About, String> {
         let names: Vec<&str> = spec.grid.axes().iter().map(Axis::name).collect();
         let family = spec.family;
-        let chart = family.charts().iter().find(|c| c.axes == names).ok_or_else(|| {
-            let known: Vec<String> = family.charts().iter().map(|c| format!("({})", c.axes.join(", "))).collect();
-            format!("the axes ({}) are no chart of `{}`; take {}", names.join(", "), family.name(), known.join(" or "))
+        let chart = family.about().charts.iter().find(|c| c.axes == names).ok_or_else(|| {
+            let known: Vec<String> = family.about().charts.iter().map(|c| format!("({})", c.axes.join(", "))).collect();
+            format!("the axes ({}) are no chart of `{}`; take {}", names.join(", "), family.about().name, known.join(" or "))
         })?;
         let scalar = |i: &usize| {
-            let known = family.scalars();
-            let s = known.get(*i).ok_or_else(|| format!("`{}` has {} scalars, no number {i}", family.name(), known.len()))?;
+            let known = family.about().scalars;
+            let s =
+                known.get(*i).ok_or_else(|| format!("`{}` has {} scalars, no number {i}", family.about().name, known.len()))?;
             Ok(Named { name: s.name.into(), doc: s.doc.into() })
         };
         let count = |c: &crate::family::Count| Packed { name: c.name.into(), doc: c.doc.into(), shift: c.shift, bits: c.bits };
@@ -150,12 +151,12 @@ impl About {
             kind: Kind::Nodes,
             generator: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).into(),
             name: spec.name.into(),
-            family: family.name().into(),
+            family: family.about().name.into(),
             chart: chart.name.into(),
             chart_doc: chart.doc.into(),
-            conventions: family.conventions().into(),
-            flags: family.flags().iter().map(|f| Named { name: f.name.into(), doc: f.doc.into() }).collect(),
-            counts: family.counts().iter().map(count).collect(),
+            conventions: family.about().conventions.into(),
+            flags: family.about().flags.iter().map(|f| Named { name: f.name.into(), doc: f.doc.into() }).collect(),
+            counts: family.about().counts.iter().map(count).collect(),
             scalars: spec.scalars.iter().map(scalar).collect::<Result<_, String>>()?,
             recipe: spec.recipe.into(),
         })

@@ -56,7 +56,7 @@ pub struct Spec<'a> {
     pub family: &'static dyn Family,
     /// The nodes.
     pub grid: &'a Grid,
-    /// The scalars to store: indices into [`Family::scalars`].
+    /// The scalars to store: indices into [`About::scalars`].
     pub scalars: &'a [usize],
     /// The recipe's text.
     pub recipe: &'a str,

@@ -56,7 +56,7 @@ struct Tree {
 /// axes, or a budget that is too small even for the top cells.
 pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(u64) + Sync)) -> Result<Built> {
     let (region, chart) = region(spec.family, spec.grid)?;
-    let (shape, prover) = (shape(spec.grid, spec.family.flags().len())?, prover(spec.grid, region, chart));
+    let (shape, prover) = (shape(spec.grid, spec.family.about().flags.len())?, prover(spec.grid, region, chart));
     let (edges, all) = (Edges::new(spec.grid, shape), all_flags(spec.family));
     let work = Work { threads: threads.max(1), stop };
     let size = shape.depth - shape.top;

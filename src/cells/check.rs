@@ -79,7 +79,7 @@ pub fn attack(cells: &Cells, rounds: u64, seed: u64, stop: &AtomicBool) -> Resul
             found.verdicts += u64::from((inside | outside).count_ones());
             found.wrong += u64::from(wrong.count_ones());
             if wrong != 0 {
-                let flag = cells.family().flags()[wrong.trailing_zeros() as usize].name;
+                let flag = cells.family().about().flags[wrong.trailing_zeros() as usize].name;
                 let said = if inside & wrong != 0 { "INSIDE" } else { "OUTSIDE" };
                 found.first.get_or_insert_with(|| format!("{}: its cell says {said} of {flag}", grid.describe(i as u64)));
             }

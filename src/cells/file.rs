@@ -107,9 +107,9 @@ impl Cells {
         let family = family::by_name(&about.family).ok_or_else(|| invalid(format!("no family is named `{}`", about.family)))?;
         let told = |e: Error| invalid(e.to_string());
         let (_, chart) = region(family, &header.grid).map_err(told)?;
-        let shape = shape(&header.grid, family.flags().len()).map_err(told)?;
-        if !about.flags.iter().map(|f| &f.name[..]).eq(family.flags().iter().map(|f| f.name)) {
-            return Err(invalid(format!("its flags are not those of `{}`", family.name())));
+        let shape = shape(&header.grid, family.about().flags.len()).map_err(told)?;
+        if !about.flags.iter().map(|f| &f.name[..]).eq(family.about().flags.iter().map(|f| f.name)) {
+            return Err(invalid(format!("its flags are not those of `{}`", family.about().name)));
         }
         let place = |name| {
             let range = header.range(name).ok_or_else(|| invalid(format!("it has no tensor `{name}`")))?;

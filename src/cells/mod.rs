@@ -60,18 +60,18 @@ pub fn check_resolution(resolution: usize) -> Result<(), String> {
 /// [`crate::Error::Domain`] as of [`build`].
 pub fn check(spec: &Spec) -> crate::Result<()> {
     region(spec.family, spec.grid)?;
-    build::shape(spec.grid, spec.family.flags().len()).map(|_| ())
+    build::shape(spec.grid, spec.family.about().flags.len()).map(|_| ())
 }
 
 /// The mask of all flags of a family.
 fn all_flags(family: &dyn Family) -> u8 {
-    (0..family.flags().len()).fold(0, |mask, bit| mask | 1 << bit)
+    (0..family.about().flags.len()).fold(0, |mask, bit| mask | 1 << bit)
 }
 
 /// The flags in the order in which a budget is spent on them: those that answer the family's question first.
 fn by_weight(family: &dyn Family) -> Vec<usize> {
-    let answers = |bit: &usize| family.yes().contains(&family.flags()[*bit].name);
-    let (first, rest): (Vec<usize>, Vec<usize>) = (0..family.flags().len()).partition(answers);
+    let answers = |bit: &usize| family.about().yes.contains(&family.about().flags[*bit].name);
+    let (first, rest): (Vec<usize>, Vec<usize>) = (0..family.about().flags.len()).partition(answers);
     [first, rest].concat()
 }
 
@@ -82,14 +82,19 @@ fn by_weight(family: &dyn Family) -> Vec<usize> {
 fn region(family: &'static dyn Family, grid: &Grid) -> crate::Result<(&'static dyn family::Region, usize)> {
     let domain = crate::Error::Domain;
     let region = family.region().ok_or_else(|| {
-        let able: Vec<&str> = family::all().iter().filter(|f| f.region().is_some()).map(|f| f.name()).collect();
-        domain(format!("`{}` has no proofs over boxes, so no cells; families that have: {}", family.name(), able.join(", ")))
+        let able: Vec<&str> = family::all().iter().filter(|f| f.region().is_some()).map(|f| f.about().name).collect();
+        domain(format!(
+            "`{}` has no proofs over boxes, so no cells; families that have: {}",
+            family.about().name,
+            able.join(", ")
+        ))
     })?;
     let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
-    let chart = family.charts().iter().position(|c| c.axes == names && region.covers(c.name));
+    let chart = family.about().charts.iter().position(|c| c.axes == names && region.covers(c.name));
     let chart = chart.ok_or_else(|| {
-        let able: Vec<String> = family.charts().iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(", ")).collect();
-        domain(format!("cells of `{}` need the axes {}; given: {}", family.name(), able.join(" or "), names.join(", ")))
+        let able: Vec<String> =
+            family.about().charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(", ")).collect();
+        domain(format!("cells of `{}` need the axes {}; given: {}", family.about().name, able.join(" or "), names.join(", ")))
     })?;
     Ok((region, chart))
 }

@@ -121,7 +121,7 @@ pub fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
     let mut faults: Vec<String> = cells.check_hashes().err().map(|e| e.to_string()).into_iter().collect();
     let about = cells.about();
     let plan = Recipe::parse(&about.recipe).ok().map(|recipe| recipe.atlases.into_iter().find(|plan| plan.name == about.name));
-    let same = |plan: &AtlasPlan| plan.family.name() == about.family && plan.grid == *cells.grid() && plan.cells.is_some();
+    let same = |plan: &AtlasPlan| plan.family.about().name == about.family && plan.grid == *cells.grid() && plan.cells.is_some();
     // A text that is no recipe (of a file made by a program) says nothing; its cells then have no budget but what
     // they took.
     match &plan {
@@ -131,9 +131,9 @@ pub fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
     }
     let budget = plan.flatten().and_then(|plan| plan.cells).unwrap_or(u64::MAX);
     let family = cells.family();
-    let flags = family.flags().iter().map(|f| (f.name, f.doc));
-    if !about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(flags) || about.conventions != family.conventions() {
-        faults.push(format!("its legend is not that of `{}`", family.name()));
+    let flags = family.about().flags.iter().map(|f| (f.name, f.doc));
+    if !about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(flags) || about.conventions != family.about().conventions {
+        faults.push(format!("its legend is not that of `{}`", family.about().name));
     }
     let attack = cells::attack(cells, ROUNDS, 1, &stop)?;
     let spec = Spec { name: &about.name, family, grid: cells.grid(), budget, recipe: &about.recipe };
@@ -237,5 +237,5 @@ pub fn look_up(cells: &Cells, chart: usize, point: &[f64]) -> Option<Object<&'st
         (_, 1) => "OUTSIDE",
         _ => "MIXED",
     };
-    Some(Object(cells.family().flags().iter().enumerate().map(|(bit, flag)| (flag.name, word(bit))).collect()))
+    Some(Object(cells.family().about().flags.iter().enumerate().map(|(bit, flag)| (flag.name, word(bit))).collect()))
 }

@@ -21,7 +21,7 @@ pub struct Coordinates(Vec<(&'static str, f64)>);
 /// The names of all axes of all families.
 fn names() -> Vec<&'static str> {
     let mut names: Vec<&str> = Vec::new();
-    for axis in family::all().iter().flat_map(|f| f.charts()).flat_map(|c| c.axes) {
+    for axis in family::all().iter().flat_map(|f| f.about().charts).flat_map(|c| c.axes) {
         if !names.contains(axis) {
             names.push(axis);
         }
@@ -31,8 +31,8 @@ fn names() -> Vec<&'static str> {
 
 /// The families that have an axis.
 fn owners(axis: &str) -> String {
-    let has = |f: &&&dyn Family| f.charts().iter().any(|c| c.axes.contains(&axis));
-    family::all().iter().filter(has).map(|f| f.name()).collect::<Vec<_>>().join(", ")
+    let has = |f: &&&dyn Family| f.about().charts.iter().any(|c| c.axes.contains(&axis));
+    family::all().iter().filter(has).map(|f| f.about().name).collect::<Vec<_>>().join(", ")
 }
 
 impl clap::Args for Coordinates {
@@ -73,9 +73,9 @@ impl Coordinates {
         let chart = chart(family, &given).filter(|chart| chart.1.axes.len() == given.len());
         let Some((chart, Chart { axes, .. })) = chart else {
             let list = |axes: &[&str]| axes.iter().map(|a| format!("--{a}")).collect::<Vec<_>>().join(" ");
-            let charts: Vec<String> = family.charts().iter().map(|c| format!("`{}`", list(c.axes))).collect();
+            let charts: Vec<String> = family.about().charts.iter().map(|c| format!("`{}`", list(c.axes))).collect();
             let given = if given.is_empty() { "none".into() } else { format!("`{}`", list(&given)) };
-            return Err(format!("a datum of `{}` needs {}; given: {given}", family.name(), charts.join(" or ")));
+            return Err(format!("a datum of `{}` needs {}; given: {given}", family.about().name, charts.join(" or ")));
         };
         let value = |axis: &&str| self.0.iter().find(|(name, _)| name == axis).map(|(_, x)| *x);
         Ok(Datum { chart, point: axes.iter().filter_map(value).collect() })
@@ -84,12 +84,12 @@ impl Coordinates {
 
 /// The first chart of a family whose axes are all among these.
 fn chart(family: &dyn Family, names: &[&str]) -> Option<(usize, &'static Chart)> {
-    family.charts().iter().enumerate().find(|(_, chart)| chart.axes.iter().all(|axis| names.contains(axis)))
+    family.about().charts.iter().enumerate().find(|(_, chart)| chart.axes.iter().all(|axis| names.contains(axis)))
 }
 
 /// A datum from the cells of a row, in the order of the chart's axes.
 pub fn from_cells(family: &dyn Family, chart: usize, cells: &[&str]) -> Result<Datum> {
-    let axes = family.charts()[chart].axes;
+    let axes = family.about().charts[chart].axes;
     let point = axes.iter().zip(cells).map(|(axis, cell)| parse_coordinate(axis, cell)).collect::<Result<_>>()?;
     Ok(Datum { chart, point })
 }
@@ -97,7 +97,7 @@ pub fn from_cells(family: &dyn Family, chart: usize, cells: &[&str]) -> Result<D
 /// The family of a name, for an option.
 pub fn parse_family(name: &str) -> Result<&'static dyn Family> {
     family::by_name(name).ok_or_else(|| {
-        let known: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
+        let known: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
         Error::Domain(format!("unknown family `{name}`; known are `{}`", known.join("`, `")))
     })
 }

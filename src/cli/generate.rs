@@ -181,7 +181,7 @@ impl Made {
         let mut text = format!("{}: {} = {} nodes\n", self.atlas, axes.join(" x "), grouped(r.nodes));
         text += &format!("  by {} in {:.2} s, with {} threads\n", who(r), r.seconds, r.threads);
         text += "  nodes with a proved yes\n";
-        for flag in plan.family.flags() {
+        for flag in plan.family.about().flags {
             let count = r.yes.get(flag.name).copied().unwrap_or(0);
             let share = count as f64 / r.nodes.max(1) as f64 * 100.0;
             text += &format!("    {:<14} {:>16}  {share:6.2} %  {}\n", flag.name, grouped(count), flag.label);

@@ -56,13 +56,13 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let told = atlas.as_ref().map(of).transpose()?;
     let family = args.family.or(told).unwrap_or(&Cubic);
     if let (Some(path), Some(told)) = (&args.atlas, told)
-        && told.name() != family.name()
+        && told.about().name != family.about().name
     {
-        let what = format!("it is an atlas of `{}`; the datum is one of `{}`", told.name(), family.name());
+        let what = format!("it is an atlas of `{}`; the datum is one of `{}`", told.about().name, family.about().name);
         return Err(Error::Atlas { path: path.clone(), what });
     }
     if let Some(path) = &args.points {
-        let charts: Vec<&'static [&'static str]> = family.charts().iter().map(|chart| chart.axes).collect();
+        let charts: Vec<&'static [&'static str]> = family.about().charts.iter().map(|chart| chart.axes).collect();
         return points::run(path, &charts, |chart, cells| {
             let answer = Answer::new(family, from_cells(family, chart, cells)?, atlas.as_ref())?;
             serde_json::to_vec(&answer).map_err(output::json_error)
@@ -128,7 +128,7 @@ impl Answer {
     /// Those of [`Family::answer`].
     pub fn new(family: &dyn Family, datum: Datum, atlas: Option<&Opened>) -> Result<Answer> {
         let solved = family.answer(datum.chart, &datum.point)?;
-        let axes = family.charts()[datum.chart].axes;
+        let axes = family.about().charts[datum.chart].axes;
         let flag = |(bit, flag): (usize, &family::Flag)| (flag.name, solved.code.flags() >> bit & 1 == 1);
         let coordinates = axes.iter().copied().zip(datum.point.iter().copied()).collect::<Vec<_>>();
         let place = |name: &str| {
@@ -137,8 +137,8 @@ impl Answer {
         };
         Ok(Answer {
             holds: family.holds(solved.code),
-            flags: Object(family.flags().iter().enumerate().map(flag).collect()),
-            counts: Object(family.counts().iter().map(|count| (count.name, count.of(solved.code.counts()))).collect()),
+            flags: Object(family.about().flags.iter().enumerate().map(flag).collect()),
+            counts: Object(family.about().counts.iter().map(|count| (count.name, count.of(solved.code.counts()))).collect()),
             atlas: atlas.and_then(|atlas| match atlas {
                 Opened::Nodes(atlas) => Some(look_up(atlas, place)),
                 Opened::Cells(_) => None,
@@ -156,14 +156,14 @@ impl Answer {
 
     fn text(&self, family: &dyn Family) -> String {
         let mut text = list(&self.coordinates.0, |x| format!("{x:?}")) + "\n";
-        for ((name, holds), flag) in self.flags.0.iter().zip(family.flags()) {
+        for ((name, holds), flag) in self.flags.0.iter().zip(family.about().flags) {
             text += &format!("  {name:<14} {:<4} {}\n", yes(*holds), flag.doc);
         }
         for (name, value) in &self.derived.0 {
             text += &format!("  {name} = {}\n", word(value));
         }
         if self.solutions.is_empty() {
-            text += &format!("`{}` has no curve for these ends\n", family.name());
+            text += &format!("`{}` has no curve for these ends\n", family.about().name);
         }
         for (i, solution) in self.solutions.iter().enumerate() {
             let chosen = if self.chosen == Some(i) { ", chosen" } else { "" };

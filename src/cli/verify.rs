@@ -169,8 +169,8 @@ impl Verified {
 /// The scalars of an atlas, as indices into the family's.
 fn scalars(atlas: &Atlas, family: &dyn Family) -> Result<Vec<usize>> {
     let place = |name: &str| {
-        let place = family.scalars().iter().position(|s| s.name == name);
-        place.ok_or_else(|| fault(atlas, format!("its scalar `{name}` is none of the family `{}`", family.name())))
+        let place = family.about().scalars.iter().position(|s| s.name == name);
+        place.ok_or_else(|| fault(atlas, format!("its scalar `{name}` is none of the family `{}`", family.about().name)))
     };
     atlas.scalar_names().map(place).collect()
 }
@@ -179,16 +179,16 @@ fn scalars(atlas: &Atlas, family: &dyn Family) -> Result<Vec<usize>> {
 fn legend_fault(atlas: &Atlas, family: &dyn Family) -> Option<String> {
     let about = atlas.about();
     let axes: Vec<&str> = atlas.grid().axes().iter().map(|a| a.name()).collect();
-    let chart = family.charts().iter().any(|c| c.name == about.chart && c.doc == about.chart_doc && c.axes == axes);
-    let flags = about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(family.flags().iter().map(|f| (f.name, f.doc)));
+    let chart = family.about().charts.iter().any(|c| c.name == about.chart && c.doc == about.chart_doc && c.axes == axes);
+    let flags = about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(family.about().flags.iter().map(|f| (f.name, f.doc)));
     let counts = about.counts.iter().map(|c| (&c.name[..], &c.doc[..], c.shift, c.bits));
-    let counts = counts.eq(family.counts().iter().map(|c| (c.name, c.doc, c.shift, c.bits)));
-    let known = |s: &spiral_atlas::atlas::Named| family.scalars().iter().any(|k| k.name == s.name && k.doc == s.doc);
+    let counts = counts.eq(family.about().counts.iter().map(|c| (c.name, c.doc, c.shift, c.bits)));
+    let known = |s: &spiral_atlas::atlas::Named| family.about().scalars.iter().any(|k| k.name == s.name && k.doc == s.doc);
     let scalars = about.scalars.iter().all(known);
-    let conventions = about.conventions == family.conventions();
+    let conventions = about.conventions == family.about().conventions;
     let parts = [("axes", chart), ("flags", flags), ("counts", counts), ("scalars", scalars), ("conventions", conventions)];
     let wrong: Vec<&str> = parts.iter().filter(|(_, good)| !good).map(|(name, _)| *name).collect();
-    (!wrong.is_empty()).then(|| format!("its legend ({}) is not that of `{}`", wrong.join(", "), family.name()))
+    (!wrong.is_empty()).then(|| format!("its legend ({}) is not that of `{}`", wrong.join(", "), family.about().name))
 }
 
 /// Whether the recipe in the file would give another grid. A text that is no recipe (of an atlas made by a program) says nothing.
@@ -198,8 +198,8 @@ fn recipe_fault(atlas: &Atlas) -> Option<String> {
     let Some(plan) = recipe.atlases.iter().find(|plan| plan.name == about.name) else {
         return Some(format!("its recipe has no atlas `{}`", about.name));
     };
-    let names = plan.scalars.iter().filter_map(|i| plan.family.scalars().get(*i)).map(|s| s.name);
-    let same = plan.family.name() == about.family && plan.grid == *atlas.grid() && names.eq(atlas.scalar_names());
+    let names = plan.scalars.iter().filter_map(|i| plan.family.about().scalars.get(*i)).map(|s| s.name);
+    let same = plan.family.about().name == about.family && plan.grid == *atlas.grid() && names.eq(atlas.scalar_names());
     (!same).then(|| "its recipe gives another family, grid or other scalars than the file has".into())
 }
 

@@ -204,7 +204,7 @@ impl<'a> Comparison<'a> {
         self.value(node, "flags", Value::Byte(stored.flags[node]), Value::Byte(chunk.flags[i]));
         self.value(node, "solutions", Value::Byte(stored.solutions[node]), Value::Byte(chunk.solutions[i]));
         for (which, (old, new)) in self.job.scalars.iter().zip(stored.scalars.iter().zip(&chunk.scalars)) {
-            let field = self.job.family.scalars().get(*which).map_or("?", |s| s.name);
+            let field = self.job.family.about().scalars.get(*which).map_or("?", |s| s.name);
             self.value(node, field, Value::Scalar(old[node]), Value::Scalar(new[i]));
         }
     }

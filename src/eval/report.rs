@@ -48,7 +48,7 @@ pub struct Report {
 
 impl Report {
     pub(super) fn new(job: &Job, backend: &Backend, threads: usize) -> Report {
-        let names: Vec<&'static str> = job.family.flags().iter().map(|f| f.name).collect();
+        let names: Vec<&'static str> = job.family.about().flags.iter().map(|f| f.name).collect();
         let gpu = !matches!(backend, Backend::Cpu);
         Report {
             version: env!("CARGO_PKG_VERSION"),

@@ -21,7 +21,7 @@ pub struct RowError {
 /// The proved codes of many data, as an atlas has them at its nodes.
 ///
 /// # Arguments
-/// - `chart`: index into [`Family::charts`].
+/// - `chart`: index into [`About::charts`].
 /// - `data`: one datum after another, each with as many numbers as the chart has axes, in the order of its axes.
 /// - `threads`: workers, at least 1. The result does not depend on their number.
 ///
@@ -29,7 +29,7 @@ pub struct RowError {
 /// For the first row without a verdict: [`Error::Domain`], naming the coordinate, outside the family's domain;
 /// [`Error::Undecided`] at the precision cap. A last row that is not whole is an [`Error::Domain`], too.
 pub fn verdicts(family: &dyn Family, chart: usize, data: &[f64], threads: usize) -> Result<Vec<Code>, RowError> {
-    let axes = family.charts()[chart].axes.len();
+    let axes = family.about().charts[chart].axes.len();
     let whole = data.chunks_exact(axes);
     if !whole.remainder().is_empty() {
         let what = format!("the data are {} numbers; each datum has {axes}", data.len());

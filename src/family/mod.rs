@@ -50,7 +50,7 @@ impl Code {
     }
 }
 
-/// One named bit of `flags`; its place in [`Family::flags`] is its bit number.
+/// One named bit of `flags`; its place in [`About::flags`] is its bit number.
 #[derive(Debug, Clone, Copy)]
 pub struct Flag {
     /// The bit's name in files and JSON.
@@ -109,26 +109,34 @@ pub struct Chart {
     pub doc: &'static str,
 }
 
+/// What a family says about itself: the legend of its answers and of its files.
+#[derive(Debug, Clone, Copy)]
+pub struct About {
+    /// Its name in recipes and files.
+    pub name: &'static str,
+    /// What it answers, in one line.
+    pub title: &'static str,
+    /// The axes it accepts.
+    pub charts: &'static [Chart],
+    /// Frame, signs and units.
+    pub conventions: &'static str,
+    /// The flags, bit 0 first.
+    pub flags: &'static [Flag],
+    /// The flags that say that what the family looks for exists: its answer to a datum is yes where one of them holds,
+    /// else no.
+    pub yes: &'static [&'static str],
+    /// The flags that a picture shows, largest region first, each inside the one before (in general).
+    pub nested: &'static [&'static str],
+    /// The packed counts.
+    pub counts: &'static [Count],
+    /// The optional scalars.
+    pub scalars: &'static [Scalar],
+}
+
 /// A kind of curve or criterion with its own mathematics.
 pub trait Family: Sync {
-    /// Its name in recipes and files.
-    fn name(&self) -> &'static str;
-    /// What it answers, in one line.
-    fn title(&self) -> &'static str;
-    /// The axes it accepts.
-    fn charts(&self) -> &'static [Chart];
-    /// Frame, signs and units, for the file's metadata.
-    fn conventions(&self) -> &'static str;
-    /// The flags, bit 0 first.
-    fn flags(&self) -> &'static [Flag];
-    /// The flags that say that what the family looks for exists: its answer to a datum is yes where one of them holds, else no.
-    fn yes(&self) -> &'static [&'static str];
-    /// The flags that a picture shows, largest region first, each inside the one before (in general).
-    fn nested(&self) -> &'static [&'static str];
-    /// The packed counts.
-    fn counts(&self) -> &'static [Count];
-    /// The optional scalars.
-    fn scalars(&self) -> &'static [Scalar];
+    /// What it is, and what its verdicts and numbers mean.
+    fn about(&self) -> &'static About;
     /// Checks the grid's domain and precomputes what depends on axes alone.
     ///
     /// # Errors
@@ -150,7 +158,7 @@ pub trait Family: Sync {
             None => Ok(answer),
             Some(what) => {
                 let datum: Vec<String> =
-                    self.charts()[chart].axes.iter().zip(point).map(|(axis, x)| format!("{axis} = {x:?}")).collect();
+                    self.about().charts[chart].axes.iter().zip(point).map(|(axis, x)| format!("{axis} = {x:?}")).collect();
                 Err(Error::Domain(format!(
                     "{what} leaves the range of doubles for {}; choose less extreme numbers",
                     datum.join(", ")
@@ -164,23 +172,28 @@ pub trait Family: Sync {
     }
     /// Whether what the family looks for exists, by the flags of a datum.
     fn holds(&self, code: Code) -> bool {
-        let set = |(bit, flag): (usize, &Flag)| code.flags() >> bit & 1 == 1 && self.yes().contains(&flag.name);
-        self.flags().iter().enumerate().any(set)
+        let set = |(bit, flag): (usize, &Flag)| code.flags() >> bit & 1 == 1 && self.about().yes.contains(&flag.name);
+        self.about().flags.iter().enumerate().any(set)
     }
 }
 
 impl std::fmt::Debug for dyn Family {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.about().name)
     }
 }
 
-/// Which of a family's charts a grid has, as an index into [`Family::charts`].
+/// Which of a family's charts a grid has, as an index into [`About::charts`].
 fn chart_of(family: &dyn Family, grid: &Grid) -> Result<usize> {
     let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
-    family.charts().iter().position(|c| c.axes == names).ok_or_else(|| {
-        let known: Vec<String> = family.charts().iter().map(|c| c.axes.join(", ")).collect();
-        Error::Domain(format!("axes {} are no chart of `{}`; it has: {}", names.join(", "), family.name(), known.join(" | ")))
+    family.about().charts.iter().position(|c| c.axes == names).ok_or_else(|| {
+        let known: Vec<String> = family.about().charts.iter().map(|c| c.axes.join(", ")).collect();
+        Error::Domain(format!(
+            "axes {} are no chart of `{}`; it has: {}",
+            names.join(", "),
+            family.about().name,
+            known.join(" | ")
+        ))
     })
 }
 
@@ -195,7 +208,7 @@ fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
 /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
 pub fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
     let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
-    let grid = Grid::new(family.charts()[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
+    let grid = Grid::new(family.about().charts[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
     let table = family.table(&grid)?;
     let mut code = [Code::UNDECIDED];
     table.filter(0, &mut code);
@@ -213,7 +226,7 @@ pub trait Table: Kernel {
     /// [`crate::Error::Undecided`] at the precision cap.
     fn exact(&self, node: u64) -> Result<(Code, usize)>;
 
-    /// The scalars `which` (indices into [`Family::scalars`]) at a node whose code is known, each rounded to nearest f32.
+    /// The scalars `which` (indices into [`About::scalars`]) at a node whose code is known, each rounded to nearest f32.
     ///
     /// # Errors
     /// [`crate::Error::Undecided`] at the precision cap.
@@ -242,5 +255,5 @@ pub fn all() -> &'static [&'static dyn Family] {
 
 /// The family of a name.
 pub fn by_name(name: &str) -> Option<&'static dyn Family> {
-    all().iter().copied().find(|f| f.name() == name)
+    all().iter().copied().find(|f| f.about().name == name)
 }

@@ -41,11 +41,11 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
             known.push(cell);
         }
     }
-    let named = |name: &&str| family.flags().iter().position(|flag| flag.name == *name);
-    let usual = || family.nested().iter().take(1).chain(family.yes()).filter_map(named).collect::<Vec<usize>>();
+    let named = |name: &&str| family.about().flags.iter().position(|flag| flag.name == *name);
+    let usual = || family.about().nested.iter().take(1).chain(family.about().yes).filter_map(named).collect::<Vec<usize>>();
     let shown = if plan.regions.is_empty() { usual() } else { plan.regions.clone() };
     let regions = shown.iter().flat_map(|bit| {
-        let label = family.flags()[*bit].label;
+        let label = family.about().flags[*bit].label;
         let mask = |holds: &dyn Fn(&Known) -> bool| known.iter().map(holds).collect();
         [
             Region { label: format!("{label}: MIXED"), mask: mask(&|k| (k.inside | k.outside) >> bit & 1 == 0) },

@@ -208,14 +208,14 @@ fn plane(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Resul
 /// The regions of a plan on such a plane.
 fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Slice> {
     let family = of(atlas)?;
-    let (axes, flags, plane) = (atlas.grid().axes(), family.flags(), plane(atlas, plan, at)?);
+    let (axes, flags, plane) = (atlas.grid().axes(), family.about().flags, plane(atlas, plan, at)?);
     let (x, y) = (&axes[plan.x], &axes[plan.y]);
     let region = |(bit, flag): (usize, &Flag)| Region {
         label: flag.label.to_owned(),
         mask: plane.iter().map(|byte| byte >> bit & 1 == 1).collect(),
     };
     let place = |name: &&str| flags.iter().enumerate().find(|(_, f)| f.name == *name);
-    let nested = family.nested();
+    let nested = family.about().nested;
     let chosen = |places: &[usize]| places.iter().map(|i| region((*i, &flags[*i]))).collect::<Vec<_>>();
     let (regions, outlines) = if let Some(levels) = &plan.levels {
         (at_most(atlas, plan, levels, at)?, Vec::new())
@@ -264,18 +264,18 @@ fn at_most(atlas: &Atlas, plan: &PicturePlan, levels: &Levels, at: &[(usize, Vec
 fn compared(atlas: &Atlas, plan: &PicturePlan, with: &str) -> Result<Vec<Region>> {
     let (own, other) = (of(atlas)?, family::by_name(with));
     let other = other.ok_or_else(|| Error::Domain(format!("this program has no family `{with}`")))?;
-    let bit = |family: &dyn Family, name: &str| family.flags().iter().position(|f| f.name == name).unwrap_or_default();
+    let bit = |family: &dyn Family, name: &str| family.about().flags.iter().position(|f| f.name == name).unwrap_or_default();
     let (ours, theirs) = (plane(atlas, plan, &plan.at)?, evaluated(other, atlas, plan)?);
     let (a, b) = (bit(own, "SPIRAL"), bit(other, "SPIRAL"));
     let region = |label: String, holds: &dyn Fn(bool, bool) -> bool| {
         let mask = ours.iter().zip(&theirs).map(|(x, y)| holds(x >> a & 1 == 1, y >> b & 1 == 1)).collect();
         Region { label, mask }
     };
-    let outer = own.nested().first().map_or(a, |name| bit(own, name));
+    let outer = own.about().nested.first().map_or(a, |name| bit(own, name));
     let outer_mask = ours.iter().map(|byte| byte >> outer & 1 == 1).collect();
     Ok(vec![
-        Region { label: own.flags()[outer].label.to_owned(), mask: outer_mask },
-        region(format!("{} only", own.name()), &|a, b| a && !b),
+        Region { label: own.about().flags[outer].label.to_owned(), mask: outer_mask },
+        region(format!("{} only", own.about().name), &|a, b| a && !b),
         region(format!("{with} only"), &|a, b| b && !a),
         region("both".into(), &|a, b| a && b),
     ])
@@ -307,7 +307,7 @@ fn evaluated(family: &'static dyn Family, atlas: &Atlas, plan: &PicturePlan) -> 
 /// [`Error::Atlas`] for one that this program does not have.
 pub fn of(atlas: &Atlas) -> Result<&'static dyn Family> {
     family::by_name(atlas.family_name()).ok_or_else(|| {
-        let known: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
+        let known: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
         let what = format!("its family is `{}`; this program has `{}`", atlas.family_name(), known.join("`, `"));
         Error::Atlas { path: atlas.path().to_owned(), what }
     })

@@ -29,7 +29,7 @@ pub(super) fn levels(
         (Some(field), None) => return Err(Fault::new(field.span(), "`field` goes with `levels`; say which to fill")),
         (None, Some(values)) => return Err(Fault::new(values.span(), "`levels` go with `field`; say of which scalar")),
     };
-    let known: Vec<&'static str> = stored.iter().map(|i| family.scalars()[*i].name).collect();
+    let known: Vec<&'static str> = stored.iter().map(|i| family.about().scalars[*i].name).collect();
     let name = known.iter().find(|name| *name == field.get_ref());
     let name = name.ok_or_else(|| Fault::new(field.span(), unknown("field of this atlas", field.get_ref(), &known)))?;
     let rising = values.get_ref().windows(2).all(|pair| pair[0] < pair[1]) && values.get_ref().iter().all(|x| x.is_finite());

@@ -65,7 +65,7 @@ pub struct AtlasPlan {
     pub name: String,
     /// The family: the recipe's, unless the atlas has its own.
     pub family: &'static dyn Family,
-    /// The scalars to store, in the recipe's order: indices into [`Family::scalars`].
+    /// The scalars to store, in the recipe's order: indices into [`About::scalars`].
     pub scalars: Vec<usize>,
     /// What the axes are.
     pub chart: &'static Chart,
@@ -88,7 +88,7 @@ pub struct PicturePlan {
     pub y: usize,
     /// The other axes, slowest first, each with the nodes to show, increasing: just one on a slice.
     pub at: Vec<(usize, Vec<usize>)>,
-    /// Flags to fill, each over those before: indices into [`Family::flags`]. Empty: the family's own choice.
+    /// Flags to fill, each over those before: indices into [`About::flags`]. Empty: the family's own choice.
     pub regions: Vec<usize>,
     /// Flags to draw as outlines, where `regions` are chosen.
     pub outlines: Vec<usize>,
@@ -175,13 +175,13 @@ fn resolve(text: &str) -> Result<Recipe, Fault> {
 }
 
 fn family_of(name: &Spanned<String>) -> Result<&'static dyn Family, Fault> {
-    let names: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
+    let names: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
     family::by_name(name.get_ref()).ok_or_else(|| Fault::new(name.span(), unknown("family", name.get_ref(), &names)))
 }
 
 fn scalars(family: &dyn Family, fields: &[Spanned<String>]) -> Result<Vec<usize>, Fault> {
     let always = ["flags", "solutions"];
-    let known: Vec<&str> = always.into_iter().chain(family.scalars().iter().map(|s| s.name)).collect();
+    let known: Vec<&str> = always.into_iter().chain(family.about().scalars.iter().map(|s| s.name)).collect();
     let mut places = Vec::new();
     for field in fields {
         let name = field.get_ref();
@@ -224,7 +224,7 @@ fn chart(
     family: &'static dyn Family,
     axes: &Spanned<BTreeMap<Spanned<String>, Spanned<RawAxis>>>,
 ) -> Result<&'static Chart, Fault> {
-    let mut known: Vec<&str> = family.charts().iter().flat_map(|c| c.axes).copied().collect();
+    let mut known: Vec<&str> = family.about().charts.iter().flat_map(|c| c.axes).copied().collect();
     known.sort_unstable();
     known.dedup();
     let given: Vec<&Spanned<String>> = axes.get_ref().keys().collect();
@@ -232,10 +232,10 @@ fn chart(
         return Err(Fault::new(key.span(), unknown("axis", key.get_ref(), &known)));
     }
     let fits = |c: &&Chart| c.axes.len() == given.len() && given.iter().all(|key| c.axes.contains(&&key.get_ref()[..]));
-    family.charts().iter().find(fits).ok_or_else(|| {
-        let charts: Vec<String> = family.charts().iter().map(|c| format!("{} ({})", c.axes.join(", "), c.name)).collect();
+    family.about().charts.iter().find(fits).ok_or_else(|| {
+        let charts: Vec<String> = family.about().charts.iter().map(|c| format!("{} ({})", c.axes.join(", "), c.name)).collect();
         let given: Vec<&str> = given.iter().map(|key| &key.get_ref()[..]).collect();
-        let what = format!("the axes are {}; `{}` takes {}", given.join(", "), family.name(), charts.join(" or "));
+        let what = format!("the axes are {}; `{}` takes {}", given.join(", "), family.about().name, charts.join(" or "));
         Fault::new(axes.span(), what)
     })
 }
@@ -304,18 +304,21 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, st
 fn compared(raw: &RawPicture, family: &dyn Family, chart: &Chart) -> Result<&'static str, Fault> {
     let with = raw.with.as_ref().ok_or_else(|| Fault::new(raw.kind.span(), "the picture lacks `with`, the other family"))?;
     let other = family_of(with)?;
-    let spiral = |family: &dyn Family| family.flags().iter().any(|f| f.name == "SPIRAL");
-    if !other.charts().iter().any(|c| c.axes == chart.axes) || !spiral(family) || !spiral(other) {
-        let what =
-            format!("`{}` and `{}` cannot be compared: both need a flag `SPIRAL` and the same axes", family.name(), other.name());
+    let spiral = |family: &dyn Family| family.about().flags.iter().any(|f| f.name == "SPIRAL");
+    if !other.about().charts.iter().any(|c| c.axes == chart.axes) || !spiral(family) || !spiral(other) {
+        let what = format!(
+            "`{}` and `{}` cannot be compared: both need a flag `SPIRAL` and the same axes",
+            family.about().name,
+            other.about().name
+        );
         return Err(Fault::new(with.span(), what));
     }
-    Ok(other.name())
+    Ok(other.about().name)
 }
 
 /// The places of named flags.
 fn flags(names: &[Spanned<String>], family: &dyn Family) -> Result<Vec<usize>, Fault> {
-    let known: Vec<&str> = family.flags().iter().map(|f| f.name).collect();
+    let known: Vec<&str> = family.about().flags.iter().map(|f| f.name).collect();
     let place = |name: &Spanned<String>| {
         let place = known.iter().position(|k| k == name.get_ref());
         place.ok_or_else(|| Fault::new(name.span(), unknown("flag", name.get_ref(), &known)))

@@ -146,16 +146,16 @@ pub fn reference() -> String {
     }
     page += "\n## Families\n\nThe axes, flags and scalars that a recipe may name.\n";
     for family in family::all() {
-        page += &format!("\n### `{}`\n{}\n\n", family.name(), family.title());
-        for chart in family.charts() {
+        page += &format!("\n### `{}`\n{}\n\n", family.about().name, family.about().title);
+        for chart in family.about().charts {
             page += &format!("- axes `{}`: {}\n", chart.axes.join("`, `"), chart.doc);
         }
-        let _ = writeln!(page, "- filled unless a picture chooses: `{}`", family.nested().join("`, `"));
+        let _ = writeln!(page, "- filled unless a picture chooses: `{}`", family.about().nested.join("`, `"));
         page += "\n| flag | is true where |\n| --- | --- |\n";
-        family.flags().iter().for_each(|flag| page += &format!("| `{}` | {} |\n", flag.name, cell(flag.doc)));
-        if !family.scalars().is_empty() {
+        family.about().flags.iter().for_each(|flag| page += &format!("| `{}` | {} |\n", flag.name, cell(flag.doc)));
+        if !family.about().scalars.is_empty() {
             page += "\n| scalar | is |\n| --- | --- |\n";
-            family.scalars().iter().for_each(|scalar| page += &format!("| `{}` | {} |\n", scalar.name, cell(scalar.doc)));
+            family.about().scalars.iter().for_each(|scalar| page += &format!("| `{}` | {} |\n", scalar.name, cell(scalar.doc)));
         }
     }
     page

@@ -72,7 +72,7 @@ fn wrong(atlas: &Atlas, picture: &image::RgbImage, outer: &[[usize; 3]]) -> usiz
                 let flags = atlas.at(&index).unwrap().flags;
                 let bit = |name: &str| {
                     let family = spiral_atlas::family::by_name("trig-quintic").unwrap();
-                    flags >> family.flags().iter().position(|f| f.name == name).unwrap() & 1 == 1
+                    flags >> family.about().flags.iter().position(|f| f.name == name).unwrap() & 1 == 1
                 };
                 let expected = if bit("SPIRAL") {
                     colors[1]

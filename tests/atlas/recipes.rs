@@ -62,7 +62,7 @@ fn complaint(from: &str, to: &str) -> String {
 fn a_recipe_is_understood() {
     let recipe = Recipe::parse(GOOD).unwrap();
     let [first, second] = &recipe.atlases[..] else { panic!("two atlases") };
-    assert_eq!((first.family.name(), &first.scalars[..], &recipe.text[..]), ("cubic", &[2, 0][..], GOOD));
+    assert_eq!((first.family.about().name, &first.scalars[..], &recipe.text[..]), ("cubic", &[2, 0][..], GOOD));
     assert_eq!((&first.name[..], first.chart.name), ("first-1", "curvature"));
     assert_eq!((&second.name[..], second.chart.name), ("second", "normalised"));
     assert_eq!(first.grid.shape(), [12, 2, 3, 4]);
@@ -115,7 +115,7 @@ fn an_atlas_may_have_its_own_family() {
         other => panic!("{:?}", other.is_ok()),
     }
     let recipe = Recipe::parse("family = \"cubic\"\n[[atlas]]\nname = \"a\"\nfamily = \"reach-ph\"\n[atlas.axes]\ntheta = { values = [1] }\nxi = { values = [1] }\neta = { values = [1] }").unwrap();
-    assert_eq!(recipe.atlases[0].family.name(), "reach-ph");
+    assert_eq!(recipe.atlases[0].family.about().name, "reach-ph");
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn comparisons_need_another_family_with_spirals() {
 fn shipped_regions_of_end_points() {
     for (name, kind) in [("reach.toml", "reach-cubic"), ("reach-ph.toml", "reach-ph")] {
         let recipe = shipped(name);
-        assert!(recipe.atlases.iter().all(|a| a.family.name() == kind));
+        assert!(recipe.atlases.iter().all(|a| a.family.about().name == kind));
         let kinds: Vec<PictureKind> = recipe.atlases.iter().map(|a| a.pictures[0].kind).collect();
         assert_eq!(kinds, [PictureKind::Slice, PictureKind::Slice, PictureKind::Union]);
         assert!(recipe.atlases.iter().all(|a| a.pictures[0].regions.len() == 3 && a.family.table(&a.grid).is_ok()));

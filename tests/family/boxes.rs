@@ -39,7 +39,7 @@ impl<const N: usize> Subject<N> {
 
     /// The flags of all nodes of a product of values, by the ladder.
     fn flags(&self, values: &[Vec<f64>; N]) -> Vec<u8> {
-        let names = self.family.charts()[self.chart].axes;
+        let names = self.family.about().charts[self.chart].axes;
         let axes = names.iter().zip(values).map(|(name, values)| Axis::new(name, Spacing::Values(values.clone())).unwrap());
         let grid = Grid::new(axes.collect()).unwrap();
         let table = self.family.table(&grid).unwrap_or_else(|e| panic!("{values:?}: {e}"));
@@ -53,7 +53,7 @@ impl<const N: usize> Subject<N> {
     /// inside. So many points must have been met at least, and each flag so often INSIDE and OUTSIDE.
     pub fn attack(&self, seed: u64, boxes: u64, between: usize, least: usize, each: u64) {
         let mut r = Random(seed);
-        let count = self.family.flags().len();
+        let count = self.family.about().flags.len();
         let (mut points, mut inside, mut outside) = (0, vec![0u64; count], vec![0u64; count]);
         for round in 0..boxes {
             let sides = (self.draw)(&mut r, round);
@@ -74,7 +74,7 @@ impl<const N: usize> Subject<N> {
             }
             points += found.len();
         }
-        println!("{}: {points} points; {boxes} boxes, inside {inside:?}, outside {outside:?}", self.family.name());
+        println!("{}: {points} points; {boxes} boxes, inside {inside:?}, outside {outside:?}", self.family.about().name);
         assert!(points >= least && inside.iter().chain(&outside).all(|n| *n > each), "{points} {inside:?} {outside:?}");
     }
 }

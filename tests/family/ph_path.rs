@@ -22,7 +22,7 @@ struct Node {
 
 fn node(family: PhPath, datum: &[f64]) -> Node {
     let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x])).unwrap();
-    let grid = Grid::new(family.charts()[0].axes.iter().zip(datum).map(axis).collect()).unwrap();
+    let grid = Grid::new(family.about().charts[0].axes.iter().zip(datum).map(axis).collect()).unwrap();
     let table = family.table(&grid).unwrap_or_else(|e| panic!("{datum:?}: {e}"));
     let mut code = [Code::UNDECIDED];
     table.filter(0, &mut code);
@@ -67,7 +67,7 @@ fn check(family: PhPath, datum: &[f64]) -> Node {
     let found = node(family, datum);
     let all = peaks([datum[0], datum[1]], given(family, datum));
     let faults = faults(&found, &all);
-    assert!(faults.is_empty(), "{} {datum:?}: {faults:?}\n{all:?}", family.name());
+    assert!(faults.is_empty(), "{} {datum:?}: {faults:?}\n{all:?}", family.about().name);
     found
 }
 

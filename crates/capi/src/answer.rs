@@ -16,7 +16,7 @@ unsafe fn known(family: *const c_char, chart: *const c_char) -> Result<(&'static
     // SAFETY: the caller's promise.
     let name = unsafe { text(family, "family")? };
     let family = family::by_name(name).ok_or_else(|| {
-        let all: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
+        let all: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
         Fault::domain(format!("no family is named `{name}`; there are: {}", all.join(", ")))
     })?;
     if chart.is_null() {
@@ -24,9 +24,9 @@ unsafe fn known(family: *const c_char, chart: *const c_char) -> Result<(&'static
     }
     // SAFETY: the caller's promise.
     let name = unsafe { text(chart, "chart")? };
-    let chart = family.charts().iter().position(|c| c.name == name).ok_or_else(|| {
-        let all: Vec<&str> = family.charts().iter().map(|c| c.name).collect();
-        Fault::domain(format!("`{}` has no chart `{name}`; it has: {}", family.name(), all.join(", ")))
+    let chart = family.about().charts.iter().position(|c| c.name == name).ok_or_else(|| {
+        let all: Vec<&str> = family.about().charts.iter().map(|c| c.name).collect();
+        Fault::domain(format!("`{}` has no chart `{name}`; it has: {}", family.about().name, all.join(", ")))
     })?;
     Ok((family, chart))
 }
@@ -40,7 +40,7 @@ pub unsafe extern "C" fn spiral_family_axes(family: *const c_char, chart: *const
     guard(|| {
         // SAFETY: the caller's promises.
         let ((family, chart), slot) = unsafe { (known(family, chart)?, place(count, "count")?) };
-        *slot = family.charts()[chart].axes.len();
+        *slot = family.about().charts[chart].axes.len();
         Ok(())
     })
 }
@@ -54,7 +54,7 @@ pub unsafe extern "C" fn spiral_family_flag(family: *const c_char, name: *const 
     guard(|| {
         // SAFETY: the caller's promises.
         let ((family, _), name, slot) = unsafe { (known(family, std::ptr::null())?, text(name, "name")?, place(mask, "mask")?) };
-        *slot = self::mask(family.flags().iter().map(|flag| flag.name), name)?;
+        *slot = self::mask(family.about().flags.iter().map(|flag| flag.name), name)?;
         Ok(())
     })
 }
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn spiral_solve_batch(
         // SAFETY: the caller's promises.
         let (family, chart, data, flags, solutions) = unsafe {
             let (family, chart) = known(family, chart)?;
-            let data = numbers(data, count, family.charts()[chart].axes.len(), "data")?;
+            let data = numbers(data, count, family.about().charts[chart].axes.len(), "data")?;
             (family, chart, data, results(flags, count, "flags")?, results(solutions, count, "solutions")?)
         };
         let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
@@ -111,7 +111,7 @@ pub unsafe extern "C" fn spiral_solve(
         // SAFETY: the caller's promises.
         let (family, chart, datum, slot) = unsafe {
             let (family, chart) = known(family, chart)?;
-            let datum = numbers(datum, 1, family.charts()[chart].axes.len(), "datum")?;
+            let datum = numbers(datum, 1, family.about().charts[chart].axes.len(), "datum")?;
             (family, chart, datum, place(answer, "answer")?)
         };
         *slot = Box::into_raw(Box::new(SpiralAnswer(family.answer(chart, datum)?)));

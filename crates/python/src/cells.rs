@@ -37,7 +37,7 @@ impl Cells {
     /// The family's name.
     #[getter]
     fn family(&self) -> &str {
-        self.0.family().name()
+        self.0.family().about().name
     }
 
     /// First and last value of each axis, by name, in the order of the coordinates.
@@ -113,6 +113,6 @@ impl Cells {
     }
 
     fn __repr__(&self) -> String {
-        format!("<spiral_atlas.Cells of {}: {} along each axis>", self.0.family().name(), self.0.resolution())
+        format!("<spiral_atlas.Cells of {}: {} along each axis>", self.0.family().about().name, self.0.resolution())
     }
 }

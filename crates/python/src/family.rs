@@ -54,16 +54,16 @@ pub fn families(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
 }
 
 fn about(family: &dyn Family) -> About {
-    let charts = family.charts().iter().map(|c| ChartAbout { name: c.name, axes: c.axes, doc: c.doc }).collect();
+    let charts = family.about().charts.iter().map(|c| ChartAbout { name: c.name, axes: c.axes, doc: c.doc }).collect();
     let packed = |c: &family::Count| Packed { name: c.name, doc: c.doc, shift: c.shift, bits: c.bits };
     About {
-        name: family.name(),
-        title: family.title(),
-        conventions: family.conventions(),
+        name: family.about().name,
+        title: family.about().title,
+        conventions: family.about().conventions,
         charts,
-        flags: family.flags().iter().map(|f| Named { name: f.name, doc: f.doc }).collect(),
-        counts: family.counts().iter().map(packed).collect(),
-        scalars: family.scalars().iter().map(|s| Named { name: s.name, doc: s.doc }).collect(),
+        flags: family.about().flags.iter().map(|f| Named { name: f.name, doc: f.doc }).collect(),
+        counts: family.about().counts.iter().map(packed).collect(),
+        scalars: family.about().scalars.iter().map(|s| Named { name: s.name, doc: s.doc }).collect(),
     }
 }
 
@@ -92,12 +92,12 @@ pub fn solve<'py>(py: Python<'py>, family: &str, coordinates: Option<&Bound<'py,
     let (chart, point) = datum(family, &given)?;
     let answer = py.detach(|| family.answer(chart, &point)).map_err(raise)?;
     let told = PyDict::new(py);
-    for (axis, x) in family.charts()[chart].axes.iter().zip(&point) {
+    for (axis, x) in family.about().charts[chart].axes.iter().zip(&point) {
         told.set_item(axis, x)?;
     }
     told.set_item("flags", flags(py, family, &answer)?)?;
     let counts = PyDict::new(py);
-    for count in family.counts() {
+    for count in family.about().counts {
         counts.set_item(count.name, count.of(answer.code.counts()))?;
     }
     told.set_item("counts", counts)?;
@@ -110,7 +110,7 @@ pub fn solve<'py>(py: Python<'py>, family: &str, coordinates: Option<&Bound<'py,
 
 fn flags<'py>(py: Python<'py>, family: &dyn Family, answer: &Answer) -> PyResult<Bound<'py, PyDict>> {
     let flags = PyDict::new(py);
-    for (bit, flag) in family.flags().iter().enumerate() {
+    for (bit, flag) in family.about().flags.iter().enumerate() {
         flags.set_item(flag.name, answer.code.flags() >> bit & 1 == 1)?;
     }
     Ok(flags)
@@ -127,7 +127,7 @@ fn values<'py>(py: Python<'py>, all: &[(&'static str, Value)]) -> PyResult<Bound
 /// The family of a name.
 fn known(name: &str) -> PyResult<&'static dyn Family> {
     family::by_name(name).ok_or_else(|| {
-        let names: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
+        let names: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
         PyValueError::new_err(format!("`{name}` is no family; there are {}", names.join(", ")))
     })
 }
@@ -135,13 +135,13 @@ fn known(name: &str) -> PyResult<&'static dyn Family> {
 /// Chart and coordinates of a datum that was given by name.
 fn datum(family: &dyn Family, given: &[(String, Bound<'_, PyAny>)]) -> PyResult<(usize, Vec<f64>)> {
     let fits = |chart: &Chart| chart.axes.len() == given.len() && given.iter().all(|(name, _)| chart.axes.contains(&&name[..]));
-    let chart = family.charts().iter().position(fits).ok_or_else(|| {
-        let known: Vec<String> = family.charts().iter().map(|c| c.axes.join(", ")).collect();
+    let chart = family.about().charts.iter().position(fits).ok_or_else(|| {
+        let known: Vec<String> = family.about().charts.iter().map(|c| c.axes.join(", ")).collect();
         let names: Vec<&str> = given.iter().map(|(name, _)| &name[..]).collect();
         let names = if names.is_empty() { "no coordinates".into() } else { names.join(", ") };
-        PyTypeError::new_err(format!("`{}` has {}; given: {names}", family.name(), known.join(" | ")))
+        PyTypeError::new_err(format!("`{}` has {}; given: {names}", family.about().name, known.join(" | ")))
     })?;
-    let point = family.charts()[chart].axes.iter().map(|axis| {
+    let point = family.about().charts[chart].axes.iter().map(|axis| {
         let value = given.iter().find(|(name, _)| name == axis).map(|(_, value)| value);
         coordinate(axis, value.ok_or_else(|| PyTypeError::new_err(format!("{axis} is missing")))?)
     });
@@ -181,12 +181,12 @@ pub fn solve_batch<'py>(
     let family = known(family)?;
     let data = data.as_array();
     let fits = |c: &Chart| c.axes.len() == data.ncols() && chart.is_none_or(|name| c.name == name);
-    let chart = family.charts().iter().position(fits).ok_or_else(|| {
-        let known: Vec<String> = family.charts().iter().map(|c| format!("{} ({})", c.name, c.axes.join(", "))).collect();
+    let chart = family.about().charts.iter().position(fits).ok_or_else(|| {
+        let known: Vec<String> = family.about().charts.iter().map(|c| format!("{} ({})", c.name, c.axes.join(", "))).collect();
         let asked = chart.map_or(String::new(), |name| format!(", the chart asked for is `{name}`"));
         PyValueError::new_err(format!(
             "`{}` has the charts {}; the data have {} columns{asked}",
-            family.name(),
+            family.about().name,
             known.join(" | "),
             data.ncols()
         ))

@@ -29,7 +29,7 @@ pub use bound::least_end_curvature;
 pub use exact::Datum;
 pub use involute::{GREATEST, Image, Involute, InvolutePoint, Spiral, Split, WhyNone, involute};
 
-use super::{Answer, Chart, Code, Count, Family, Flag, Region, Scalar, Table, coordinates, verdict};
+use super::{About, Answer, Chart, Code, Family, Flag, Region, Scalar, Table, coordinates, verdict};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -89,34 +89,20 @@ const CHARTS: &[Chart] = &[
 ];
 
 impl Family for AnySpiral {
-    fn name(&self) -> &'static str {
-        "any-spiral"
-    }
-    fn title(&self) -> &'static str {
-        "spirals of any kind between two ends, and the involute that makes one (Kurnosenko)"
-    }
-    fn charts(&self) -> &'static [Chart] {
-        CHARTS
-    }
-    fn conventions(&self) -> &'static str {
-        "end points (-1, 0) and (1, 0); directions alpha and beta in radians, counter-clockwise from the chord; curvature positive to the left, \
+    fn about(&self) -> &'static About {
+        &About {
+            name: "any-spiral",
+            title: "spirals of any kind between two ends, and the involute that makes one (Kurnosenko)",
+            charts: CHARTS,
+            conventions: "end points (-1, 0) and (1, 0); directions alpha and beta in radians, counter-clockwise from the chord; curvature positive to the left, \
          increasing or decreasing along the curve; short spirals: no point strictly inside the curve lies on the chord's line outside the chord; \
-         the doubles nearest to +-pi lie just inside, so a half turn of falling curvature is written with the other sign than one of rising curvature"
-    }
-    fn flags(&self) -> &'static [Flag] {
-        FLAGS
-    }
-    fn yes(&self) -> &'static [&'static str] {
-        &["EXISTS"]
-    }
-    fn nested(&self) -> &'static [&'static str] {
-        &["EXISTS", "INFLECTION"]
-    }
-    fn counts(&self) -> &'static [Count] {
-        &[]
-    }
-    fn scalars(&self) -> &'static [Scalar] {
-        SCALARS
+         the doubles nearest to +-pi lie just inside, so a half turn of falling curvature is written with the other sign than one of rising curvature",
+            flags: FLAGS,
+            yes: &["EXISTS"],
+            nested: &["EXISTS", "INFLECTION"],
+            counts: &[],
+            scalars: SCALARS,
+        }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::AnyTable::new(grid)?))

@@ -50,7 +50,7 @@ mod table;
 
 pub use solve::{Datum, Root, Solutions, solve};
 
-use super::{Answer, Chart, Code, Count, Family, Flag, Region, Scalar, Table, coordinates};
+use super::{About, Answer, Chart, Code, Count, Family, Flag, Region, Scalar, Table, coordinates};
 use crate::error::Result;
 use crate::grid::Grid;
 use fearless_simd::Level;
@@ -133,33 +133,19 @@ impl Cubic {
 }
 
 impl Family for Cubic {
-    fn name(&self) -> &'static str {
-        "cubic"
-    }
-    fn title(&self) -> &'static str {
-        "cubic Bezier spirals matching G2 Hermite data (Habib & Sakai)"
-    }
-    fn charts(&self) -> &'static [Chart] {
-        CHARTS
-    }
-    fn conventions(&self) -> &'static str {
-        "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos phi1, sin phi1); \
-         curvature positive to the left and increasing along the curve; lengths in half chords, angles in radians"
-    }
-    fn flags(&self) -> &'static [Flag] {
-        FLAGS
-    }
-    fn yes(&self) -> &'static [&'static str] {
-        &["SPIRAL"]
-    }
-    fn nested(&self) -> &'static [&'static str] {
-        &["ANY_SPIRAL", "SPIRAL", "THEOREM31_ANY", "THEOREM31"]
-    }
-    fn counts(&self) -> &'static [Count] {
-        COUNTS
-    }
-    fn scalars(&self) -> &'static [Scalar] {
-        SCALARS
+    fn about(&self) -> &'static About {
+        &About {
+            name: "cubic",
+            title: "cubic Bezier spirals matching G2 Hermite data (Habib & Sakai)",
+            charts: CHARTS,
+            conventions: "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos phi1, sin phi1); \
+         curvature positive to the left and increasing along the curve; lengths in half chords, angles in radians",
+            flags: FLAGS,
+            yes: &["SPIRAL"],
+            nested: &["ANY_SPIRAL", "SPIRAL", "THEOREM31_ANY", "THEOREM31"],
+            counts: COUNTS,
+            scalars: SCALARS,
+        }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         self.table_at(grid, Level::new())

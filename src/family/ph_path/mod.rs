@@ -24,7 +24,7 @@ mod truth;
 pub(crate) use arc::bends_less;
 pub(crate) use range::{Candidate, Search};
 
-use super::{Answer, Chart, Count, Family, Flag, Scalar, Table};
+use super::{About, Answer, Chart, Family, Flag, Scalar, Table};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -105,48 +105,34 @@ impl Kind {
     }
 }
 
+const EQUAL_LENGTH: About = About {
+    name: "ph-equal-length",
+    title: "the least greatest curvature of PH quintics of given arc length (Farouki et al.)",
+    charts: CHARTS[Kind::EqualLength as usize],
+    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients w0, w1, w2, |w0| = |w2|; \
+                 lengths in chords, curvatures in their inverses, angles in radians",
+    flags: FLAGS,
+    yes: &["REGULAR"],
+    nested: &["REGULAR", "ONE_WAY"],
+    counts: &[],
+    scalars: SCALARS,
+};
+
+const HERMITE: About = About {
+    name: "ph-hermite",
+    title: "the least greatest curvature of PH quintics with given end derivatives (Farouki et al.)",
+    charts: CHARTS[Kind::Hermite as usize],
+    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients w0, w1, w2, |w0|^2 = l0, \
+                 |w2|^2 = l1; lengths in chords, curvatures in their inverses, angles in radians",
+    ..EQUAL_LENGTH
+};
+
 impl Family for PhPath {
-    fn name(&self) -> &'static str {
+    fn about(&self) -> &'static About {
         match self.0 {
-            Kind::EqualLength => "ph-equal-length",
-            Kind::Hermite => "ph-hermite",
+            Kind::EqualLength => &EQUAL_LENGTH,
+            Kind::Hermite => &HERMITE,
         }
-    }
-    fn title(&self) -> &'static str {
-        match self.0 {
-            Kind::EqualLength => "the least greatest curvature of PH quintics of given arc length (Farouki et al.)",
-            Kind::Hermite => "the least greatest curvature of PH quintics with given end derivatives (Farouki et al.)",
-        }
-    }
-    fn charts(&self) -> &'static [Chart] {
-        CHARTS[self.0 as usize]
-    }
-    fn conventions(&self) -> &'static str {
-        match self.0 {
-            Kind::EqualLength => {
-                "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients w0, w1, w2, |w0| = |w2|; \
-                 lengths in chords, curvatures in their inverses, angles in radians"
-            }
-            Kind::Hermite => {
-                "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients w0, w1, w2, |w0|^2 = l0, \
-                 |w2|^2 = l1; lengths in chords, curvatures in their inverses, angles in radians"
-            }
-        }
-    }
-    fn flags(&self) -> &'static [Flag] {
-        FLAGS
-    }
-    fn yes(&self) -> &'static [&'static str] {
-        &["REGULAR"]
-    }
-    fn nested(&self) -> &'static [&'static str] {
-        &["REGULAR", "ONE_WAY"]
-    }
-    fn counts(&self) -> &'static [Count] {
-        &[]
-    }
-    fn scalars(&self) -> &'static [Scalar] {
-        SCALARS
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::PathTable::new(self.0, grid)?))

@@ -25,7 +25,7 @@ mod truth;
 pub use super::cubic::Datum;
 pub use solve::{Quintic, Solutions, flags, solve};
 
-use super::{Answer, Chart, Count, Family, Flag, Region, Scalar, Table, coordinates};
+use super::{About, Answer, Chart, Count, Family, Flag, Region, Scalar, Table, coordinates};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -89,34 +89,20 @@ const CHARTS: &[Chart] = &[Chart {
 }];
 
 impl Family for PhQuintic {
-    fn name(&self) -> &'static str {
-        "ph-quintic"
-    }
-    fn title(&self) -> &'static str {
-        "Pythagorean-hodograph quintic spirals matching G2 Hermite data"
-    }
-    fn charts(&self) -> &'static [Chart] {
-        CHARTS
-    }
-    fn conventions(&self) -> &'static str {
-        "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos phi1, sin phi1); \
+    fn about(&self) -> &'static About {
+        &About {
+            name: "ph-quintic",
+            title: "Pythagorean-hodograph quintic spirals matching G2 Hermite data",
+            charts: CHARTS,
+            conventions: "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos phi1, sin phi1); \
          curvature positive to the left and increasing along the curve; the curve's derivative is w^2 for a quadratic w with Bernstein \
-         coefficients w0, w1, w2; lengths in half chords, angles in radians"
-    }
-    fn flags(&self) -> &'static [Flag] {
-        FLAGS
-    }
-    fn yes(&self) -> &'static [&'static str] {
-        &["SPIRAL"]
-    }
-    fn nested(&self) -> &'static [&'static str] {
-        &["ANY_SPIRAL", "SPIRAL"]
-    }
-    fn counts(&self) -> &'static [Count] {
-        COUNTS
-    }
-    fn scalars(&self) -> &'static [Scalar] {
-        SCALARS
+         coefficients w0, w1, w2; lengths in half chords, angles in radians",
+            flags: FLAGS,
+            yes: &["SPIRAL"],
+            nested: &["ANY_SPIRAL", "SPIRAL"],
+            counts: COUNTS,
+            scalars: SCALARS,
+        }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::PhTable::new(grid)?))

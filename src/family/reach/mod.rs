@@ -21,7 +21,7 @@ mod table;
 
 pub use solve::{Datum, Level, Reached, Segment, level_of_shape, solve};
 
-use super::{Answer, Chart, Count, Family, Flag, Region, Scalar, Table, Value, coordinates, verdict};
+use super::{About, Answer, Chart, Family, Flag, Region, Scalar, Table, Value, coordinates, verdict};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -121,41 +121,33 @@ const PH_CHARTS: &[Chart] = &[Chart {
     doc: "theta: angle from the start to the end tangent, radians, in (0, pi); (xi, eta): end point over r, start at (0, 0) along (1, 0)",
 }];
 
-impl Family for Reach {
-    fn name(&self) -> &'static str {
-        self.0.name()
-    }
-    fn title(&self) -> &'static str {
-        match self.0 {
-            Kind::Cubic => "end points that a cubic spiral segment reaches (Habib & Sakai)",
-            Kind::Ph => "end points that a PH quintic spiral segment reaches (Habib & Sakai)",
-        }
-    }
-    fn charts(&self) -> &'static [Chart] {
-        match self.0 {
-            Kind::Cubic => CUBIC_CHARTS,
-            Kind::Ph => PH_CHARTS,
-        }
-    }
-    fn conventions(&self) -> &'static str {
-        "start point (0, 0), start direction (1, 0), end direction (cos theta, sin theta), curvature positive to the left; case 1: \
+const CUBIC: About = About {
+    name: Kind::Cubic.name(),
+    title: "end points that a cubic spiral segment reaches (Habib & Sakai)",
+    charts: CUBIC_CHARTS,
+    conventions: "start point (0, 0), start direction (1, 0), end direction (cos theta, sin theta), curvature positive to the left; case 1: \
          curvature 0 at the start and 1/r at the end, increasing; case 2: 1/r at the start and 0 at the end, decreasing; lengths in \
-         units of r, angles in radians"
-    }
-    fn flags(&self) -> &'static [Flag] {
-        FLAGS
-    }
-    fn yes(&self) -> &'static [&'static str] {
-        &["CASE1_EXACT", "CASE2_EXACT"]
-    }
-    fn nested(&self) -> &'static [&'static str] {
-        &["CASE1_EXISTS", "CASE1_EXACT", "CASE1_THEOREM", "CASE1_PAPER"]
-    }
-    fn counts(&self) -> &'static [Count] {
-        &[]
-    }
-    fn scalars(&self) -> &'static [Scalar] {
-        SCALARS
+         units of r, angles in radians",
+    flags: FLAGS,
+    yes: &["CASE1_EXACT", "CASE2_EXACT"],
+    nested: &["CASE1_EXISTS", "CASE1_EXACT", "CASE1_THEOREM", "CASE1_PAPER"],
+    counts: &[],
+    scalars: SCALARS,
+};
+
+const PH: About = About {
+    name: Kind::Ph.name(),
+    title: "end points that a PH quintic spiral segment reaches (Habib & Sakai)",
+    charts: PH_CHARTS,
+    ..CUBIC
+};
+
+impl Family for Reach {
+    fn about(&self) -> &'static About {
+        match self.0 {
+            Kind::Cubic => &CUBIC,
+            Kind::Ph => &PH,
+        }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::ReachTable::new(self.0, grid)?))

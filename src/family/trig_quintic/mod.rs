@@ -20,7 +20,7 @@ mod threshold;
 pub use curve::Scaling;
 pub use exact::Shape;
 
-use super::{Answer, Chart, Count, Family, Flag, NO_VALUE, Scalar, Table, coordinates, verdict};
+use super::{About, Answer, Chart, Family, Flag, NO_VALUE, Scalar, Table, coordinates, verdict};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -90,34 +90,20 @@ pub fn least_ratio(shape: &Shape) -> Result<Option<f32>> {
 }
 
 impl Family for TrigQuintic {
-    fn name(&self) -> &'static str {
-        "trig-quintic"
-    }
-    fn title(&self) -> &'static str {
-        "quintic trigonometric Bezier spirals from a line to a circle (Misro, Ramli & Ali)"
-    }
-    fn charts(&self) -> &'static [Chart] {
-        CHARTS
-    }
-    fn conventions(&self) -> &'static str {
-        "start point (0, 0), start direction (1, 0), curvature 0 at the start and positive to the left; end direction (cos theta, sin theta); \
+    fn about(&self) -> &'static About {
+        &About {
+            name: "trig-quintic",
+            title: "quintic trigonometric Bezier spirals from a line to a circle (Misro, Ramli & Ali)",
+            charts: CHARTS,
+            conventions: "start point (0, 0), start direction (1, 0), curvature 0 at the start and positive to the left; end direction (cos theta, sin theta); \
          basis (2), control points (3) with (9); angles in radians; the radius scales out of every field: a curve has the end curvature 1/r when \
-         (9) is taken with 15 r / (4 + q)^2 in place of r"
-    }
-    fn flags(&self) -> &'static [Flag] {
-        FLAGS
-    }
-    fn yes(&self) -> &'static [&'static str] {
-        &["SPIRAL"]
-    }
-    fn nested(&self) -> &'static [&'static str] {
-        &["END_RISES", "SPIRAL"]
-    }
-    fn counts(&self) -> &'static [Count] {
-        &[]
-    }
-    fn scalars(&self) -> &'static [Scalar] {
-        SCALARS
+         (9) is taken with 15 r / (4 + q)^2 in place of r",
+            flags: FLAGS,
+            yes: &["SPIRAL"],
+            nested: &["END_RISES", "SPIRAL"],
+            counts: &[],
+            scalars: SCALARS,
+        }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::TrigTable::new(grid)?))

@@ -7,7 +7,7 @@ use spiral_atlas::grid::{Axis, Grid, Spacing};
 
 /// Bits of `SPIRAL` and `ANY_SPIRAL` of a family.
 fn bits(family: &str) -> [u8; 2] {
-    let flags = by_name(family).unwrap().flags();
+    let flags = by_name(family).unwrap().about().flags;
     ["SPIRAL", "ANY_SPIRAL"].map(|name| 1 << flags.iter().position(|f| f.name == name).unwrap())
 }
 

@@ -59,7 +59,7 @@ fn the_recipe_is_in_the_domain() {
     let recipe = spiral_atlas::recipe::Recipe::read(path).unwrap();
     assert_eq!(recipe.atlases.len(), 3);
     for atlas in &recipe.atlases {
-        assert_eq!((atlas.family.name(), &atlas.scalars[..]), ("any-spiral", &[0, 2][..]));
+        assert_eq!((atlas.family.about().name, &atlas.scalars[..]), ("any-spiral", &[0, 2][..]));
         let table = atlas.family.table(&atlas.grid).unwrap();
         let mut codes = vec![Code::UNDECIDED; atlas.grid.len() as usize];
         table.filter(0, &mut codes);

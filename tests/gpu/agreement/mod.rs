@@ -45,8 +45,8 @@ macro_rules! families {
 
         #[test]
         fn every_family_is_compared() {
-            let compared = [$($subject.family.name()),*];
-            assert!(family::all().iter().all(|f| compared.contains(&f.name())), "{compared:?}");
+            let compared = [$($subject.family.about().name),*];
+            assert!(family::all().iter().all(|f| compared.contains(&f.about().name)), "{compared:?}");
         }
     };
 }
@@ -103,7 +103,7 @@ fn every_byte(subject: Subject) {
     let Subject { family, grids, nodes: least, .. } = subject;
     let mut nodes = 0;
     for (name, grid) in grids {
-        let name = format!("{}, {name}", family.name());
+        let name = format!("{}, {name}", family.about().name);
         let job = Job { family, grid: &grid, scalars: &[] };
         let (cpu, report) = all_chunks(&job, &Backend::Cpu);
         println!("{name}: {} nodes, {} undecided after f64, {} bits", grid.len(), report.undecided_f64, report.most_bits);
@@ -123,7 +123,7 @@ fn every_byte(subject: Subject) {
         flipped[at].flags[node] ^= 16;
         assert_eq!(differences(&cpu, &flipped).0, 1);
     }
-    assert!(nodes >= least, "{}: {nodes} nodes", family.name());
+    assert!(nodes >= least, "{}: {nodes} nodes", family.about().name);
 }
 
 fn few_nodes(subject: Subject) {
@@ -133,7 +133,7 @@ fn few_nodes(subject: Subject) {
     let mut truth = vec![Code::UNDECIDED; grid.len() as usize];
     table.filter(0, &mut truth);
     for adapter in crate::adapters::labels() {
-        let name = format!("{}, {adapter}", family.name());
+        let name = format!("{}, {adapter}", family.about().name);
         let mut engine = Engine::new(Some(&adapter), &*table, grid, &Settings::default()).unwrap();
         let (mut open, mut wrong, mut yes) = (0u64, 0u64, 0u64);
         let stats = engine
