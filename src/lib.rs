@@ -136,6 +136,7 @@ pub mod path;
 pub mod picture;
 #[cfg(feature = "cli")]
 pub mod plot;
+pub mod question;
 #[cfg(feature = "recipe")]
 pub mod recipe;
 pub mod transition;

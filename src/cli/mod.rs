@@ -17,6 +17,7 @@ mod output;
 mod path;
 mod points;
 mod query;
+mod question;
 mod render;
 mod verify;
 

@@ -3,6 +3,7 @@
 use super::cells::{self, Opened};
 use super::datum::{Coordinates, Datum, from_cells, parse_family};
 use super::output::{self, Object};
+use super::question::QuestionArgs;
 use super::{Outcome, points};
 use serde::Serialize;
 use spiral_atlas::atlas::Atlas;
@@ -27,7 +28,9 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --kappa1 4\n  \
                         spiral-atlas query --family reach-ph --theta 40deg --xi 1.5 --eta 0.35\n  \
-                        spiral-atlas query --points data.csv > answers.jsonl")]
+                        spiral-atlas query --points data.csv > answers.jsonl\n  \
+                        spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --ranges kappa1 --within 0,100\n  \
+                        spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 3 --kappa1 4 --nearest --weights inf,inf,1,1")]
 pub struct Args {
     /// The family; that of the atlas, or `cubic`, unless given.
     #[arg(long, value_name = "NAME", value_parser = parse_family)]
@@ -44,6 +47,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    question: QuestionArgs,
 }
 
 /// Runs the command.
@@ -67,6 +72,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
             let answer = Answer::new(family, from_cells(family, chart, cells)?, atlas.as_ref())?;
             serde_json::to_vec(&answer).map_err(output::json_error)
         });
+    }
+    if args.question.any() {
+        return args.question.run(family, &args.coordinates, args.json);
     }
     let datum = args.coordinates.datum(family).unwrap_or_else(|what| super::refuse(&what));
     let answer = Answer::new(family, datum, atlas.as_ref())?;

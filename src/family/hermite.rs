@@ -1,5 +1,6 @@
 //! The domain of G² Hermite data in the chord's frame: `0 < φ0`, `0 < φ1`, `φ0 + φ1 < π`.
 
+use super::region::clip_side;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::num::sines::sum_below_pi;
@@ -51,6 +52,22 @@ pub(super) fn check(datum: [(&str, f64); 4]) -> Result<()> {
 pub(super) fn holds_box(sides: &[[f64; 2]; 4]) -> bool {
     let [phi0, phi1, ..] = sides;
     phi0[0] > 0.0 && phi1[0] > 0.0 && sum_below_pi(phi0[1], phi1[1]) && sides.iter().flatten().all(|x| x.is_finite())
+}
+
+/// [`super::Region::clip`] of a family with this domain.
+pub(super) fn clip(low: &mut [f64], high: &mut [f64]) -> bool {
+    let least = f64::from_bits(1);
+    for side in 0..2 {
+        // What the other angle leaves, rounded up and then down to the last that fits.
+        let mut most = (PI - low[1 - side].max(least)).next_up().min(PI);
+        while most > 0.0 && !sum_below_pi(most, low[1 - side].max(least)) {
+            most = most.next_down();
+        }
+        if !clip_side(&mut low[side], &mut high[side], least, most) {
+            return false;
+        }
+    }
+    true
 }
 
 /// A grid whose first two axes are φ0 and φ1.

@@ -23,7 +23,7 @@ use crate::num::sines::{SIN_ERROR, sin};
 use crate::num::verdict::and;
 use crate::num::{Ball, Form, Number, Verdict, formula};
 use std::cmp::Ordering::{Greater, Less};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 fn sine(x: f64) -> Ball {
     Ball::near(sin(x), SIN_ERROR)
@@ -58,6 +58,17 @@ fn sines([low, high]: [f64; 2]) -> [Ball; 2] {
     // Both may be the extreme one where they are equal to a rounding.
     let error = first.error + last.error;
     [Ball { error: least.error + 2.0 * error, ..least }, Ball { error: greatest.error + 2.0 * error, ..greatest }]
+}
+
+/// Whether the flag holds at no datum of the domain in a box that may reach beyond `φ0 + φ1 = π`.
+///
+/// Where it holds, φ0 < π/2. So larger ones are left out. The way of the corners (above) then needs `φ0 + φ1 < π` only
+/// while φ1 falls, and there it stays so.
+pub(super) fn fails_within_domain([phi0, phi1, kappa0, kappa1]: &[[f64; 2]; 4]) -> bool {
+    let angles = phi0[0] > 0.0 && phi1[0] > 0.0 && phi1[1] <= PI;
+    let most = phi0[1].min(FRAC_PI_2.next_up());
+    let finite = [kappa0, kappa1].into_iter().flatten().all(|x| x.is_finite());
+    angles && finite && (phi0[0] > most || any(&[[phi0[0], most], *phi1, *kappa0, *kappa1]).0 == Some(false))
 }
 
 /// Whether the flag holds all over a box of the domain, or nowhere; and how much each coordinate moves f, about.

@@ -22,6 +22,10 @@ pub trait Region: Sync {
     /// Whether it has proofs in the family's chart of this name.
     fn covers(&self, chart: &str) -> bool;
 
+    /// Shrinks a box so that it still holds each of its data of doubles that lies in the family's domain; false where
+    /// there is none.
+    fn clip(&self, chart: usize, low: &mut [f64], high: &mut [f64]) -> bool;
+
     /// Proves what it can of the flags in `wanted` over the closed box of all real points between `low` and `high`,
     /// both included.
     ///
@@ -34,6 +38,12 @@ pub trait Region: Sync {
     ///   high`.
     /// - `wanted`: the flags that matter; others may be left open.
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts;
+}
+
+/// Shrinks a side to the doubles from `least` to `most`; false where none is left.
+pub(super) fn clip_side(low: &mut f64, high: &mut f64, least: f64, most: f64) -> bool {
+    (*low, *high) = (low.max(least), high.min(most));
+    *low <= *high
 }
 
 /// Whether a form is positive, or negative, all over the box.
@@ -71,11 +81,17 @@ impl Facts {
 pub(super) fn unit_sign<const K: usize, const H: usize>(quintic: &Quintic<Form<K, H>>) -> Verdict {
     let middle: Quintic<f64> = quintic.map(|form| form.value);
     let (value, t) = least(&middle);
+    let lowest = at(quintic, t);
     if value < 0.0 {
-        return (at(quintic, t).high() < 0.0).then_some(false);
+        return (lowest.high() < 0.0).then_some(false);
     }
-    above(quintic, 6).then_some(true)
+    // Where it is not positive even there, no halving helps. Elsewhere pieces stay open near its least value alone.
+    (lowest.low() > 0.0 && above(quintic, MOST_HALVINGS)).then_some(true)
 }
+
+/// Halvings of [0, 1] at most: a least value of 2^-50 of the coefficients, below which their errors are, needs half as
+/// many.
+const MOST_HALVINGS: u32 = 26;
 
 /// The quintic at t times a positive number: Horner's rule in `s = t / (1 - t)`, or in 1/s from the other end. Any s
 /// is some t, so its rounding does not matter.

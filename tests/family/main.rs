@@ -11,6 +11,7 @@ mod ph_oracle;
 mod ph_path;
 mod ph_region;
 mod ph_vectors;
+mod question;
 mod reach_oracle;
 mod reach_region;
 mod reach_vectors;

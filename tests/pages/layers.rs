@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room of `src/` with the rooms that it may import.
-const ROOMS: [(&str, &[&str]); 17] = [
+const ROOMS: [(&str, &[&str]); 18] = [
     ("error", &[]),
     ("steps", &[]),
     ("files", &["error"]),
@@ -21,6 +21,7 @@ const ROOMS: [(&str, &[&str]); 17] = [
     ("recipe", &["family", "grid", "num", "files", "error"]),
     ("atlas", &["eval", "family", "grid", "num", "files", "error"]),
     ("cells", &["atlas", "family", "grid", "files", "error"]),
+    ("question", &["family", "num", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
     ("path", &["transition", "family", "curve", "num", "steps", "error"]),
     ("export", &["path", "transition", "curve", "error"]),
@@ -33,6 +34,7 @@ const ROOMS: [(&str, &[&str]); 17] = [
             "path",
             "transition",
             "cells",
+            "question",
             "atlas",
             "recipe",
             "eval",

@@ -12,7 +12,7 @@
 
 use super::{AnySpiral, EXISTS, INFLECTION, RISING};
 use crate::family::outer_region::rising;
-use crate::family::region::{Facts, MOST_SIDES, Region};
+use crate::family::region::{Facts, MOST_SIDES, Region, clip_side};
 use crate::num::Form;
 use crate::num::Verdict;
 use crate::num::verdict::and;
@@ -56,6 +56,10 @@ fn opposite(a: [f64; 2], b: [f64; 2]) -> Verdict {
 impl Region for AnySpiral {
     fn covers(&self, chart: &str) -> bool {
         super::CHARTS.iter().any(|c| c.name == chart)
+    }
+
+    fn clip(&self, _: usize, low: &mut [f64], high: &mut [f64]) -> bool {
+        (0..2).all(|side| clip_side(&mut low[side], &mut high[side], -PI, PI))
     }
 
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {

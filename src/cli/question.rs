@@ -1,0 +1,131 @@
+//! `query --ranges`, `--nearest` and `--boundary`: questions beyond yes and no.
+
+use super::Outcome;
+use super::datum::Coordinates;
+use super::output;
+use spiral_atlas::family::Family;
+use spiral_atlas::question::{Boundary, Nearest, Property, Ranges, boundary, nearest, ranges};
+use spiral_atlas::recipe::parse_coordinate;
+use spiral_atlas::{Error, Result};
+
+/// What to find instead of the answer for the datum.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Questions beyond yes and no")]
+pub struct QuestionArgs {
+    /// All intervals of this coordinate in which the property holds, the others being given.
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["nearest", "boundary"])]
+    ranges: Option<String>,
+    /// The nearest datum that has the property.
+    #[arg(long, conflicts_with = "boundary")]
+    nearest: bool,
+    /// The outline of the property over two coordinates, such as kappa0,kappa1, the others being given; as polylines.
+    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
+    boundary: Option<Vec<String>>,
+    /// The flag that is asked for; the family's yes unless given.
+    #[arg(long, value_name = "NAME")]
+    property: Option<String>,
+    /// With --ranges or --boundary: where to look, the least and the greatest value; once for each coordinate.
+    #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true)]
+    within: Vec<String>,
+    /// With --nearest: weights of the coordinates in a distance, in the order of the axes; inf keeps one as it is.
+    #[arg(long, value_name = "W,W,..", value_delimiter = ',', requires = "nearest")]
+    weights: Option<Vec<f64>>,
+    /// With --boundary: cells along each side, a power of two.
+    #[arg(long, value_name = "N", default_value_t = 256, requires = "boundary")]
+    cells: usize,
+}
+
+impl QuestionArgs {
+    /// Whether anything is asked.
+    pub fn any(&self) -> bool {
+        self.ranges.is_some() || self.nearest || self.boundary.is_some()
+    }
+
+    /// The answer, printed.
+    pub fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
+        let free: Vec<&str> = self.ranges.iter().chain(self.boundary.iter().flatten()).map(|name| &name[..]).collect();
+        let (axes, point) = coordinates.but(family, &free).unwrap_or_else(|what| super::refuse(&what));
+        let flag = match (&self.property, family.about().yes) {
+            (Some(name), _) => name,
+            (None, [only]) => *only,
+            (None, several) => super::refuse(&format!("name a --property, such as {}", several.join(" or "))),
+        };
+        let property = Property::new(family.about().name, axes, flag)?;
+        let place = |name: &&str| axes.iter().position(|axis| axis == name).unwrap_or_default();
+        let within = || free.iter().enumerate().map(|(i, name)| self.within(i, name)).collect::<Result<Vec<_>>>();
+        if self.nearest {
+            let ones = vec![1.0; axes.len()];
+            let found = nearest(&property, &point, self.weights.as_deref().unwrap_or(&ones))?;
+            print(&found, json, |found| nearest_text(&property, found))?;
+            return Ok(if found.point.is_some() { Outcome::Fine } else { Outcome::Bad });
+        }
+        if let [name] = free[..] {
+            let found = ranges(&property, &point, place(&name), within()?[0])?;
+            print(&found, json, |found| ranges_text(&property, name, found))?;
+            return Ok(if found.ranges.is_empty() { Outcome::Bad } else { Outcome::Fine });
+        }
+        let [first, second] = free[..] else { super::refuse("--boundary takes two coordinates, such as kappa0,kappa1") };
+        let within = within()?;
+        let found = boundary(&property, &point, [place(&first), place(&second)], [within[0], within[1]], self.cells)?;
+        print(&found, json, |found| boundary_text([first, second], found))?;
+        Ok(if found.outlines.is_empty() { Outcome::Bad } else { Outcome::Fine })
+    }
+
+    /// Where to look along a coordinate.
+    fn within(&self, i: usize, name: &str) -> Result<[f64; 2]> {
+        let Some(text) = self.within.get(i) else {
+            super::refuse(&format!("give --within FROM,TO for {name}, the interval to look in"));
+        };
+        let ends = text.split_once(',').ok_or_else(|| {
+            Error::Domain(format!("--within is {text:?}; it must be two values with a comma between them, such as 0,10"))
+        })?;
+        Ok([parse_coordinate(name, ends.0)?, parse_coordinate(name, ends.1)?])
+    }
+}
+
+fn print<T: serde::Serialize>(found: &T, json: bool, text: impl Fn(&T) -> String) -> Result<()> {
+    if json { output::print_json(found) } else { output::print(&text(found)) }
+}
+
+fn ranges_text(property: &Property, name: &str, found: &Ranges) -> String {
+    let mut text = String::new();
+    for range in &found.ranges {
+        let ([a, b], [c, d], [e, f]) = (range.ends, range.inner, range.outer);
+        text += &format!("{} holds for {name} from {a:?} to {b:?}\n", property.name());
+        text += &format!("  proved all over {c:?} to {d:?}, and to fail beyond {e:?} and {f:?}\n");
+    }
+    if found.ranges.is_empty() {
+        text += &format!("{} holds for no {name} there\n", property.name());
+    }
+    for [a, b] in &found.open {
+        text += &format!("not decided for {name} from {a:?} to {b:?}\n");
+    }
+    text
+}
+
+fn nearest_text(property: &Property, found: &Nearest) -> String {
+    let Nearest { point, distance, at_least, .. } = found;
+    let (Some(point), Some(distance)) = (point, distance) else {
+        return match at_least.is_finite() {
+            true => format!("no datum with {} was found; any is farther than {at_least:?}\n", property.name()),
+            false => format!("no datum has {}, of those with coordinates up to 1e6\n", property.name()),
+        };
+    };
+    let place: Vec<String> = property.axes().iter().zip(point).map(|(axis, x)| format!("{axis} = {x:?}")).collect();
+    format!(
+        "{} holds at {}, at a distance of {distance:?}; no datum with it is nearer than {at_least:?}\n",
+        property.name(),
+        place.join(", ")
+    )
+}
+
+fn boundary_text([first, second]: [&str; 2], found: &Boundary) -> String {
+    let mut text = String::new();
+    for outline in &found.outlines {
+        let kind = if outline.closed { "closed outline" } else { "outline from border to border" };
+        text += &format!("{kind}, {} points ({first}, {second}):\n", outline.points.len());
+        outline.points.iter().for_each(|[x, y]| text += &format!("  {x:?} {y:?}\n"));
+    }
+    let [dx, dy] = found.cell;
+    text + &format!("{} cells of {dx:?} by {dy:?} are open beside the outlines\n", found.open.len())
+}

@@ -1,0 +1,197 @@
+//! Ranges, nearest data and outlines, against exact verdicts and the oracle at points.
+
+use crate::oracle::random::Random;
+use crate::oracle::{in_domain, judge};
+use spiral_atlas::family::{self, verdict};
+use spiral_atlas::question::{Property, boundary, nearest, ranges};
+
+/// The property of a name, and its verdict at a point as a grid of one node has it.
+struct Asked {
+    property: Property,
+    holds: Box<dyn Fn(&[f64]) -> bool>,
+}
+
+fn asked(family: &str, chart: usize, flag: &str) -> Asked {
+    let found = family::by_name(family).unwrap();
+    let about = found.about();
+    let bit = about.flags.iter().position(|f| f.name == flag).unwrap();
+    let holds = move |point: &[f64]| verdict(found, chart, point).is_ok_and(|code| code.flags() >> bit & 1 == 1);
+    Asked { property: Property::new(family, about.charts[chart].axes, flag).unwrap(), holds: Box::new(holds) }
+}
+
+/// Data of families in half chords, near those that have spirals.
+fn datum(r: &mut Random) -> Vec<f64> {
+    let phi1 = r.uniform(0.2, 2.0);
+    let phi0 = r.uniform(0.05, 0.9) * phi1.min(3.1 - phi1);
+    vec![phi0, phi1, r.uniform(0.0, 1.2) * phi0.sin(), phi1.sin() * (1.0 + r.uniform(-0.2, 3.0))]
+}
+
+fn with(point: &[f64], axis: usize, x: f64) -> Vec<f64> {
+    let mut point = point.to_vec();
+    point[axis] = x;
+    point
+}
+
+/// Inside it holds, outside it fails, the ends are where it changes, and the work is bounded.
+#[test]
+fn ranges_are_true_at_every_point() {
+    let mut r = Random(71);
+    let subjects =
+        [("cubic", "SPIRAL", 60), ("cubic", "SOLVABLE", 30), ("any-spiral", "EXISTS", 40), ("ph-quintic", "SPIRAL", 6)];
+    let (mut found, mut wide) = (0, 0);
+    for (family, flag, count) in subjects {
+        let chart = usize::from(family == "any-spiral");
+        let Asked { property, holds } = asked(family, chart, flag);
+        for _ in 0..count {
+            let (point, axis) = (datum(&mut r), r.below(4) as usize);
+            let within = if axis < 2 { [0.0, 3.0] } else { [0.0, 20.0] };
+            let answer = ranges(&property, &point, axis, within).unwrap();
+            let place = format!("{family} {flag} {point:?} {axis}: {answer:?}");
+            assert!(answer.boxes <= 4_000, "{place}");
+            let inside = |x: f64| answer.ranges.iter().any(|s| s.inner[0] <= x && x <= s.inner[1]);
+            let edge = |x: f64| {
+                let near = |s: &[f64; 2]| s[0] <= x && x <= s[1];
+                answer.ranges.iter().any(|s| near(&[s.outer[0], s.inner[0]]) || near(&[s.inner[1], s.outer[1]]))
+                    || answer.open.iter().any(near)
+            };
+            for _ in 0..40 {
+                let x = r.uniform(within[0], within[1]);
+                if !edge(x) {
+                    assert_eq!(holds(&with(&point, axis, x)), inside(x), "{x:?} {place}");
+                }
+            }
+            for range in &answer.ranges {
+                found += 1;
+                for (side, outwards) in [f64::next_down as fn(f64) -> f64, f64::next_up].into_iter().enumerate() {
+                    let (end, gap) = (range.ends[side], (range.outer[side] - range.inner[side]).abs());
+                    wide += usize::from(gap > 1e-9 * end.abs().max(1e-100));
+                    assert!(holds(&with(&point, axis, end)), "{end:?} {place}");
+                    assert!(end == range.outer[side] || !holds(&with(&point, axis, outwards(end))), "{end:?} {place}");
+                    assert!(holds(&with(&point, axis, range.inner[side])), "{place}");
+                }
+            }
+        }
+    }
+    assert!(found > 60 && wide * 10 < found, "{found} {wide}");
+}
+
+/// The oracle knows nothing of boxes: some 50 digits at the ends' neighbours.
+#[test]
+fn ends_of_ranges_agree_with_the_oracle() {
+    let mut r = Random(72);
+    let property = asked("cubic", 0, "SPIRAL").property;
+    let mut compared = 0;
+    for _ in 0..12 {
+        let point = datum(&mut r);
+        for range in ranges(&property, &point, 3, [0.0, 20.0]).unwrap().ranges {
+            for (side, outwards) in [(0, -1e-9), (1, 1e-9)] {
+                let end = range.ends[side];
+                let judged = |x: f64| {
+                    in_domain(point[0], point[1]) && judge(point[0], point[1], point[2], x).flags & family::cubic::SPIRAL != 0
+                };
+                if end < 20.0 {
+                    assert!(judged(end - outwards * end) && !judged(end + outwards * end), "{point:?} {range:?}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared >= 8, "{compared}");
+}
+
+/// What is returned has the property, and nothing nearer than `at_least` has.
+#[test]
+fn nothing_is_nearer_than_said() {
+    let mut r = Random(73);
+    let (mut close, mut all) = (0, 0);
+    for (family, flag, count) in [("cubic", "SPIRAL", 8), ("any-spiral", "EXISTS", 8), ("ph-quintic", "SPIRAL", 1)] {
+        let chart = usize::from(family == "any-spiral");
+        let Asked { property, holds } = asked(family, chart, flag);
+        for k in 0..count {
+            let point: Vec<f64> = vec![r.uniform(0.2, 1.4), r.uniform(0.2, 1.4), r.uniform(0.5, 2.0), r.uniform(0.0, 2.0)];
+            // Of half of them the directions stay.
+            let weights = if k % 2 == 0 { [f64::INFINITY, f64::INFINITY, 1.0, 0.5] } else { [1.0, 2.0, 1.0, 0.5] };
+            let answer = nearest(&property, &point, &weights).unwrap();
+            let place = format!("{family} {point:?} {weights:?}: {answer:?}");
+            assert!(answer.boxes <= 60_000, "{place}");
+            if let (Some(found), Some(distance)) = (&answer.point, answer.distance) {
+                assert!(holds(found), "{place}");
+                let kept = |i: usize| weights[i].is_finite() || found[i] == point[i];
+                assert!((0..4).all(kept) && distance >= answer.at_least, "{place}");
+                all += 1;
+                close += usize::from(distance <= 1.002 * answer.at_least);
+            }
+            let reach = answer.at_least.min(1e3);
+            for _ in 0..300 {
+                let step: Vec<f64> = (0..4).map(|i| if weights[i].is_finite() { r.uniform(-1.0, 1.0) } else { 0.0 }).collect();
+                let size = step.iter().zip(weights).filter(|(s, _)| **s != 0.0).map(|(s, w)| (s * w).powi(2)).sum::<f64>().sqrt();
+                let share = reach * r.uniform(0.5, 0.9999) / size;
+                let moved: Vec<f64> = point.iter().zip(&step).map(|(x, s)| x + share * s).collect();
+                assert!(reach == 0.0 || !holds(&moved), "{moved:?} {place}");
+            }
+        }
+    }
+    assert!(all > 8 && 2 * close > all, "{close} of {all}");
+}
+
+/// Points on either side of an outline differ, and beside cells that it passes nothing changes.
+#[test]
+fn outlines_part_what_holds_from_what_fails() {
+    let mut r = Random(74);
+    let Asked { property, holds } = asked("cubic", 0, "SPIRAL");
+    let point = [0.7, 1.4, 0.0, 0.0];
+    let (within, cells) = ([[0.0, 0.8], [0.0, 12.0]], 128);
+    let found = boundary(&property, &point, [2, 3], within, cells).unwrap();
+    let at = |[x, y]: [f64; 2]| holds(&[point[0], point[1], x, y]);
+    let cell_of = |p: [f64; 2]| [0, 1].map(|i| ((p[i] - within[i][0]) / found.cell[i]).floor() as i64);
+    let mut passed = std::collections::HashSet::new();
+    for outline in &found.outlines {
+        for p in &outline.points {
+            // On an edge of the lattice: both cells beside it.
+            for off in [[-1e-9, -1e-9], [1e-9, 1e-9], [1e-9, -1e-9], [-1e-9, 1e-9]] {
+                passed.insert(cell_of([p[0] + off[0], p[1] + off[1]]));
+            }
+            let differs = |i: usize| {
+                let (mut a, mut b) = (*p, *p);
+                a[i] -= 2e-6 * found.cell[i];
+                b[i] += 2e-6 * found.cell[i];
+                at(a) != at(b)
+            };
+            assert!(differs(0) || differs(1), "{p:?}");
+        }
+    }
+    passed.extend(found.open.iter().map(|[low, high]| cell_of([0, 1].map(|i| 0.5 * low[i] + 0.5 * high[i]))));
+    assert!(passed.len() > 100, "{}", passed.len());
+    for _ in 0..3000 {
+        let p = [r.uniform(0.0, 0.8), r.uniform(0.0, 12.0)];
+        let cell = cell_of(p);
+        if !passed.contains(&cell) {
+            let corner = [0, 1].map(|i| within[i][0] + found.cell[i] * (cell[i] as f64 + r.uniform(0.0, 1.0)));
+            assert_eq!(at(p), at(corner), "{p:?} {corner:?}");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused() {
+    let axes = &["phi0", "phi1", "kappa0", "kappa1"];
+    let told = |e: spiral_atlas::Error| e.to_string();
+    for (family, axes, flag, what) in [
+        ("nothing", &axes[..], "SPIRAL", "nothing"),
+        ("cubic", &axes[..3], "SPIRAL", "phi0 phi1 kappa0"),
+        ("cubic", &axes[..], "LOOP", "LOOP"),
+        ("trig-quintic", &axes[..], "SPIRAL", "trig-quintic"),
+    ] {
+        assert!(told(Property::new(family, axes, flag).unwrap_err()).contains(what));
+    }
+    let spiral = Property::new("cubic", axes, "SPIRAL").unwrap();
+    let point = [0.7, 1.4, 0.4, 4.0];
+    assert!(told(ranges(&spiral, &point, 4, [0.0, 1.0]).unwrap_err()).contains("number 4"));
+    assert!(told(ranges(&spiral, &point, 3, [1.0, 1.0]).unwrap_err()).contains("1.0 to 1.0"));
+    assert!(told(ranges(&spiral, &point[..3], 2, [0.0, 1.0]).unwrap_err()).contains("3 coordinates"));
+    assert!(told(nearest(&spiral, &[f64::NAN, 1.4, 0.4, 4.0], &[1.0; 4]).unwrap_err()).contains("phi0 is NaN"));
+    assert!(told(nearest(&spiral, &point, &[1.0, 0.0, 1.0, 1.0]).unwrap_err()).contains("weight of phi1"));
+    assert!(told(boundary(&spiral, &point, [2, 2], [[0.0, 1.0]; 2], 64).unwrap_err()).contains("numbers 2 and 2"));
+    assert!(told(boundary(&spiral, &point, [2, 3], [[0.0, 1.0], [0.0, f64::INFINITY]], 64).unwrap_err()).contains("kappa1"));
+    assert!(told(boundary(&spiral, &point, [2, 3], [[0.0, 1.0]; 2], 65).unwrap_err()).contains("65"));
+}
