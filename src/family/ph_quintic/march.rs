@@ -189,9 +189,10 @@ impl<N: Real> March<N> {
         let inside = |t: &N| within(t, &a.t, &b.t);
         // Twice as far as the error of D may move the solution; what is needed, the signs tell.
         let moved = step(&knot)?;
-        // In doubles, which a step may be too small for.
-        let (most, fine) = (moved.most(), moved.mul(&N::power_of_two(bits, self.bits())).most());
-        let most = if fine.is_finite() { N::power_of_two(-bits, self.bits()).times(fine) } else { N::of(most, self.bits()) };
+        // It may be too small for a double.
+        let scaled = |power: i32| moved.mul(&N::power_of_two(power, self.bits())).most();
+        let power = (0..bits).step_by(500).find(|power| scaled(*power) > 2f64.powi(-500)).unwrap_or(bits);
+        let most = N::power_of_two(-power, self.bits()).times(scaled(power));
         let mut reach = most.times(2.0).add(&N::power_of_two(4 - bits, self.bits()));
         for _ in 0..4 {
             let delta = knot.t.mul(&reach);
