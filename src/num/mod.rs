@@ -21,7 +21,7 @@ pub use number::{Lanes, Number, Real};
 pub use twin::{TWIN_BITS, Twin};
 pub use verdict::Verdict;
 pub use words::told;
-pub use ziv::{FIRST_BITS, climb};
+pub use ziv::climb;
 
 /// `lo (hi / lo)^(i / (count - 1))`, the ends exact; the same doubles on every machine.
 pub(crate) fn log_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {

@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use std::fmt::Debug;
 
 /// Precision of the first try, in bits.
-pub const FIRST_BITS: usize = 128;
+const FIRST_BITS: usize = 128;
 /// Documented cap: a verdict still open here is an error. Sums of the tiniest and the largest doubles need some 4000 bits.
 const MOST_BITS: usize = 16384;
 

@@ -9,7 +9,7 @@
 //! - One PH quintic type, `curve::PhQuintic`: pre-image and both ends. Both, so that ends are met exactly; control points come from the nearer end.
 //! - Its energy is that of the family (`family/ph_quintic/energy.rs`): a proved enclosure needs no partial fractions, which cancel where roots nearly coincide.
 //! - `curve/equal_length.rs`: of √p and √q the one that is a sum, the other from their product; the discriminant as a sum of squares. Nothing cancels near `θ1 = ±θ0`.
-//! - `path/separation.rs` bounds by speeds and by accelerations. By speeds alone, two vehicles in step need `1/tolerance` stretches; with both, its square root.
+//! - `path/separation.rs` bounds by speeds and by accelerations. By speeds alone, two vehicles in step need `1/tolerance` stretches; with both, its square root; and one, where their pieces have the same shapes.
 //!   Errors of a point are those of its arc length, since a chord is no longer than its arc. Time is cut where one starts or arrives: on a stretch each
 //!   stands or moves.
 //! - `path/way.rs` knows where a vehicle is after a length. The quadrature for kinds without a formula is cut into cells by a proved bound, not until two
@@ -32,6 +32,7 @@
 mod corner;
 mod course;
 mod least_curvature;
+mod motion;
 mod plan;
 mod queue;
 mod separation;
@@ -42,8 +43,9 @@ mod way;
 pub use corner::Turn;
 pub use course::{Course, OffsetCurve, Spot, Summary};
 pub use least_curvature::{Directions, Free, LeastCurvature, least_curvature};
+pub use motion::Motion;
 pub use plan::{Clearance, Corner, Plan, Proof, Scene, plan, prove};
-pub use separation::{Closest, Motion, Separation, Verdict, separation, separations};
+pub use separation::{Closest, Separation, Verdict, separation, separations};
 pub use spline::{Spline, spline};
 
 use crate::curve::PhQuintic;

@@ -3,163 +3,21 @@
 //! On a stretch of time with half-width h around a moment with the separation `r` and the relative velocity `v`, the
 //! separation stays above both `|r| - L h`, `L = V1 + V2`, and `min |r + vτ| - K h²/2`, `K = V1² κ1 + V2² κ2` with
 //! bounds of the curvatures. Stretches are halved, the one with the least bound first, until the least separation is
-//! enclosed and the verdict certain. Where both move in step the second bound needs far fewer stretches than the first.
+//! enclosed and the verdict certain. Where both move in step the second bound needs far fewer stretches than the first; and where their pieces
+//! have the same shapes, as those of a formation, one stretch does: the way from one to the other does not change ([`Motion::drift`]).
 
+use super::motion::{Motion, State};
 use super::queue::Queue;
-use super::way::{Reached, Way};
-use super::{Course, ROUNDINGS, distance, finite};
+use super::{distance, finite};
 use crate::error::{Error, Result};
 use crate::steps::step;
-use crate::transition::Piece;
 
 /// Stretches at most.
 const STRETCHES: usize = 100_000;
-/// Times, and lengths covered in them, are at most this.
-const LARGEST: f64 = 1e140;
-/// Stretches at first.
-const FIRST: usize = 64;
-/// Directions that differ by no more where pieces join are a matter of rounding.
-const SMOOTH: f64 = 1e-6;
+/// Stretches of all pairs together, after each pair is decided.
+const ALL_STRETCHES: usize = 1_000_000;
 /// The least separation is enclosed to this share of the greatest length and coordinate, or as rounding allows.
 const TOLERANCE: f64 = 1e-10;
-
-/// A vehicle on its way.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Motion {
-    course: Course,
-    ways: Vec<Way>,
-    /// Lengths up to the start of each piece, and of all.
-    lengths: Vec<f64>,
-    speed: f64,
-    start_time: f64,
-    /// Bound of its curvature; infinite for a path with corners.
-    curvature: f64,
-    /// Bound of what its direction changes by where pieces join, all together, and of the errors of directions.
-    kinks: f64,
-    /// Its length or its largest coordinate.
-    extent: f64,
-    /// Bound of its coordinates, lengths and legs.
-    size: f64,
-    /// Bound of what points, lengths and the gaps between pieces are off by.
-    mismatch: f64,
-}
-
-/// Where a vehicle is: point, direction, bounds of their errors, and speed and curvature from standing or moving as
-/// then.
-struct State {
-    point: [f64; 2],
-    tangent: [f64; 2],
-    off: f64,
-    tangent_off: f64,
-    speed: f64,
-    curvature: f64,
-}
-
-impl Motion {
-    /// Along pieces that join, at a constant speed, from a time on.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] without a piece, for an involute, for pieces that [`Course::new`] refuses, a path of no
-    /// length, a speed not above 0, or a number not finite.
-    pub fn new<P: Into<Piece>>(pieces: impl IntoIterator<Item = P>, speed: f64, start_time: f64) -> Result<Motion> {
-        let fail = |what: String| Err(Error::Domain(format!("motion: {what}")));
-        finite("motion", "speed", &[speed])?;
-        finite("motion", "start_time", &[start_time])?;
-        if speed <= 0.0 {
-            return fail(format!("`speed` is {speed:?}; it must be above 0"));
-        }
-        let course = Course::new(pieces.into_iter().map(Into::into).collect())?;
-        let way = |(i, piece)| Way::new(piece).map_err(|e| Error::Domain(format!("pieces[{i}] {e}")));
-        let ways = course.pieces().iter().enumerate().map(way).collect::<Result<Vec<Way>>>()?;
-        let mut lengths = vec![0.0];
-        for way in &ways {
-            lengths.push(lengths[lengths.len() - 1] + way.length);
-        }
-        let length = lengths[lengths.len() - 1];
-        if !(length > 0.0 && length.is_finite()) {
-            return fail(format!("its path is {length:?} long; it must have a length"));
-        }
-        let most = |of: fn(&Way) -> f64| ways.iter().map(of).fold(0.0, f64::max);
-        let direction_off = most(|way| way.direction_off);
-        // The difference of unit tangents, each of which may be off by what the place is.
-        let kink = |w: &[Way]| {
-            let [end, start] = [w[0].after(w[0].length), w[1].after(0.0)];
-            let off = |way: &Way, at: &Reached| way.curvature * (at.missed + ROUNDINGS * way.sizes[1]);
-            distance(end.tangent, start.tangent) + ROUNDINGS + off(&w[0], &end) + off(&w[1], &start)
-        };
-        let kinks = ways.windows(2).map(kink).sum::<f64>();
-        // A corner has no curvature; the bound by speeds alone still holds there.
-        let smooth = kinks <= SMOOTH;
-        let curvature = if smooth { most(|way| way.curvature) } else { f64::INFINITY };
-        let far = most(|way| way.sizes[0]);
-        let gaps: f64 = course.pieces().windows(2).map(|w| distance(w[0].end(), w[1].start())).sum();
-        // Points may jump where pieces join, and once more within a piece.
-        let mismatch = gaps + ways.iter().map(|way| 2.0 * way.mismatch + way.length_off).sum::<f64>();
-        // Each kink lies between two directions.
-        let kinks = kinks + 2.0 * ways.len() as f64 * direction_off;
-        let size = far + length + most(|way| way.sizes[1]);
-        let extent = far.max(length);
-        let motion = Motion { course, ways, lengths, speed, start_time, curvature, kinks, extent, size, mismatch };
-        let [start, end] = motion.times();
-        let told = speed * (start.abs() + end.abs());
-        // Written so that NaN is refused.
-        let fits = start < end && start.abs().max(end.abs()).max(told) <= LARGEST;
-        if !fits {
-            return fail(format!(
-                "its path of length {length:?} takes from time {start:?} to {end:?} at the `speed` {speed:?}; these must differ, and be at most \
-                 {LARGEST:e}, as must be what it would cover in them: change the unit of time"
-            ));
-        }
-        Ok(motion)
-    }
-
-    /// Length of the path.
-    pub fn length(&self) -> f64 {
-        self.lengths[self.ways.len()]
-    }
-
-    /// When it starts and arrives.
-    pub fn times(&self) -> [f64; 2] {
-        [self.start_time, self.start_time + self.length() / self.speed]
-    }
-
-    /// Its path.
-    pub fn course(&self) -> &Course {
-        &self.course
-    }
-
-    /// Where it is at a time: at the start before it starts, at the end once it has arrived.
-    pub fn at(&self, time: f64) -> [f64; 2] {
-        self.state(time).point
-    }
-
-    fn state(&self, time: f64) -> State {
-        let [start, end] = self.times();
-        let under_way = time.clamp(start, end);
-        let travelled = (self.speed * (time - self.start_time)).clamp(0.0, self.length());
-        let i = self.lengths.partition_point(|s| *s <= travelled).clamp(1, self.ways.len()) - 1;
-        let Reached { point, tangent, missed } = self.ways[i].after(travelled - self.lengths[i]);
-        // Along the path by what the length misses, and the roundings of lengths, times and points. Pieces are summed
-        // up one by one.
-        let off = missed
-            + self.mismatch
-            + ROUNDINGS * self.size
-            + f64::EPSILON
-                * (self.ways.len() as f64 * self.length() + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
-        if time <= start || time >= end {
-            return State { point, tangent: [0.0; 2], off, tangent_off: 0.0, speed: 0.0, curvature: 0.0 };
-        }
-        let tangent = if tangent[0].is_finite() && tangent[1].is_finite() { tangent } else { [1.0, 0.0] };
-        State {
-            point,
-            tangent,
-            off,
-            tangent_off: self.curvature * off + self.kinks + ROUNDINGS,
-            speed: self.speed,
-            curvature: self.curvature,
-        }
-    }
-}
 
 /// Whether a minimum distance is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -207,65 +65,111 @@ pub struct Separation {
 /// # Errors
 /// [`Error::Domain`] for a minimum distance that is negative or not finite.
 pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
-    finite("separation", "minimum", &[minimum])?;
-    if minimum < 0.0 {
-        return Err(Error::Domain(format!("separation: `minimum` is {minimum:?}; a distance is at least 0")));
-    }
-    let mut events = [a.times(), b.times()].concat();
-    events.sort_by(f64::total_cmp);
-    let mut search = Search { a, b, waiting: Queue::new(), best: (f64::INFINITY, events[0], [[0.0; 2]; 2]) };
-    // Where one starts or arrives the least separation often is. In between both keep standing or moving.
-    for time in &events {
-        search.look(*time);
-    }
-    for w in events.windows(2) {
-        let time = |i: usize| if i == FIRST { w[1] } else { w[0] + (w[1] - w[0]) * (i as f64 / FIRST as f64) };
-        (0..FIRST).for_each(|i| search.add(time(i), time(i + 1)));
-    }
-    let tolerance = TOLERANCE * a.extent.max(b.extent);
-    let mut at_least = 0.0;
-    for _ in 0..STRETCHES {
-        step();
-        let Some((bound, [from, to])) = search.waiting.pop() else { break };
-        at_least = bound;
-        let at_most = search.best.0;
-        let decided = at_least >= minimum || at_most < minimum;
-        let middle = 0.5 * (from + to);
-        let halved = from < middle && middle < to;
-        if (decided && at_most - at_least <= tolerance) || !halved {
-            break;
-        }
-        search.add(from, middle);
-        search.add(middle, to);
-    }
-    let (at_most, time, points) = search.best;
-    let verdict = match () {
-        () if at_least >= minimum => Verdict::Kept,
-        () if at_most < minimum => Verdict::Violated,
-        () => Verdict::Undecided,
-    };
-    Ok(Separation { verdict, closest: Closest { time, points, at_least, at_most } })
+    check(minimum)?;
+    let tolerance = tolerance(a, b);
+    let mut search = Search::new(a, b);
+    search.run(STRETCHES, |least, most| decided(minimum, least, most) && most - least <= tolerance);
+    Ok(search.found(minimum))
 }
 
 /// [`separation`] of all pairs, as `(first, second, what is known)` with `first < second`.
 ///
+/// # Accuracy
+/// Verdicts are those of [`separation`]. Where 1,000,000 stretches do not suffice for all pairs together, the pairs that come nearest are
+/// enclosed as there, and others as far as it takes to decide them.
+///
 /// # Errors
 /// Those of [`separation`].
 pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<(usize, usize, Separation)>> {
+    check(minimum)?;
     let pairs = (0..motions.len()).flat_map(|i| (i + 1..motions.len()).map(move |j| (i, j)));
-    pairs.map(|(i, j)| Ok((i, j, separation(&motions[i], &motions[j], minimum)?))).collect()
+    let mut searches: Vec<(usize, usize, Search)> = pairs.map(|(i, j)| (i, j, Search::new(&motions[i], &motions[j]))).collect();
+    for (_, _, search) in &mut searches {
+        search.run(STRETCHES, |least, most| decided(minimum, least, most));
+    }
+    let mut order: Vec<usize> = (0..searches.len()).collect();
+    order.sort_by(|i, j| searches[*i].2.best.0.total_cmp(&searches[*j].2.best.0));
+    let mut left = ALL_STRETCHES;
+    for i in order {
+        let search = &mut searches[i].2;
+        let tolerance = tolerance(search.a, search.b);
+        left -= search.run(left.min(STRETCHES), |least, most| most - least <= tolerance);
+    }
+    Ok(searches.into_iter().map(|(i, j, search)| (i, j, search.found(minimum))).collect())
+}
+
+fn check(minimum: f64) -> Result<()> {
+    finite("separation", "minimum", &[minimum])?;
+    if minimum < 0.0 {
+        return Err(Error::Domain(format!("separation: `minimum` is {minimum:?}; a distance is at least 0")));
+    }
+    Ok(())
+}
+
+fn decided(minimum: f64, at_least: f64, at_most: f64) -> bool {
+    at_least >= minimum || at_most < minimum
+}
+
+fn tolerance(a: &Motion, b: &Motion) -> f64 {
+    TOLERANCE * a.extent().max(b.extent())
 }
 
 struct Search<'m> {
     a: &'m Motion,
     b: &'m Motion,
-    /// Stretches of time.
-    waiting: Queue<[f64; 2]>,
+    /// Stretches of time, and whether halves would tell more.
+    waiting: Queue<([f64; 2], bool)>,
     /// Least upper bound, when, and where both are then.
     best: (f64, f64, [[f64; 2]; 2]),
+    /// A lower bound.
+    at_least: f64,
 }
 
 impl Search<'_> {
+    fn new<'m>(a: &'m Motion, b: &'m Motion) -> Search<'m> {
+        let mut events = [a.times(), b.times()].concat();
+        events.sort_by(f64::total_cmp);
+        let mut search = Search { a, b, waiting: Queue::new(), best: (f64::INFINITY, events[0], [[0.0; 2]; 2]), at_least: 0.0 };
+        // Where one starts or arrives the least separation often is. In between both keep standing or moving.
+        for time in &events {
+            search.look(*time);
+        }
+        for w in events.windows(2).filter(|w| w[0] < w[1]) {
+            search.add(w[0], w[1]);
+        }
+        search
+    }
+
+    /// Halves stretches until lower and upper bound are `enough`, or as near as roundings allow; the number looked at, `most` at most.
+    fn run(&mut self, most: usize, enough: impl Fn(f64, f64) -> bool) -> usize {
+        for count in 0..most {
+            step();
+            let Some((bound, ([from, to], more))) = self.waiting.pop() else { return count };
+            self.at_least = self.at_least.max(bound);
+            let at_most = self.best.0;
+            let middle = 0.5 * (from + to);
+            let halved = more && from < middle && middle < to;
+            if enough(self.at_least, at_most) || !halved {
+                self.waiting.push(bound, ([from, to], more));
+                return count + 1;
+            }
+            self.add(from, middle);
+            self.add(middle, to);
+        }
+        most
+    }
+
+    /// What is known by now.
+    fn found(&self, minimum: f64) -> Separation {
+        let ((at_most, time, points), at_least) = (self.best, self.at_least);
+        let verdict = match () {
+            () if at_least >= minimum => Verdict::Kept,
+            () if at_most < minimum => Verdict::Violated,
+            () => Verdict::Undecided,
+        };
+        Separation { verdict, closest: Closest { time, points, at_least, at_most } }
+    }
+
     /// Both at a time; keeps the least separation.
     fn look(&mut self, time: f64) -> [State; 2] {
         let both = [self.a.state(time), self.b.state(time)];
@@ -282,16 +186,21 @@ impl Search<'_> {
         let [a, b] = self.look(middle);
         let off = a.off + b.off;
         let r = [a.point[0] - b.point[0], a.point[1] - b.point[1]];
+        let apart = r[0].hypot(r[1]);
         // What they cover until the end of the stretch.
         let (along_a, along_b) = (a.speed * half, b.speed * half);
         let v = [0, 1].map(|i| a.tangent[i] * along_a - b.tangent[i] * along_b);
-        let by_speed = r[0].hypot(r[1]) - (along_a + along_b);
+        let by_speed = apart - (along_a + along_b);
         // No squares of a speed or a time: they may leave the range of doubles.
         let bend = |s: &State, along: f64| (0.5 * (s.curvature * along) + s.tangent_off) * along;
         let by_curvature = nearest(r, v) - bend(&a, along_a) - bend(&b, along_b);
-        let bound = if by_curvature > by_speed { by_curvature } else { by_speed };
+        let drift = self.a.drift(self.b, [from, to]);
+        let in_step = apart - drift - 2.0 * off;
+        let bound = [by_curvature, in_step].into_iter().fold(by_speed, f64::max);
+        // Where one covers less of the way to the other than points are off, there is no more to tell.
+        let more = drift.min(along_a + along_b) > off;
         // Distances and bounds themselves round, by less than the roundings in `off`.
-        self.waiting.push((bound - 2.0 * off).max(0.0), [from, to]);
+        self.waiting.push((bound - 2.0 * off).max(0.0), ([from, to], more));
     }
 }
 
@@ -311,7 +220,7 @@ mod tests {
     use super::*;
     use crate::curve::{CubicBezier, PhQuintic};
     use crate::steps::counted;
-    use crate::transition::{Arc, Cubic, Line};
+    use crate::transition::{Arc, Cubic, Line, Piece};
 
     fn cubic(p: [[f64; 2]; 4]) -> Piece {
         let legs = std::array::from_fn(|i| [0, 1].map(|k| p[i + 1][k] - p[i][k]));
@@ -347,5 +256,47 @@ mod tests {
                 assert!(found.closest.at_least <= found.closest.at_most, "{found:?}");
             }
         }
+    }
+
+    /// A formation of 200: copies of one path of curves, lines and arcs, and others that only move as slowly as they do. Each pair of copies takes a
+    /// few stretches, and all pairs together no more than is allowed after they are decided.
+    #[test]
+    fn formations_take_few_stretches() {
+        let vehicle = |up: f64| {
+            let curve = PhQuintic::new([0.0, up], [[1.0, 0.0], [1.0, 0.7], [0.5, 1.0]]);
+            let end = curve.end;
+            let line = Line { start: end, end: [end[0] - 0.6, end[1] + 0.8] };
+            let direction = f64::atan2(0.8, -0.6);
+            let arc = Arc { start: line.end, start_direction: direction, curvature: 0.3, length: 2.0 };
+            Motion::new([curve.into(), Piece::Line(line), Piece::Arc(arc)], 1.0, 0.0).unwrap()
+        };
+        let motions: Vec<Motion> = (0..200).map(|i| vehicle(0.0131 * f64::from(i))).collect();
+        let pairs = 199 * 100;
+        for minimum in [0.01, 0.0131, 0.1] {
+            let (steps, found) = counted(|| separations(&motions, minimum).unwrap());
+            assert!(found.len() == pairs && steps < 4 * pairs, "{steps}");
+            for (i, j, found) in found {
+                let (apart, closest) = (0.0131 * (j - i) as f64, found.closest);
+                assert!((closest.at_most - apart).abs() < 1e-9 && apart - closest.at_least < 1e-9, "{i} {j}: {found:?}");
+                assert_eq!(found.verdict == Verdict::Kept, apart > 1.000001 * minimum, "{i} {j}: {found:?}");
+            }
+        }
+        // On circles around one centre, as fast as they are wide.
+        let circle = |i: i32| {
+            let radius = 1.0 + 0.01 * f64::from(i);
+            let arc = Arc {
+                start: [radius, 0.0],
+                start_direction: std::f64::consts::FRAC_PI_2,
+                curvature: 1.0 / radius,
+                length: radius,
+            };
+            Motion::new([Piece::Arc(arc)], radius, 0.0).unwrap()
+        };
+        let motions: Vec<Motion> = (0..30).map(circle).collect();
+        let (steps, found) = counted(|| separations(&motions, 0.005).unwrap());
+        assert!(found.iter().all(|(_, _, found)| found.verdict == Verdict::Kept), "{found:?}");
+        assert!(steps < ALL_STRETCHES + 100 * found.len(), "{steps}");
+        let [first, ..] = &found[..] else { panic!() };
+        assert!(first.2.closest.at_most - first.2.closest.at_least < 1e-7, "{first:?}");
     }
 }

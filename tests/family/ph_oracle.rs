@@ -185,6 +185,33 @@ fn forks() {
     assert!(tally.solutions[1] > 0 && tally.solutions[3] > 0, "{:?}", tally.solutions);
 }
 
+/// Circular arcs of tiny angles and what is near them: three solutions as near each other as the angle.
+#[test]
+fn forks_of_tiny_angles() {
+    let (mut r, mut tally) = (Random(26), Tally::default());
+    for x in [1e-8_f64, 1e-12, 1e-20, 1e-30, 1e-50, 1e-80] {
+        for i in 0..8 {
+            let datum = match i % 4 {
+                0 => [0; 4].map(|_| [x, x.next_up(), x.next_down()][r.below(3) as usize]),
+                1 => [0; 4].map(|_| x * (1.0 + r.decades(-16.0, -1.0))),
+                // Where the curvatures exceed the angle by a share, three solutions are the root of that apart, and a share of its power of 3/2
+                // in a difference of both ends makes two of them merge.
+                _ => {
+                    let share = r.decades(-9.0, -1.0);
+                    let apart = 0.3 * share.powf(1.5) * r.uniform(-1.0, 1.0);
+                    [x, x * (1.0 + apart), x * (1.0 + share), x * (1.0 + share)]
+                }
+            };
+            // The oracle cannot tell that mirror images have one energy.
+            if datum != [x; 4] {
+                tally.case(datum);
+            }
+        }
+    }
+    tally.finish("forks of tiny angles", 40);
+    assert!(tally.solutions[1] > 5 && tally.solutions[3] > 5, "{:?}", tally.solutions);
+}
+
 #[test]
 fn no_curvature_at_an_end() {
     let (mut r, mut tally) = (Random(23), Tally::default());

@@ -16,6 +16,7 @@
 //!
 //! Sizes are scaled by powers of two: `A = p a`, `B = q b`, `α' = αp³`, `β' = βq³`, both at most 1.
 
+use super::knot::Knot;
 use super::pair::Pair;
 use crate::num::{Number, Real};
 use crate::steps::step;
@@ -130,33 +131,54 @@ impl<N: Number> Curves<N> {
     }
 }
 
+/// How the slope s of a curve changes with x: s' and s'' at one t, or enclosures of them over an interval.
+pub(super) struct Changes<N> {
+    pub first: N,
+    pub second: N,
+}
+
 impl<N: Real> Curves<N> {
-    /// `s' = Σ w (j - ks)² / Σ w k` of both curves at t, with their heights and slopes there; all may be enclosures over an interval.
-    pub fn slope_changes(&self, t: &N, at: impl Fn(usize) -> (N, N)) -> Option<[N; 2]> {
-        let cubics = self.at(t);
+    /// `s' = Σ w m² / Σ w k` and `s'' = (Σ w m³ - 3 s' Σ w m k) / Σ w k`, `m = j - ks`, of both curves at t, with their heights and slopes
+    /// there; all may be enclosures over an interval. For w changes with x as `w m`, m as `-k s'`, and `Σ w m = 0`.
+    pub fn slope_changes(&self, t: &N, at: impl Fn(usize) -> (N, N)) -> Option<[Changes<N>; 2]> {
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
         let first = t.times(self.scale[0] * self.scale[1]);
-        let (flat, fourth) = (self.flat[1].mul(&t2).times(4.0), self.own[1].mul(&t2.mul(&t2)).times(16.0));
-        let both = self.both.mul(&t3).times(9.0);
-        let sixth = self.last[1].mul(&t3.mul(&t3)).times(36.0);
-        // Each term times the square of its power of t, by powers of Z.
-        let squares = [
-            [first.add(&flat), fourth.add(&self.across[0].mul(t)), both.clone()],
-            [first, fourth.add(&self.across[1].mul(&t3).times(9.0)), both.add(&sixth)],
+        let fourth = self.own[1].mul(&t2.mul(&t2));
+        let both = self.both.mul(&t3);
+        let shared = [(first, 1, 1), (self.own[0].clone(), 0, 2), (fourth, 4, 2), (both, 3, 3)];
+        let own = [
+            [(self.flat[1].mul(&t2), 2, 1), (self.across[0].mul(t), 1, 2), (self.last[0].clone(), 0, 3)],
+            [(self.flat[0].clone(), 0, 1), (self.across[1].mul(&t3), 3, 2), (self.last[1].mul(&t3.mul(&t3)), 6, 3)],
         ];
         let change = |i: usize| {
             let (z, s) = at(i);
-            let Cubic { c, j } = &cubics[i];
-            let term = |k: usize| {
-                let turned = s.times((k + 1) as f64);
-                squares[i][k].sub(&turned.times(2.0).mul(&j[k])).add(&turned.mul(&turned).mul(&c[k]))
-            };
-            let sum = |[a, b, c]: [N; 3]| c.mul(&z).add(&b).mul(&z).add(&a);
-            let weight = |k: usize| c[k].times((k + 1) as f64);
-            sum([term(0), term(1), term(2)]).over(&sum([weight(0), weight(1), weight(2)]))
+            let z2 = z.mul(&z);
+            let powers = [z.clone(), z2.clone(), z2.mul(&z)];
+            let turned = [1.0, 2.0, 3.0].map(|k| s.times(-k));
+            let none = z.times(0.0);
+            let [mut weight, mut square, mut cube, mut mixed] = [none.clone(), none.clone(), none.clone(), none];
+            for (coefficient, j, k) in shared.iter().chain(&own[i]) {
+                let w = coefficient.mul(&powers[k - 1]);
+                let m = turned[k - 1].plus(f64::from(*j));
+                let (wm, k) = (w.mul(&m), *k as f64);
+                let wm2 = wm.mul(&m);
+                weight = weight.add(&w.times(k));
+                mixed = mixed.add(&wm.times(k));
+                cube = cube.add(&wm2.mul(&m));
+                square = square.add(&wm2);
+            }
+            let first = square.over(&weight)?;
+            let second = cube.sub(&first.mul(&mixed).times(3.0)).over(&weight)?;
+            Some(Changes { first, second })
         };
         Some([change(0)?, change(1)?])
+    }
+
+    /// D'' and D''' at a knot.
+    pub fn change(&self, knot: &Knot<N>) -> Option<[N; 2]> {
+        let [from, to] = self.slope_changes(&knot.t, |i| (knot.z[i].clone(), knot.s[i].clone()))?;
+        Some([to.first.sub(&from.first), to.second.sub(&from.second)])
     }
 }
 

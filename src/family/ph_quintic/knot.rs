@@ -15,10 +15,18 @@ pub(super) struct Knot<N> {
     pub gap: N,
 }
 
+impl<N: Real> Knot<N> {
+    /// D'.
+    pub fn turn(&self) -> N {
+        self.s[1].sub(&self.s[0])
+    }
+}
+
 /// No less than `ln(b/a)`: `(r - 1)/√r` for their ratio r, with a little for rounding. At most 2^500: no certificate holds so far.
 pub(super) fn length<N: Real>(a: &N, b: &N) -> f64 {
     let (low, high) = (a.approx(), b.approx());
-    let length = b.sub(a).approx() / (low.sqrt() * high.sqrt()) * 1.0001;
+    // Not below the normal range, where it would lose digits.
+    let length = (b.sub(a).approx() / (low.sqrt() * high.sqrt()) * 1.0001).max(f64::MIN_POSITIVE);
     if low.is_normal() && high.is_normal() {
         return length;
     }

@@ -8,7 +8,8 @@
 //!   signs of D at the ends tell whether there is one.
 //!
 //! Before the first and behind the last knot the curves are bounded by their limits: A falls and B rises along both.
-//! Intervals with neither certificate are halved. ([`super::narrow`] has two more, for φ0 + φ1 close to π.) Distances are bounded by `|ln r| >= 2 |r - 1|/(r + 1)`.
+//! Intervals with neither certificate are halved. ([`super::narrow`] has two more, for φ0 + φ1 close to π, and [`super::fork`] those for where
+//! solutions merge.) Distances are bounded by `|ln r| >= 2 |r - 1|/(r + 1)`.
 //!
 //! A double meeting would need an algebraic relation between sines of the angles and the curvatures. By the theorem of Lindemann and
 //! Weierstrass the numbers `e^{iφ0/2}`, `e^{iφ1/2}` of doubles with irrational ratio are algebraically independent, and for a
@@ -17,7 +18,7 @@
 
 use super::curves::Curves;
 use super::knot::{Knot, length};
-use super::{fork, narrow};
+use super::{cuts, fork, narrow};
 use crate::num::Real;
 use crate::steps::step as count;
 use std::cmp::Ordering::{self, Greater};
@@ -38,21 +39,16 @@ pub(super) struct March<N> {
 
 /// How near two knots may come before more precision is asked for, as a power of two.
 fn nearest(bits: usize) -> i32 {
-    if bits <= 53 { -16 } else { -(bits.min(2000) as i32) / 2 }
+    if bits <= 53 { -16 } else { -(bits as i32) / 2 }
 }
 
 /// Newton steps from a guess that may be poor where doubles have no range.
 const MOST_STEPS: usize = 200;
 
-/// Looks at intervals in one attempt, about two for each knot: the most that doubles were seen to need is 60 knots, beside a fold as close as
-/// 10^-9. Where three solutions almost coincide, as of a circular arc of a small angle, 20 knots are needed for each halving of their
-/// distance, which takes 4 bits. More bits than the smallest normal angles ask for are for data that are extreme in other ways.
+/// Looks at intervals in one attempt, about two for each knot: the most that were seen to be needed is 60 knots, beside a fold, and intervals
+/// also reach further.
 fn most_looks(bits: usize) -> usize {
-    match bits {
-        0..=53 => 160,
-        54..=2048 => 10 * bits,
-        _ => 400,
-    }
+    if bits <= 53 { 160 } else { 400 }
 }
 
 impl<N: Real> March<N> {
@@ -103,15 +99,21 @@ impl<N: Real> March<N> {
         let mut waiting = vec![last];
         for _ in 0..most_looks(self.bits()) {
             let Some(b) = waiting.last() else { return Some(brackets) };
-            match meets(&a, b).or_else(|| narrow::meets(&self.curves, &a, b)).or_else(|| fork::meets(&self.curves, &a, b)) {
-                Some(once) => {
+            let told = meets(&a, b).or_else(|| narrow::meets(&self.curves, &a, b));
+            match told.map_or_else(|| fork::meets(&self.curves, &a, b), Ok) {
+                Ok(once) => {
                     let b = waiting.pop()?;
                     if once {
                         brackets.push((a, b.clone()));
                     }
                     a = b;
                 }
-                None => {
+                Err(open) => {
+                    let cuts = if N::ORDERS == 0 { cuts::cuts(&self.curves, |t| self.knot(t), [&a, b], open)? } else { vec![] };
+                    if !cuts.is_empty() {
+                        waiting.extend(cuts.into_iter().rev());
+                        continue;
+                    }
                     let knot = self.knot(between(&a.t, &b.t)?)?;
                     let vague = N::ORDERS > 0 && knot.gap.certain_sign(0.0).is_none();
                     let knot = if vague { self.aside(&a, b)? } else { knot };
@@ -163,10 +165,11 @@ impl<N: Real> March<N> {
         let guess = Some(self.guess(a, b)).filter(|t| t.is_normal()).map(|t| N::of(t, self.bits()));
         let mut knot = self.knot(guess.filter(|t| within(t, &low, &high)).map_or_else(|| middle(&low, &high), Some)?)?;
         let step = |knot: &Knot<N>| knot.gap.over(&knot.s[1].sub(&knot.s[0]));
-        let enough = 2f64.powi(-(self.bits().min(1200) as i32) * 3 / 4);
+        let bits = self.bits() as i32;
+        let enough = N::power_of_two(bits / 4 * 3, self.bits());
         for _ in 0..MOST_STEPS {
             let moved = step(&knot)?;
-            if moved.most() < enough {
+            if moved.mul(&enough).most() < 1.0 {
                 break;
             }
             match knot.gap.certain_sign(0.0) {
@@ -185,9 +188,14 @@ impl<N: Real> March<N> {
         }
         let inside = |t: &N| within(t, &a.t, &b.t);
         // Twice as far as the error of D may move the solution; what is needed, the signs tell.
-        let mut reach = (2.0 * step(&knot)?.most()).max(2f64.powi(4 - self.bits().min(1000) as i32));
+        let moved = step(&knot)?;
+        // It may be too small for a double.
+        let scaled = |power: i32| moved.mul(&N::power_of_two(power, self.bits())).most();
+        let power = (0..bits).step_by(500).find(|power| scaled(*power) > 2f64.powi(-500)).unwrap_or(bits);
+        let most = N::power_of_two(-power, self.bits()).times(scaled(power));
+        let mut reach = most.times(2.0).add(&N::power_of_two(4 - bits, self.bits()));
         for _ in 0..4 {
-            let delta = knot.t.times(reach);
+            let delta = knot.t.mul(&reach);
             let (left, right) = (knot.t.sub(&delta).middle(), knot.t.add(&delta).middle());
             if !(inside(&left) && inside(&right)) {
                 return None;
@@ -198,7 +206,7 @@ impl<N: Real> March<N> {
                 // Z falls along both curves.
                 return Some(Root { t: left.t.union(&right.t), z: left.z[0].union(&right.z[0]) });
             }
-            reach *= 16.0;
+            reach = reach.times(16.0);
         }
         None
     }
@@ -268,5 +276,5 @@ fn between<N: Real>(a: &N, b: &N) -> Option<N> {
         return Some(N::of(t, a.bits()));
     }
     let apart = b.sub(a);
-    apart.sub(&a.times(2f64.powi(nearest(a.bits())))).is_positive().then(|| a.add(&apart.times(0.469)).middle())
+    apart.sub(&a.mul(&N::power_of_two(nearest(a.bits()), a.bits()))).is_positive().then(|| a.add(&apart.times(0.469)).middle())
 }

@@ -6,10 +6,12 @@
 //!   halves until one of them holds. No resultant of degree 18, nothing cancels, and f32, f64 and intervals run the same steps.
 //! - `num::Ball` is a double with its error; `num::Real` is what it shares with `Interval`, so the algorithm is written once. The shader is its twin.
 //! - `narrow.rs` has more certificates for nearly parallel tangents, where both equations almost coincide.
+//! - `fork.rs` has those for where solutions merge, and `cuts.rs` finds by Newton's method where to ask them.
 //! - `region.rs` runs the same march over boxes of data.
 //! - Curvature is positive for A, B > 0, so a spiral is the sign of one quintic, as in `cubic`. Energies are Taylor series on pieces with a remainder bound.
 
 mod curves;
+mod cuts;
 mod fork;
 mod knot;
 mod march;

@@ -59,9 +59,10 @@ fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four
     for _ in 0..Four::ORDERS {
         t = t.sub(&moved(&t)?).guess();
     }
-    let mut reach = 2.0 * moved(&t)?.most() + 1e-15 * t.value;
+    // As near as its own error lets the signs be told, which tell whether that is enough.
+    let mut reach = 1.05 * moved(&t)?.most() + 1e-15 * t.value;
     let sign = |t: Four| march.knot(t)?.gap.certain_sign(0.0);
-    for _ in 0..4 {
+    for _ in 0..6 {
         let (left, right) = (t.plus(-reach), t.plus(reach));
         if !(left.is_positive() && b.t.sub(&left).is_positive() && right.sub(&a.t).is_positive()) {
             return None;
@@ -70,7 +71,7 @@ fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four
             let t = t.off(reach);
             return Some(Root { t, z: march.knot(t)?.z[0] });
         }
-        reach *= 4.0;
+        reach *= 1.5;
     }
     None
 }
@@ -145,5 +146,33 @@ impl Region for PhQuintic {
             facts.note(wanted & (ANY_SPIRAL | SPIRAL), Some(false));
         }
         facts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::Noise;
+
+    /// Solutions are enclosed hardly wider than they are known: of boxes a hundredth of a window wide 2720 in 3000 are decided, 2755 would be if
+    /// solutions were exact, and 2700 were with twice the reach.
+    #[test]
+    fn most_boxes_are_decided() {
+        let mut noise = Noise(7);
+        let mut share = || 0.5 + 0.5 * noise.signed();
+        let width = 0.01;
+        let mut decided = 0;
+        for _ in 0..3000 {
+            let mut side = |low: f64, high: f64| {
+                let start = low + (high - low) * share();
+                [start, start + width * (high - low)]
+            };
+            let angles = [side(0.2, 1.2), side(0.3, 1.6), side(0.1, 1.0)];
+            let last = 0.8 * 25f64.powf(share());
+            let [phi0, phi1, kappa0] = angles;
+            let facts = prove(&[phi0, phi1, kappa0, [last, last * (1.0 + width)]], SPIRAL);
+            decided += usize::from((facts.inside | facts.outside) & SPIRAL != 0);
+        }
+        assert!((2711..=2755).contains(&decided), "{decided}");
     }
 }

@@ -1,7 +1,7 @@
 //! The exact answer for one datum: all solutions, which are spirals, and their measures.
 
 use super::pair::Pair;
-use super::truth::{self, Measured, Measures, Truth, chosen, measure};
+use super::truth::{self, Measured, Measures, Truth, by_energy, chosen, measure};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
@@ -120,12 +120,12 @@ pub fn flags(datum: &Datum) -> Result<u8> {
 /// All numbers as accurate as [`solve`] promises, or `None`.
 fn described<N: Measured>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
     let truth = truth::solve(pair, [datum.kappa0, datum.kappa1])?;
-    let best = chosen(pair, &truth.solutions)?;
+    let best = by_energy(|energy| chosen(pair, &truth.solutions, energy))?;
     let mut all = Vec::new();
     if let Some(curves) = &truth.curves {
         // By increasing A: A falls as B/A rises.
         for solution in truth.solutions.iter().rev() {
-            let measures = measure(pair, curves, solution)?;
+            let measures = by_energy(|energy| measure(pair, curves, solution, energy))?;
             all.push(quintic(datum, pair, &measures, solution.spiral)?);
         }
     }
@@ -137,7 +137,8 @@ fn described<N: Measured>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
 fn known<N: Real>(x: &N, floor: f64) -> Option<f64> {
     let value = x.approx();
     // Intervals have numbers that doubles do not; their own overflow is another matter.
-    if value.is_infinite() && x.bits() > 53 {
+    let beyond = value.is_infinite() || value == 0.0 && x.is_positive();
+    if beyond && x.bits() > 53 {
         return Some(value);
     }
     let off = x.sub(&x.middle()).most();
@@ -203,8 +204,11 @@ pub(super) fn exact_scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> 
 
 fn rounded<N: Measured>(datum: &Datum, pair: &Pair<N>, which: &[usize]) -> Option<Vec<f32>> {
     let Truth { solutions, curves, .. } = truth::solve(pair, [datum.kappa0, datum.kappa1])?;
-    let best = &solutions[chosen(pair, &solutions)??];
-    let measures = measure(pair, &curves?, best)?;
-    let value = |i: &usize| measures.numbers.get(*i).unwrap_or(&measures.margin).to_f32().map(|x| x.min(f32::MAX));
-    which.iter().map(value).collect()
+    let best = &solutions[by_energy(|energy| chosen(pair, &solutions, energy))??];
+    let curves = curves?;
+    by_energy(|energy| {
+        let measures = measure(pair, &curves, best, energy)?;
+        let value = |i: &usize| measures.numbers.get(*i).unwrap_or(&measures.margin).to_f32().map(|x| x.min(f32::MAX));
+        which.iter().map(value).collect()
+    })
 }

@@ -8,7 +8,7 @@ use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
 use crate::curve::energy;
 use crate::family::{Code, outer};
 use crate::num::bernstein::{MOST_HALVINGS, exact_margin, margin, positive};
-use crate::num::{Ball, FIRST_BITS, Interval, Real, Twin};
+use crate::num::{Ball, Interval, Real, Twin};
 
 /// A solution and whether its curvature rises throughout.
 #[derive(Debug, Clone)]
@@ -113,11 +113,8 @@ impl Measured for Twin {
     fn margin(c: &[Twin; 6]) -> Option<Twin> {
         Ball::margin(&[0, 1, 2, 3, 4, 5].map(|i| Ball::enclosing(&c[i]))).map(|margin| Twin::around(&margin))
     }
-    /// In doubles, where they find more digits than [`super::solve`] promises.
     fn energy(speed: &[Twin; 5], turn: &[Twin; 3]) -> Option<Twin> {
-        let ball = energy(&speed.each_ref().map(Ball::enclosing), &turn.each_ref().map(Ball::enclosing))?;
-        let fast = (ball.error <= ball.value * ENOUGH).then(|| Twin::around(&ball));
-        fast.or_else(|| energy(speed, turn))
+        energy(speed, turn)
     }
 }
 
@@ -125,44 +122,58 @@ impl Measured for Interval {
     fn margin(c: &[Interval; 6]) -> Option<Interval> {
         exact_margin(c)
     }
-    /// At the first precision in doubles, where they find more digits than [`super::solve`] promises: a series of intervals costs a
-    /// hundred times as much. The f64 step seldom gets so far, because its solution is off by more than the roundings of the series.
     fn energy(speed: &[Interval; 5], turn: &[Interval; 3]) -> Option<Interval> {
-        let bits = speed[0].bits();
-        let in_doubles = || {
-            let ball = energy(&speed.each_ref().map(Ball::enclosing), &turn.each_ref().map(Ball::enclosing))?;
-            (ball.error <= ball.value * ENOUGH).then(|| ball.interval(bits))?
-        };
-        let fast = if bits <= FIRST_BITS { in_doubles() } else { None };
-        fast.or_else(|| energy(speed, turn))
+        energy(speed, turn)
     }
 }
 
+/// An energy as accurate as [`super::solve`] promises, not more: in doubles where they do, since a series of intervals costs a hundred times
+/// as much and more the longer they are. The f64 step seldom gets so far, because its solution is off by more than the roundings of the series.
+fn about<N: Measured>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
+    let bits = speed[0].bits();
+    let ball = energy(&speed.each_ref().map(Ball::enclosing), &turn.each_ref().map(Ball::enclosing));
+    let ends = |ball: Ball| Some(N::of(ball.value, bits).add(&N::of(ball.error, bits).size()));
+    ball.filter(|ball| ball.error <= ball.value * ENOUGH).and_then(ends).or_else(|| N::energy(speed, turn))
+}
+
+/// How an energy is computed.
+pub(super) type Energy<N> = fn(&[N; 5], &[N; 3]) -> Option<N>;
+
+/// What energies decide: those that are cheap, else those as accurate as the numbers are.
+pub(super) fn by_energy<N: Measured, T>(decide: impl Fn(Energy<N>) -> Option<T>) -> Option<T> {
+    decide(about).or_else(|| decide(N::energy))
+}
+
 /// The energy alone.
-pub(super) fn energy_of<N: Measured>(pair: &Pair<N>, solution: &Solution<N>) -> Option<N> {
-    N::energy(&solution.shape.speed, &solution.shape.turn)?.mul(&pair.sin).mul(&pair.sin).times(4.0).over(&solution.root.z)
+pub(super) fn energy_of<N: Measured>(pair: &Pair<N>, solution: &Solution<N>, energy: Energy<N>) -> Option<N> {
+    energy(&solution.shape.speed, &solution.shape.turn)?.mul(&pair.sin).mul(&pair.sin).times(4.0).over(&solution.root.z)
 }
 
 /// A, B, energy, length, margin.
-pub(super) fn measure<N: Measured>(pair: &Pair<N>, curves: &Curves<N>, solution: &Solution<N>) -> Option<Measures<N>> {
+pub(super) fn measure<N: Measured>(
+    pair: &Pair<N>,
+    curves: &Curves<N>,
+    solution: &Solution<N>,
+    energy: Energy<N>,
+) -> Option<Measures<N>> {
     let Root { t, z } = &solution.root;
     let a = z.sqrt()?;
     let [s0, s1, s2, s3, s4] = &solution.shape.speed;
     let fifth = N::of(5.0, z.bits());
     let length = s0.add(s1).add(s2).add(s3).add(s4).mul(z).over(&fifth)?;
     Some(Measures {
-        numbers: [a.times(curves.scale[0]), a.mul(t).times(curves.scale[1]), energy_of(pair, solution)?, length],
+        numbers: [a.times(curves.scale[0]), a.mul(t).times(curves.scale[1]), energy_of(pair, solution, energy)?, length],
         margin: N::margin(&solution.shape.quintic())?,
     })
 }
 
 /// The spiral of least energy, as an index; `None` when two cannot be told apart.
-pub(super) fn chosen<N: Measured>(pair: &Pair<N>, solutions: &[Solution<N>]) -> Option<Option<usize>> {
+pub(super) fn chosen<N: Measured>(pair: &Pair<N>, solutions: &[Solution<N>], energy: Energy<N>) -> Option<Option<usize>> {
     let spirals: Vec<usize> = (0..solutions.len()).filter(|i| solutions[*i].spiral).collect();
     let (Some(first), true) = (spirals.first(), spirals.len() > 1) else { return Some(spirals.first().copied()) };
-    let mut best = (*first, energy_of(pair, &solutions[*first])?);
+    let mut best = (*first, energy_of(pair, &solutions[*first], energy)?);
     for i in &spirals[1..] {
-        let energy = energy_of(pair, &solutions[*i])?;
+        let energy = energy_of(pair, &solutions[*i], energy)?;
         match energy.sub(&best.1).certain_sign(0.0)? {
             std::cmp::Ordering::Less => best = (*i, energy),
             std::cmp::Ordering::Greater => {}

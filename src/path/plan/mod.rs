@@ -35,6 +35,9 @@ const SIZES: [f64; 2] = [1e-100, 1e100];
 /// then several.
 const WIDE: [f64; 12] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 const SEVERAL: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
+/// How close directions from start and goal to places in the open may be, radians: first few, which one search tells from each other whatever they
+/// see, then many.
+const CLOSE: [f64; 2] = [0.5, 0.15];
 /// Work for all searches but the first, some seconds, and for those after there is a path.
 const WORK: usize = 8_000_000;
 const MORE: usize = 1_000_000;
@@ -290,20 +293,21 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
         Found::None => {}
         Found::GaveUp => gave_up = true,
     }
-    let open = open(obstacles, ends, &near, &limits);
+    let [coarse, fine] = CLOSE.map(|close| open(obstacles, ends, &near, &limits, close));
     let wide = |all: &[f64]| [near.clone(), all.iter().flat_map(|wide| beside(limits, *wide)).collect()].concat();
     let wider = WIDE.chunks(1).chain([&SEVERAL[..]]).map(wide);
     // Those in the open are few, and alone they give a path where it need not come close to anything.
-    let alone = std::iter::once(open.clone());
+    let alone = [coarse, fine.clone()];
+    let tried = alone.len();
     let mut left = WORK;
-    for (i, places) in alone.chain([[&near[..], &open].concat()]).chain(wider).enumerate() {
+    for (i, places) in alone.into_iter().chain([[&near[..], &fine].concat()]).chain(wider).enumerate() {
         let (found, rest) = search(limits, places).within(longest, left).run();
         left = rest;
         match found {
             Found::Path(path, length) => {
                 (best, longest) = (Some(path), length);
                 // A path in the open alone may be long; but where places are too many for the first search, more work is in vain.
-                if i > 0 || gave_up {
+                if i >= tried || gave_up {
                     left = left.min(MORE);
                 }
             }

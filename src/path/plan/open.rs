@@ -12,18 +12,18 @@ type Point = [f64; 2];
 const FAR: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// Neighbouring directions from an end are no further apart, radians.
 const APART: f64 = 0.8;
-/// Nor are they closer.
-const CLOSE: f64 = 0.15;
 
-/// Places that the ends see far ahead, and places around everything.
-pub fn open(obstacles: &Obstacles, ends: [Point; 2], beside: &[Place], limits: &Limits) -> Vec<Place> {
-    let ahead = ends.into_iter().flat_map(|end| ahead(obstacles, end, beside, limits));
+/// Places that the ends see far ahead, in directions at least `close` radians apart, and places around everything.
+///
+/// So there are no more than 7 for each `close` of a turn around either end, and 56 around everything, however crowded it is.
+pub fn open(obstacles: &Obstacles, ends: [Point; 2], beside: &[Place], limits: &Limits, close: f64) -> Vec<Place> {
+    let ahead = ends.into_iter().flat_map(|end| ahead(obstacles, end, beside, limits, close));
     ahead.chain(around(obstacles, ends, limits.most)).map(|at| Place { at, vertex: None, wide: true }).collect()
 }
 
 /// What an end sees in directions to places beside vertices and between those, so through the middle of gaps, too; of close directions in
 /// the one where it sees furthest.
-fn ahead(obstacles: &Obstacles, end: Point, beside: &[Place], limits: &Limits) -> Vec<Point> {
+fn ahead(obstacles: &Obstacles, end: Point, beside: &[Place], limits: &Limits, close: f64) -> Vec<Point> {
     let clear = |at: Point| is_clear(obstacles, [end, at], limits.keep);
     let seen = beside.iter().filter(|place| clear(place.at)).map(|place| minus(place.at, end));
     let mut angles: Vec<f64> = seen.map(|d| d[1].atan2(d[0])).collect();
@@ -45,7 +45,7 @@ fn ahead(obstacles: &Obstacles, end: Point, beside: &[Place], limits: &Limits) -
     rays.sort_by_key(|(_, points)| Reverse(points.len()));
     let mut kept: Vec<(f64, Vec<Point>)> = vec![];
     for ray in rays {
-        if kept.iter().all(|(angle, _)| (ray.0 - angle).cos() < CLOSE.cos()) {
+        if kept.iter().all(|(angle, _)| (ray.0 - angle).cos() < close.cos()) {
             kept.push(ray);
         }
     }
