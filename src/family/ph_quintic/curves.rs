@@ -18,7 +18,7 @@
 
 use super::knot::Knot;
 use super::pair::Pair;
-use crate::num::{Number, Real};
+use crate::num::{Number, Real, formula};
 use crate::steps::step;
 use std::f64::consts::LN_2;
 
@@ -65,7 +65,7 @@ impl<N: Real> Curves<N> {
     /// The same from α, β and what the angles give.
     pub fn bent(bend: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
         let scale = [scale(bend[0].approx()), scale(bend[1].approx())];
-        let cubed = |x: &N, p: f64| x.times(p).times(p).times(p);
+        let cubed = |x: &N, p: f64| formula!(x * { p } * { p } * { p });
         let bend = [cubed(&bend[0], scale[0]), cubed(&bend[1], scale[1])];
         Curves::new(scale, bend, cos, right, skew)
     }
@@ -85,9 +85,9 @@ impl<N: Number> Curves<N> {
         Curves {
             flat: [c.times(3.0 * p * p), c.times(3.0 * q * q)],
             own: [alpha.times(3.0 * p), beta.times(3.0 * q)],
-            across: [c.mul(alpha).times(3.0 * q), c.mul(beta).times(3.0 * p)],
-            both: alpha.mul(beta).times(4.0),
-            last: [c.mul(alpha).mul(alpha).times(2.0), c.mul(beta).mul(beta).times(2.0)],
+            across: [formula!(c * alpha * { 3.0 * q }), formula!(c * beta * { 3.0 * p })],
+            both: formula!(4.0 * (alpha * beta)),
+            last: [formula!(2.0 * (c * alpha * alpha)), formula!(2.0 * (c * beta * beta))],
             scale,
             bend,
             cos,
@@ -108,24 +108,24 @@ impl<N: Number> Curves<N> {
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
         let first = t.times(self.scale[0] * self.scale[1]);
-        let fourth = self.own[1].mul(&t2.mul(&t2));
+        let fourth = formula!(self.own[1] * (t2 * t2));
         let second = self.own[0].add(&fourth);
         let fourth = fourth.times(4.0);
         let (flat, bent) = (self.flat[1].mul(&t2), self.across[0].mul(t));
         let both = self.both.mul(&t3);
         let thrice = both.times(3.0);
         let bent_end = self.across[1].mul(&t3);
-        let sixth = self.last[1].mul(&t3.mul(&t3));
+        let sixth = formula!(self.last[1] * (t3 * t3));
         [
             // pq t + 3Cq² t²,  3α'p + 3β'q t⁴ + 3Cα'q t,  4α'β' t³ + 2Cα'²
             Cubic {
                 c: [first.add(&flat), second.add(&bent), both.add(&self.last[0])],
-                j: [first.add(&flat.times(2.0)), fourth.add(&bent), thrice.clone()],
+                j: [formula!(first + 2.0 * flat), fourth.add(&bent), thrice.clone()],
             },
             // pq t + 3Cp²,  3α'p + 3β'q t⁴ + 3Cβ'p t³,  4α'β' t³ + 2Cβ'² t⁶
             Cubic {
                 c: [first.add(&self.flat[0]), second.add(&bent_end), both.add(&sixth)],
-                j: [first, fourth.add(&bent_end.times(3.0)), thrice.add(&sixth.times(6.0))],
+                j: [first, formula!(fourth + 3.0 * bent_end), formula!(thrice + 6.0 * sixth)],
             },
         ]
     }
@@ -144,12 +144,12 @@ impl<N: Real> Curves<N> {
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
         let first = t.times(self.scale[0] * self.scale[1]);
-        let fourth = self.own[1].mul(&t2.mul(&t2));
+        let fourth = formula!(self.own[1] * (t2 * t2));
         let both = self.both.mul(&t3);
         let shared = [(first, 1, 1), (self.own[0].clone(), 0, 2), (fourth, 4, 2), (both, 3, 3)];
         let own = [
             [(self.flat[1].mul(&t2), 2, 1), (self.across[0].mul(t), 1, 2), (self.last[0].clone(), 0, 3)],
-            [(self.flat[0].clone(), 0, 1), (self.across[1].mul(&t3), 3, 2), (self.last[1].mul(&t3.mul(&t3)), 6, 3)],
+            [(self.flat[0].clone(), 0, 1), (self.across[1].mul(&t3), 3, 2), (formula!(self.last[1] * (t3 * t3)), 6, 3)],
         ];
         let change = |i: usize| {
             let (z, s) = at(i);
@@ -163,13 +163,13 @@ impl<N: Real> Curves<N> {
                 let m = turned[k - 1].plus(f64::from(*j));
                 let (wm, k) = (w.mul(&m), *k as f64);
                 let wm2 = wm.mul(&m);
-                weight = weight.add(&w.times(k));
-                mixed = mixed.add(&wm.times(k));
-                cube = cube.add(&wm2.mul(&m));
+                weight = formula!(weight + w * { k });
+                mixed = formula!(mixed + wm * { k });
+                cube = formula!(cube + wm2 * m);
                 square = square.add(&wm2);
             }
             let first = square.over(&weight)?;
-            let second = cube.sub(&first.mul(&mixed).times(3.0)).over(&weight)?;
+            let second = formula!(cube - 3.0 * (first * mixed)).over(&weight)?;
             Some(Changes { first, second })
         };
         Some([change(0)?, change(1)?])
@@ -216,15 +216,15 @@ impl<N: Real> Cubic<N> {
     /// `|r| < 1/64`.
     pub fn height(&self, right: &N, guess: f64) -> Option<N> {
         let [c0, c1, c2] = &self.c;
-        let value = |z: &N| c2.mul(z).add(c1).mul(z).add(c0).mul(z);
-        let rise = |z: &N| c2.mul(z).times(3.0).add(&c1.times(2.0)).mul(z).add(c0);
+        let value = |z: &N| formula!(((c2 * z + c1) * z + c0) * z);
+        let rise = |z: &N| formula!((3.0 * (c2 * z) + 2.0 * c1) * z + c0);
         let newton = |z: &N| Some(z.sub(&value(z).sub(right).over(&rise(z))?).guess());
         let mut z = if guess.is_normal() && guess > 0.0 { N::of(guess, right.bits()) } else { self.start(right)? };
         for _ in 0..polishing(right.bits()).max(N::ORDERS) {
             z = newton(&z)?;
         }
         let off = value(&z).sub(right).over(right)?.size();
-        (off.plus(-1.0 / 64.0).times(-1.0).is_positive() && z.is_positive()).then(|| z.add(&z.mul(&off).times(1.05)))
+        (formula!(-(off + { -1.0 / 64.0 })).is_positive() && z.is_positive()).then(|| formula!(z + 1.05 * (z * off)))
     }
 
     /// About where the cubic reaches `right`, when coefficients or heights are no doubles: none of their size, only logarithms and the
@@ -247,8 +247,8 @@ impl<N: Real> Cubic<N> {
     /// s at height z.
     pub fn slope_at(&self, z: &N) -> Option<N> {
         let ([c0, c1, c2], [j0, j1, j2]) = (&self.c, &self.j);
-        let rise = c2.mul(z).times(3.0).add(&c1.times(2.0)).mul(z).add(c0);
-        j2.mul(z).add(j1).mul(z).add(j0).over(&rise)
+        let rise = formula!((3.0 * (c2 * z) + 2.0 * c1) * z + c0);
+        formula!((j2 * z + j1) * z + j0).over(&rise)
     }
 }
 

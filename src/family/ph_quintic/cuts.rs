@@ -8,7 +8,7 @@
 use super::curves::Curves;
 use super::fork::{Open, side};
 use super::knot::Knot;
-use crate::num::Real;
+use crate::num::{Real, formula};
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::f64::consts::LN_2;
 
@@ -81,12 +81,13 @@ fn zero<N: Real, F: Fn(N) -> Option<Knot<N>>>(
             Some(_) => high = bent.knot.t.clone(),
         }
         let within = |t: &N| t.sub(&low).is_positive() && high.sub(t).is_positive();
-        let step =
-            value.over(&bent.d[order]).map(|step| (step.mul(&enough).most(), bent.knot.t.sub(&bent.knot.t.mul(&step)).middle()));
+        let step = value
+            .over(&bent.d[order])
+            .map(|step| (step.mul(&enough).most(), formula!(bent.knot.t - bent.knot.t * step).middle()));
         t = match step.filter(|(_, t)| within(t)) {
             Some((most, _)) if most < 1.0 => return Some(bent),
             Some((_, next)) => next,
-            None => low.add(&high).times(0.5).middle(),
+            None => formula!(0.5 * (low + high)).middle(),
         };
     }
     None
@@ -107,7 +108,7 @@ fn fork<N: Real, F: Fn(N) -> Option<Knot<N>>>(march: &March<N, F>, from: &Knot<N
     let sized = |x: &N, power: i32| x.mul(&N::power_of_two(-power * exponent, bits)).approx();
     let (p, q) = (sized(&p, 2), sized(&q, 3));
     let size = middle.knot.t.mul(&N::power_of_two(exponent, bits));
-    let knot = |h: f64| (march.knot)(middle.knot.t.add(&size.times(h)).middle());
+    let knot = |h: f64| (march.knot)(formula!(middle.knot.t + size * { h }).middle());
     // Four times its size is around all zeros of the cubic.
     let inside = |knot: &Knot<N>| knot.t.sub(&from.t).is_positive() && to.t.sub(&knot.t).is_positive();
     let [left, right] = [knot(-4.0)?, knot(4.0)?];

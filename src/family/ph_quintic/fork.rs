@@ -15,7 +15,7 @@
 
 use super::curves::Curves;
 use super::knot::{Knot, length};
-use crate::num::Real;
+use crate::num::{Real, Verdict, formula};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// Longer intervals are not tried: the enclosures would be wide.
@@ -42,7 +42,7 @@ pub(super) fn side<N: Real>(x: &N) -> Option<Ordering> {
 ///
 /// Where they meet is worth `(a q - p b + p q L) / (q - p)` for slopes p < 0 < q. Smaller values and a larger length make that smaller.
 fn above<N: Real>([a, b]: [&N; 2], [p, q]: [&N; 2], length: &N) -> bool {
-    let meet = || a.mul(q).sub(&p.mul(b)).add(&p.mul(q).mul(length));
+    let meet = || formula!(a * q - p * b + p * q * length);
     a.is_positive() && b.is_positive() && (p.is_positive() || q.certain_sign(0.0) == Some(Less) || meet().is_positive())
 }
 
@@ -60,8 +60,8 @@ fn bent<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Option<Res
     let [second, third] = [change[1].first.sub(&change[0].first), change[1].second.sub(&change[0].second)];
     let slopes = [from.turn(), to.turn()];
     if let Some(sign) = side(&slopes[0]).filter(|sign| side(&slopes[1]) == Some(*sign)) {
-        let sum = slopes[0].add(&slopes[1]).times(if sign == Less { -1.0 } else { 1.0 });
-        if sum.sub(&second.size().mul(length)).is_positive() {
+        let sum = formula!((slopes[0] + slopes[1]) * { if sign == Less { -1.0 } else { 1.0 } });
+        if formula!(sum - second.size() * length).is_positive() {
             return Some(Ok(once));
         }
     }
@@ -94,7 +94,7 @@ fn bent<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Option<Res
 }
 
 /// The same where D'' has one sign.
-fn convex<N: Real>(knots: [&Knot<N>; 2], slopes: &[N; 2], gaps: [Ordering; 2], bent: Ordering, length: &N) -> Option<bool> {
+fn convex<N: Real>(knots: [&Knot<N>; 2], slopes: &[N; 2], gaps: [Ordering; 2], bent: Ordering, length: &N) -> Verdict {
     if gaps[0] != gaps[1] || gaps[0] != bent {
         return Some(gaps[0] != gaps[1]);
     }

@@ -19,7 +19,7 @@
 use super::curves::Curves;
 use super::knot::{Knot, length};
 use super::{cuts, fork, narrow};
-use crate::num::Real;
+use crate::num::{Real, Verdict, formula};
 use crate::steps::step as count;
 use std::cmp::Ordering::{self, Greater};
 use std::f64::consts::LN_2;
@@ -71,7 +71,7 @@ impl<N: Real> March<N> {
             Some((z, s))
         };
         let ((z0, s0), (z1, s1)) = (side(0)?, side(1)?);
-        let gap = z0.sub(&z1).times(2.0).over(&z0.add(&z1))?;
+        let gap = formula!(2.0 * (z0 - z1)).over(&z0.add(&z1))?;
         Some(Knot { t, z: [z0, z1], s: [s0, s1], gap })
     }
 
@@ -179,7 +179,7 @@ impl<N: Real> March<N> {
             }
             // Near the solution in t; far from it in ln t, where both curves are nearly straight and D is no longer its bound.
             let newton = if moved.most() < 0.25 {
-                Some(knot.t.sub(&knot.t.mul(&moved)).middle())
+                Some(formula!(knot.t - knot.t * moved).middle())
             } else {
                 let turn = knot.s[0].sub(&knot.s[1]).approx();
                 times_exp(&knot.t, (knot.z[0].ln() - knot.z[1].ln()) / turn)
@@ -193,7 +193,7 @@ impl<N: Real> March<N> {
         let scaled = |power: i32| moved.mul(&N::power_of_two(power, self.bits())).most();
         let power = (0..bits).step_by(500).find(|power| scaled(*power) > 2f64.powi(-500)).unwrap_or(bits);
         let most = N::power_of_two(-power, self.bits()).times(scaled(power));
-        let mut reach = most.times(2.0).add(&N::power_of_two(4 - bits, self.bits()));
+        let mut reach = formula!(2.0 * most + N::power_of_two(4 - bits, self.bits()));
         for _ in 0..4 {
             let delta = knot.t.mul(&reach);
             let (left, right) = (knot.t.sub(&delta).middle(), knot.t.add(&delta).middle());
@@ -238,13 +238,13 @@ impl<N: Real> March<N> {
 }
 
 /// Whether the curves meet once (`true`) or not (`false`) between two knots, when a certificate tells.
-fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Option<bool> {
+fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Verdict {
     let (at_a, at_b) = (a.gap.certain_sign(0.0)?, b.gap.certain_sign(0.0)?);
     if at_a == at_b {
         // The lower curve's tent.
         let lower = usize::from(at_a == Greater);
-        let reach = b.s[lower].sub(&a.s[lower]).times(0.25 * length(&a.t, &b.t));
-        let apart = |gap: &N| if at_a == Greater { gap.sub(&reach) } else { gap.add(&reach).times(-1.0) };
+        let reach = formula!((b.s[lower] - a.s[lower]) * { 0.25 * length(&a.t, &b.t) });
+        let apart = |gap: &N| if at_a == Greater { gap.sub(&reach) } else { formula!(-(gap + reach)) };
         if apart(&a.gap).is_positive() && apart(&b.gap).is_positive() {
             return Some(false);
         }
@@ -257,7 +257,7 @@ fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Option<bool> {
 fn times_exp<N: Real>(t: &N, x: f64) -> Option<N> {
     let exponent = (x / LN_2).round();
     let rest = (x - exponent * LN_2).exp();
-    (exponent.abs() < 2f64.powi(14)).then(|| t.mul(&N::power_of_two(exponent as i32, t.bits())).times(rest).middle())
+    (exponent.abs() < 2f64.powi(14)).then(|| formula!(t * N::power_of_two(exponent as i32, t.bits()) * { rest }).middle())
 }
 
 /// The middle of two in ln t, whatever their sizes.
@@ -276,5 +276,5 @@ fn between<N: Real>(a: &N, b: &N) -> Option<N> {
         return Some(N::of(t, a.bits()));
     }
     let apart = b.sub(a);
-    apart.sub(&a.mul(&N::power_of_two(nearest(a.bits()), a.bits()))).is_positive().then(|| a.add(&apart.times(0.469)).middle())
+    formula!(apart - a * N::power_of_two(nearest(a.bits()), a.bits())).is_positive().then(|| formula!(a + 0.469 * apart).middle())
 }

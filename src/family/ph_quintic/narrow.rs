@@ -7,13 +7,13 @@
 
 use super::curves::Curves;
 use super::knot::Knot;
-use crate::num::Real;
+use crate::num::{Real, Verdict, formula};
 
 /// Above this cos Φ the other certificates do as well.
 const WIDE: f64 = 1.0 / 16.0;
 
 /// Whether the curves meet once (`true`) or not (`false`) between two knots, when H tells.
-pub(super) fn meets<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Option<bool> {
+pub(super) fn meets<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Verdict {
     if curves.cos.approx() > WIDE {
         return None;
     }
@@ -24,19 +24,19 @@ pub(super) fn meets<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -
     let b = from.t.mul(&from.z[1].sqrt()?).union(&to.t.mul(&to.z[1].sqrt()?));
     let (a2, b2) = (a.mul(&a), b.mul(&b));
     let [alpha, beta] = &curves.bend;
-    let (bend0, bend1) = (alpha.mul(&a2).mul(&a), beta.mul(&b2).mul(&b));
+    let (bend0, bend1) = (formula!(alpha * a2 * a), formula!(beta * b2 * b));
     let (flat0, flat1) = (a2.times(3.0 * p * p), b2.times(3.0 * q * q));
-    let (mixed1, mixed0) = (bend0.mul(&b).times(3.0 * q), bend1.mul(&a).times(3.0 * p));
-    let (last1, last0) = (bend0.mul(&bend0).times(2.0), bend1.mul(&bend1).times(2.0));
-    let h = flat1.add(&mixed1).add(&last1).sub(&flat0.add(&mixed0).add(&last0)).add(&curves.skew);
+    let (mixed1, mixed0) = (formula!(bend0 * b * { 3.0 * q }), formula!(bend1 * a * { 3.0 * p }));
+    let (last1, last0) = (formula!(2.0 * (bend0 * bend0)), formula!(2.0 * (bend1 * bend1)));
+    let h = formula!(flat1 + mixed1 + last1 - (flat0 + mixed0 + last0) + curves.skew);
     if same && h.certain_sign(0.0).is_some_and(|sign| sign.is_ne()) {
         return Some(false);
     }
     let s = from.s[1].union(&to.s[1]);
-    let rest = s.times(-1.0).plus(2.0);
-    let turns = |x: &N, j: f64, k: f64| x.mul(&s.times(-k).plus(j));
-    let gains = flat1.mul(&rest).add(&turns(&mixed1, 1.0, 2.0)).add(&flat0.mul(&s));
-    let losses = last1.mul(&s).times(3.0).add(&turns(&mixed0, 3.0, 2.0)).add(&last0.mul(&rest).times(3.0));
+    let rest = formula!(2.0 - s);
+    let turns = |x: &N, j: f64, k: f64| formula!(x * (s * { -k } + { j }));
+    let gains = formula!(flat1 * rest + turns(&mixed1, 1.0, 2.0) + flat0 * s);
+    let losses = formula!(3.0 * (last1 * s) + turns(&mixed0, 3.0, 2.0) + 3.0 * (last0 * rest));
     let rise = gains.sub(&losses).certain_sign(0.0)?;
     // A rising H is a falling D.
     rise.is_ne().then_some(!same)

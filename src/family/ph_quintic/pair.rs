@@ -2,7 +2,7 @@
 
 use crate::family::outer::Sines;
 use crate::num::sines::{SIN_ERROR, sin, sin_of_sum};
-use crate::num::{Ball, Interval, Number, Real, Twin};
+use crate::num::{Ball, Interval, Number, Real, Twin, formula};
 use std::cell::RefCell;
 use std::f64::consts::PI;
 use std::rc::Rc;
@@ -87,9 +87,9 @@ impl Pair<Twin> {
 impl<N: Real> Pair<N> {
     /// From sine and cosine of half of each angle.
     fn of_halves([(s0, c0), (s1, c1)]: [(N, N); 2], rising: bool) -> Option<Pair<N>> {
-        let (sin, cos) = (s0.mul(&c1).add(&c0.mul(&s1)), c0.mul(&c1).sub(&s0.mul(&s1)));
-        let (sin0, sin1) = (s0.mul(&c0).times(2.0), s1.mul(&c1).times(2.0));
-        let difference = s1.mul(&c0).sub(&c1.mul(&s0));
+        let (sin, cos) = (formula!(s0 * c1 + c0 * s1), formula!(c0 * c1 - s0 * s1));
+        let (sin0, sin1) = (formula!(2.0 * (s0 * c0)), formula!(2.0 * (s1 * c1)));
+        let difference = formula!(s1 * c0 - c1 * s0);
         (sin.is_positive() && cos.is_positive()).then_some(())?;
         Some(Pair {
             cos,

@@ -22,14 +22,14 @@
 use super::curves::Curves;
 use super::knot::Knot;
 use super::march::{March, Root};
-use super::shape::Shape;
+use super::shape::CurveShape;
 use super::{ANY_SPIRAL, PhQuintic, SOLVABLE, SPIRAL};
 use crate::family::hermite::{clip, holds_box};
 use crate::family::outer_region::{any, fails_within_domain};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
 use crate::num::bernstein::Certain;
 use crate::num::verdict::{and, or};
-use crate::num::{Form, Number, Real, Verdict};
+use crate::num::{Form, Number, Real, Verdict, formula};
 
 /// A form in φ0, φ1, κ0, κ1.
 type Four = Form<4, 10>;
@@ -39,13 +39,13 @@ fn curves([phi0, phi1, kappa0, kappa1]: &[[f64; 2]; 4]) -> Option<Curves<Four>> 
     let (first, second) = (Four::centred(*phi0, 0), Four::centred(*phi1, 1));
     let (half0, half1) = (first.times(0.5), second.times(0.5));
     let ((s0, c0), (s1, c1)) = ((half0.sine(), half0.cosine()), (half1.sine(), half1.cosine()));
-    let (sin, cos) = (half0.sine_of_sum(&half1), c0.mul(&c1).sub(&s0.mul(&s1)));
+    let (sin, cos) = (half0.sine_of_sum(&half1), formula!(c0 * c1 - s0 * s1));
     (positive(&cos) == Some(true)).then_some(())?;
     let inverse = sin.inverse()?;
-    let over = |x: &Four, k: f64| x.mul(&inverse).times(k);
+    let over = |x: &Four, k: f64| formula!(x * inverse * { k });
     let bend = [over(&Four::centred(*kappa0, 2), 0.25), over(&Four::centred(*kappa1, 3), 0.25)];
     let right = [over(&first.sine(), 30.0), over(&second.sine(), 30.0)];
-    Some(Curves::bent(bend, cos, right, over(&s1.mul(&c0).sub(&s0.mul(&c1)), 30.0)))
+    Some(Curves::bent(bend, cos, right, over(&formula!(s1 * c0 - s0 * c1), 30.0)))
 }
 
 /// The one solution between two knots.
@@ -79,7 +79,7 @@ fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four
 /// Whether the curvature of a solution rises all along, over the box.
 fn rises(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>, pull: &mut [f64; MOST_SIDES]) -> Verdict {
     let root = root(march, a, b)?;
-    let quintic = Shape::new(&march.curves, &root)?.quintic();
+    let quintic = CurveShape::new(&march.curves, &root)?.quintic();
     let known = unit_sign(&quintic);
     if known.is_none() {
         quintic.iter().filter(|form| positive(form).is_none()).chain([&root.t, &root.z]).for_each(|form| add_pull(pull, form));

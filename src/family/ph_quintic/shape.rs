@@ -7,35 +7,35 @@
 use super::curves::Curves;
 use super::march::Root;
 use crate::num::bernstein::Quintic;
-use crate::num::{Number, Real};
+use crate::num::{Number, Real, formula};
 
 /// σ and η of a curve, both divided by Z.
 #[derive(Debug, Clone)]
-pub(super) struct Shape<N> {
+pub(super) struct CurveShape<N> {
     pub speed: [N; 5],
     pub turn: [N; 3],
 }
 
-impl<N: Real> Shape<N> {
+impl<N: Real> CurveShape<N> {
     /// The curve; `None` only when a number leaves the range of its arithmetic.
-    pub fn new(curves: &Curves<N>, root: &Root<N>) -> Option<Shape<N>> {
+    pub fn new(curves: &Curves<N>, root: &Root<N>) -> Option<CurveShape<N>> {
         let (Root { t, z }, [p, q], [alpha, beta]) = (root, curves.scale, &curves.bend);
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
         // Coordinates of w1, divided by a³.
         let (u, v) = (beta.mul(&t3), alpha);
-        let skew = |x: &N, y: &N| x.add(&curves.cos.mul(y));
-        let cross = curves.cos.mul(t).times(p * q);
-        let square = u.mul(&skew(&u, &v.times(2.0))).add(&v.mul(v));
-        Some(Shape {
+        let skew = |x: &N, y: &N| formula!(x + curves.cos * y);
+        let cross = formula!(curves.cos * t * { p * q });
+        let square = formula!(u * skew(&u, &v.times(2.0)) + v * v);
+        Some(CurveShape {
             speed: [
                 N::of(p * p, t.bits()),
-                z.mul(&skew(&u, v)).times(p),
-                square.mul(&z.mul(z)).times(2.0).add(&cross).over(&N::of(3.0, t.bits()))?,
-                z.mul(t).mul(&skew(v, &u)).times(q),
+                formula!(z * skew(&u, v) * { p }),
+                formula!(2.0 * (square * (z * z)) + cross).over(&N::of(3.0, t.bits()))?,
+                formula!(z * t * skew(v, &u) * { q }),
                 t2.times(q * q),
             ],
-            turn: [v.mul(z).times(2.0 * p), t.times(p * q), u.mul(t).mul(z).times(2.0 * q)],
+            turn: [formula!(v * z * { 2.0 * p }), t.times(p * q), formula!(u * t * z * { 2.0 * q })],
         })
     }
 
@@ -55,10 +55,10 @@ fn half<N: Number>([h0, h1, h2]: &[N; 3], speed: &[N; 5]) -> [N; 3] {
     let sum = |positive: [N; 3], negative: [N; 2]| {
         let [a, b, c] = positive;
         let [d, e] = negative;
-        a.add(&b).add(&c).sub(&d.add(&e))
+        formula!(a + b + c - (d + e))
     };
     let none = h0.times(0.0);
-    let by = |h: &N, i: usize, k: f64| h.mul(&speed[i]).times(k);
+    let by = |h: &N, i: usize, k: f64| formula!(h * speed[i] * { k });
     [
         sum([by(h1, 0, 10.0), by(h0, 0, 30.0), none.clone()], [by(h0, 1, 40.0), none]),
         sum([by(h0, 1, 16.0), by(h1, 0, 14.0), by(h2, 0, 2.0)], [by(h0, 2, 24.0), by(h1, 1, 8.0)]),

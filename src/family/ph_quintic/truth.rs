@@ -3,18 +3,18 @@
 use super::curves::Curves;
 use super::march::{March, Root};
 use super::pair::Pair;
-use super::shape::Shape;
+use super::shape::CurveShape;
 use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
 use crate::curve::energy;
 use crate::family::{Code, outer};
 use crate::num::bernstein::{MOST_HALVINGS, exact_margin, margin, positive};
-use crate::num::{Ball, Interval, Real, Twin};
+use crate::num::{Ball, Interval, Real, Twin, Verdict, formula};
 
 /// A solution and whether its curvature rises throughout.
 #[derive(Debug, Clone)]
 pub(super) struct Solution<N> {
     pub root: Root<N>,
-    pub shape: Shape<N>,
+    pub shape: CurveShape<N>,
     pub spiral: bool,
 }
 
@@ -39,7 +39,7 @@ fn code(any: bool, solutions: usize, spirals: usize) -> Code {
     Code::new(flags, (solutions.min(7) | spirals.min(7) << 3) as u8)
 }
 
-fn any_spiral<N: Real>(pair: &Pair<N>, [kappa0, kappa1]: [f64; 2]) -> Option<bool> {
+fn any_spiral<N: Real>(pair: &Pair<N>, [kappa0, kappa1]: [f64; 2]) -> Verdict {
     let bits = pair.sin.bits();
     Some(pair.rising && kappa0 < kappa1 && outer::holds(&pair.outer, &N::of(kappa0, bits), &N::of(kappa1, bits))?)
 }
@@ -72,7 +72,7 @@ pub(super) fn solve<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Truth<N>
     };
     let mut solutions = Vec::new();
     for root in march.roots()? {
-        let shape = Shape::new(&march.curves, &root)?;
+        let shape = CurveShape::new(&march.curves, &root)?;
         let spiral = any && positive(&shape.quintic(), 0.0, 0.0, depth(pair.sin.bits()))?;
         solutions.push(Solution { root, shape, spiral });
     }
@@ -160,9 +160,9 @@ pub(super) fn measure<N: Measured>(
     let a = z.sqrt()?;
     let [s0, s1, s2, s3, s4] = &solution.shape.speed;
     let fifth = N::of(5.0, z.bits());
-    let length = s0.add(s1).add(s2).add(s3).add(s4).mul(z).over(&fifth)?;
+    let length = formula!((s0 + s1 + s2 + s3 + s4) * z).over(&fifth)?;
     Some(Measures {
-        numbers: [a.times(curves.scale[0]), a.mul(t).times(curves.scale[1]), energy_of(pair, solution, energy)?, length],
+        numbers: [a.times(curves.scale[0]), formula!(a * t * { curves.scale[1] }), energy_of(pair, solution, energy)?, length],
         margin: N::margin(&solution.shape.quintic())?,
     })
 }
