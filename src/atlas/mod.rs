@@ -29,6 +29,7 @@
 mod about;
 mod fault;
 pub(crate) mod header;
+pub mod verify;
 mod write;
 
 pub use about::{About, FORMAT_VERSION, Kind, Named, Packed};

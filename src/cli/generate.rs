@@ -155,7 +155,7 @@ pub fn write_atlas(
 /// Checks an atlas and writes what stands beside it.
 fn finish(args: &Args, plan: &AtlasPlan, atlas: &Atlas, report: Report, checkers: &[Backend], stop: &AtomicBool) -> Result<Made> {
     let job = Job { family: plan.family, grid: &plan.grid, scalars: &plan.scalars };
-    let stored = verify::stored(atlas)?;
+    let stored = spiral_atlas::atlas::verify::stored(atlas)?;
     let check = match args.check {
         Check::None => Vec::new(),
         Check::Sample => vec![verify::sampled(&job, &stored, SAMPLES, stop)?],

@@ -4,12 +4,10 @@ use super::Outcome;
 use super::backend::{self, BackendArgs};
 use super::cells::{self, Opened};
 use super::output::{self, grouped};
-use spiral_atlas::atlas::Atlas;
+use spiral_atlas::atlas::verify;
 use spiral_atlas::eval::agree::{self, Agreement, Stored};
 use spiral_atlas::eval::{Backend, Job};
-use spiral_atlas::family::Family;
-use spiral_atlas::recipe::Recipe;
-use spiral_atlas::{Error, Result, picture};
+use spiral_atlas::{Result, picture};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
@@ -71,12 +69,11 @@ pub fn run(args: &Args) -> Result<Outcome> {
         Opened::Cells(found) => return cells::verify(&found, args.backend.threads(), args.json),
     };
     let family = picture::of(&atlas)?;
-    let scalars = scalars(&atlas, family)?;
+    let scalars = verify::scalars(&atlas, family)?;
     let job = Job { family, grid: atlas.grid(), scalars: &scalars };
-    let (stored, (backends, no_gpu)) = (stored(&atlas)?, args.backend.all(args.require_adapter)?);
+    let (stored, (backends, no_gpu)) = (verify::stored(&atlas)?, args.backend.all(args.require_adapter)?);
     let stop = super::stop_flag()?;
-    let hashes = atlas.check_hashes().err().map(|e| e.to_string());
-    let faults: Vec<String> = [hashes, legend_fault(&atlas, family), recipe_fault(&atlas)].into_iter().flatten().collect();
+    let faults = verify::faults(&atlas, family);
     let threads = args.backend.threads();
     let compare = |b: &Backend| compared(&job, &stored, b, threads, &stop);
     let comparisons = backends.iter().map(compare).collect::<Result<Vec<_>>>()?;
@@ -92,13 +89,6 @@ pub fn run(args: &Args) -> Result<Outcome> {
         output::complain(&format!("{}: verification failed", args.atlas.display()));
     }
     Ok(if good { Outcome::Fine } else { Outcome::Bad })
-}
-
-/// The fields of an atlas, in file order.
-pub fn stored(atlas: &Atlas) -> Result<Stored<'_>> {
-    let scalar = |name: &str| atlas.scalar(name).ok_or_else(|| fault(atlas, format!("its scalar `{name}` cannot be read")));
-    let scalars = atlas.scalar_names().map(scalar).collect::<Result<_>>()?;
-    Ok(Stored { flags: atlas.flags(), solutions: atlas.solutions(), scalars })
 }
 
 /// Compares all nodes with what a backend computes.
@@ -164,45 +154,4 @@ impl Verified {
         }
         text
     }
-}
-
-/// The scalars of an atlas, as indices into the family's.
-fn scalars(atlas: &Atlas, family: &dyn Family) -> Result<Vec<usize>> {
-    let place = |name: &str| {
-        let place = family.about().scalars.iter().position(|s| s.name == name);
-        place.ok_or_else(|| fault(atlas, format!("its scalar `{name}` is none of the family `{}`", family.about().name)))
-    };
-    atlas.scalar_names().map(place).collect()
-}
-
-/// Whether the file gives its bytes another meaning than the family does.
-fn legend_fault(atlas: &Atlas, family: &dyn Family) -> Option<String> {
-    let about = atlas.about();
-    let axes: Vec<&str> = atlas.grid().axes().iter().map(|a| a.name()).collect();
-    let chart = family.about().charts.iter().any(|c| c.name == about.chart && c.doc == about.chart_doc && c.axes == axes);
-    let flags = about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(family.about().flags.iter().map(|f| (f.name, f.doc)));
-    let counts = about.counts.iter().map(|c| (&c.name[..], &c.doc[..], c.shift, c.bits));
-    let counts = counts.eq(family.about().counts.iter().map(|c| (c.name, c.doc, c.shift, c.bits)));
-    let known = |s: &spiral_atlas::atlas::Named| family.about().scalars.iter().any(|k| k.name == s.name && k.doc == s.doc);
-    let scalars = about.scalars.iter().all(known);
-    let conventions = about.conventions == family.about().conventions;
-    let parts = [("axes", chart), ("flags", flags), ("counts", counts), ("scalars", scalars), ("conventions", conventions)];
-    let wrong: Vec<&str> = parts.iter().filter(|(_, good)| !good).map(|(name, _)| *name).collect();
-    (!wrong.is_empty()).then(|| format!("its legend ({}) is not that of `{}`", wrong.join(", "), family.about().name))
-}
-
-/// Whether the recipe in the file would give another grid. A text that is no recipe (of an atlas made by a program) says nothing.
-fn recipe_fault(atlas: &Atlas) -> Option<String> {
-    let recipe = Recipe::parse(atlas.recipe_text()).ok()?;
-    let about = atlas.about();
-    let Some(plan) = recipe.atlases.iter().find(|plan| plan.name == about.name) else {
-        return Some(format!("its recipe has no atlas `{}`", about.name));
-    };
-    let names = plan.scalars.iter().filter_map(|i| plan.family.about().scalars.get(*i)).map(|s| s.name);
-    let same = plan.family.about().name == about.family && plan.grid == *atlas.grid() && names.eq(atlas.scalar_names());
-    (!same).then(|| "its recipe gives another family, grid or other scalars than the file has".into())
-}
-
-fn fault(atlas: &Atlas, what: String) -> Error {
-    Error::Atlas { path: atlas.path().to_owned(), what }
 }

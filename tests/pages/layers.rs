@@ -19,7 +19,7 @@ const ROOMS: [(&str, &[&str]); 18] = [
     ("family", &["curve", "grid", "num", "steps", "error"]),
     ("eval", &["family", "grid", "num", "error"]),
     ("recipe", &["family", "grid", "num", "files", "error"]),
-    ("atlas", &["eval", "family", "grid", "num", "files", "error"]),
+    ("atlas", &["eval", "recipe", "family", "grid", "num", "files", "error"]),
     ("cells", &["atlas", "family", "grid", "files", "error"]),
     ("question", &["family", "num", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
