@@ -192,8 +192,8 @@ impl<N: Real> March<N> {
         // It may be too small for a double.
         let scaled = |power: i32| moved.mul(&N::power_of_two(power, self.bits())).most();
         let power = (0..bits).step_by(500).find(|power| scaled(*power) > 2f64.powi(-500)).unwrap_or(bits);
-        let most = N::power_of_two(-power, self.bits()).times(scaled(power));
-        let mut reach = formula!(2.0 * most + N::power_of_two(4 - bits, self.bits()));
+        let most = (2.0 * scaled(power)).max(2f64.powi(4 - bits + power));
+        let mut reach = N::power_of_two(-power, self.bits()).times(most);
         for _ in 0..4 {
             let delta = knot.t.mul(&reach);
             let (left, right) = (knot.t.sub(&delta).middle(), knot.t.add(&delta).middle());
