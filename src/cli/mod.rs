@@ -136,7 +136,8 @@ fn refuse_by(mut command: clap::Command, what: &str) -> ! {
 /// clap leaves it out where a single value is wrong.
 fn parse() -> Cli {
     Cli::try_parse().unwrap_or_else(|mut error| {
-        if !error.use_stderr() {
+        // Help that was asked for, or that stands where a subcommand is missing.
+        if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
             error.exit();
         }
         let mut command = given();

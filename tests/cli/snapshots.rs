@@ -21,6 +21,7 @@ macro_rules! snapshots {
 snapshots! {
     help: "--help";
     help_of_curve: "curve --help";
+    export_alone: "export";
     unknown_command: "curv";
     unknown_option: "curve --familly cubic";
     options_are_missing: "curve --family trig-quintic --template c --from 0,0";
