@@ -63,8 +63,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
     if let Some(path) = &args.points {
         let charts: Vec<&'static [&'static str]> = family.charts().iter().map(|chart| chart.axes).collect();
-        return points::run(path, &charts, |chart, cells| {
-            let answer = Answer::new(family, from_cells(family, chart, cells)?, atlas.as_ref())?;
+        return points::run(path, &charts, false, |row| {
+            let answer = Answer::new(family, from_cells(family, row.chart, row.cells)?, atlas.as_ref())?;
             serde_json::to_vec(&answer).map_err(output::json_error)
         });
     }

@@ -78,7 +78,7 @@ pub struct Args {
     end_curvature: Option<f64>,
     /// A CSV file of ends for `cubic`, `ph-quintic` or `involute`, - for standard input. Columns, in any order: x0, y0, direction0, curvature0,
     /// x1, y1, direction1, curvature1.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["csv", "figure"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "figure")]
     points: Option<PathBuf>,
     /// How often an involute's image turns about its start and about its end.
     #[arg(long, value_name = "N1,N2", value_parser = parse_turns, help_heading = "For `involute`")]
@@ -126,7 +126,7 @@ pub struct Args {
     /// (radians), curvature.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     samples: Option<u32>,
-    /// Print the samples as CSV, and nothing else.
+    /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
     #[arg(long, requires = "samples", conflicts_with = "json")]
     csv: bool,
     /// Draw the curve with its polygon and end circles, its curvature and the derivative of that.
@@ -203,7 +203,7 @@ impl Args {
         match (self.json, self.csv) {
             (true, _) => output::print_json(&report)?,
             (_, true) => report.csv()?,
-            _ => output::print(&report.text())?,
+            _ => report.text()?,
         }
         let Some(path) = &self.figure else { return Ok(report.outcome()) };
         match found.figure() {

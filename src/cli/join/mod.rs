@@ -20,9 +20,10 @@ use std::path::PathBuf;
 /// Position, direction and curvature of the path are continuous. The curvature of each piece is monotone, proved, so
 /// the limit that the pieces' ends keep holds everywhere. The join is the best of those tried, not of all.
 ///
-/// Prints {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,"bending_energy":..,"pieces":[..]},
-/// where a rate is dκ/ds, or {"pieces":null,"reason":".."}. With --points, one such line for each row, in order; a bad
-/// row gives {"line":..,"error":".."}.
+/// Prints {"paths":[path]} with the path {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,
+/// "bending_energy":..,"pieces":[..]}, where a rate is dκ/ds, or {"paths":[],"reason":".."}. With --points, for each row
+/// in order a line with the path alone, or {"pieces":null,"reason":".."}; a bad row gives {"line":..,"error":".."}. `path
+/// measure` and `export opendrive` read all of it.
 ///
 /// Exit status: 0 when there is a join, 1 when none was found, 2 for an error. With --points it is 0 when every row was
 /// answered, whatever the answers, and 2 when one was bad.
@@ -79,9 +80,9 @@ pub struct Args {
     most_pieces: usize,
     /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from
     /// the start), x, y, heading (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000), conflicts_with = "points")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     samples: Option<u32>,
-    /// Print the samples as CSV, and nothing else.
+    /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
     #[arg(long, requires = "samples")]
     csv: bool,
     /// Draw the path and its curvature.
@@ -95,6 +96,16 @@ const OBJECTIVES: [&str; 4] = ["length", "greatest-curvature", "greatest-rate", 
 /// What is printed of a single join.
 #[derive(serde::Serialize)]
 struct Told<'a> {
+    paths: Vec<&'a Join>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<Vec<Station>>,
+}
+
+/// What is printed of a join in a table.
+#[derive(serde::Serialize)]
+struct Line<'a> {
     #[serde(flatten)]
     found: &'a join::Outcome,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -108,9 +119,14 @@ pub fn run(args: &Args) -> Result<Outcome> {
         // A limit or a length that is none spoils every row alike: it is told once.
         let nowhere = State { point: [0.0, 0.0], direction: 0.0, curvature: 0.0 };
         join::join(&args.request(nowhere.into(), State { point: [1.0, 0.0], ..nowhere }.into()))?;
-        return points::run(path, &[&COLUMNS], |_, cells| {
-            let [from, to] = states(cells)?;
-            serde_json::to_vec(&join::join(&args.request(from, to))?).map_err(output::json_error)
+        return points::run(path, &[&COLUMNS], args.csv, |row| {
+            let [from, to] = states(row.cells)?;
+            let found = join::join(&args.request(from, to))?;
+            let samples = args.samples(&found)?;
+            if args.csv {
+                return row.table(&samples.unwrap_or_default(), reason(&found));
+            }
+            serde_json::to_vec(&Line { found: &found, samples }).map_err(output::json_error)
         });
     }
     let request = match &args.request {
@@ -121,11 +137,11 @@ pub fn run(args: &Args) -> Result<Outcome> {
         ),
     };
     let found = join::join(&request)?;
-    let samples = args.samples.zip(found.join()).map(|(n, join)| stations(&join.pieces, n as usize)).transpose()?;
-    match (&found, &samples) {
-        (join::Outcome::None(reason), _) if args.csv => output::note(reason),
-        (_, Some(samples)) if args.csv => output::print(&output::table(samples, ","))?,
-        _ => output::print_json(&Told { found: &found, samples })?,
+    let samples = args.samples(&found)?;
+    match (reason(&found), &samples) {
+        (Some(reason), _) if args.csv => output::note(reason),
+        (None, Some(samples)) if args.csv => output::stream(|out| output::table(out, samples, ","))?,
+        (reason, _) => output::print_json(&Told { paths: found.join().into_iter().collect(), reason, samples })?,
     }
     let Some(join) = found.join() else { return Ok(Outcome::Bad) };
     if let Some(path) = &args.figure {
@@ -139,7 +155,20 @@ fn missing(end: &str) -> ! {
     super::refuse(&format!("one of `--{end}`, `--{end}-line` and `--{end}-circle` is needed, or `--points`, or a file"))
 }
 
+/// Why there is no join.
+fn reason(found: &join::Outcome) -> Option<&str> {
+    match found {
+        join::Outcome::Join(_) => None,
+        join::Outcome::None(reason) => Some(reason),
+    }
+}
+
 impl Args {
+    /// The samples that are asked for, where there is a join.
+    fn samples(&self, found: &join::Outcome) -> Result<Option<Vec<Station>>> {
+        self.samples.zip(found.join()).map(|(n, join)| stations(&join.pieces, n as usize)).transpose()
+    }
+
     fn request(&self, from: End, to: End) -> Request {
         let limit = self.greatest_curvature.unwrap_or_else(|| super::refuse("`--greatest-curvature` is needed"));
         let Args { family, objective, longest, most_pieces, .. } = *self;
