@@ -1,7 +1,7 @@
 //! `export`: paths as files of other programs.
 
 use super::path::Source;
-use super::{Outcome, output};
+use super::{Outcome, numbers, output};
 use spiral_atlas::Result;
 use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::files::write_file;
@@ -37,10 +37,10 @@ struct RoadArgs {
     #[command(flatten)]
     source: Source,
     /// Width of the lane in metres.
-    #[arg(long, value_name = "METRES", default_value_t = 3.5)]
+    #[arg(long, value_name = "METRES", value_parser = numbers::number, default_value_t = 3.5)]
     lane_width: f64,
     /// How far a fitted curve may be from the true one, in metres.
-    #[arg(long, value_name = "METRES", default_value_t = 0.001)]
+    #[arg(long, value_name = "METRES", value_parser = numbers::number, default_value_t = 0.001)]
     tolerance: f64,
     /// Where the file goes; standard output unless given.
     #[arg(long, value_name = "FILE.xodr")]

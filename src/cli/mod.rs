@@ -13,6 +13,7 @@ mod export;
 mod generate;
 mod info;
 mod join;
+mod numbers;
 mod output;
 mod path;
 mod points;

@@ -1,6 +1,7 @@
 //! A recipe as TOML has it, before anything is looked up.
 
 use crate::error::{Error, Result};
+use crate::plain;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -21,8 +22,7 @@ impl Fault {
     /// An error of the recipe, with line and column.
     pub fn within(self, text: &str) -> Error {
         let before = text.get(..self.at.start).unwrap_or(text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        let (line, column) = plain::place(before);
         Error::Recipe(format!("line {line}, column {column}: {}", self.what))
     }
 }
@@ -127,7 +127,7 @@ impl Number {
 
 /// Parses the text; an unknown key is refused with the nearest known one.
 pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
-    toml::from_str(text).map_err(|e| super::words::plain(text, e.span().unwrap_or(0..0), e.message()))
+    toml::from_str(text).map_err(|e| super::words::complaint(text, e.span().unwrap_or(0..0), e.message()))
 }
 
 /// The complaint about a name that is not known, with the nearest that is.

@@ -77,10 +77,14 @@ fn a_request_stands_in_a_file() {
     circle["to"] = json!({ "circle": { "centre": [9, 3], "radius": 2, "turn": "left" } });
     assert_eq!(piped(&["join", "-"], &circle.to_string()).code, Some(0));
     for (path, value, what) in [
-        ("objective", json!("speed"), "objective: unknown variant `speed`"),
-        ("longset", json!(3), "longset: unknown field `longset`"),
-        ("from", json!({ "state": { "point": [0, 0] } }), "from.state: missing field `direction`"),
-        ("to", json!({ "pose": {} }), "to: unknown variant `pose`"),
+        (
+            "objective",
+            json!("speed"),
+            "objective must be one of `length`, `greatest-curvature`, `greatest-rate`, `bending-energy`; it is `speed`",
+        ),
+        ("longset", json!(3), "there is no field `longset`; known are `from`, `to`"),
+        ("from", json!({ "state": { "point": [0, 0] } }), "from.state lacks the field `direction`"),
+        ("to", json!({ "pose": {} }), "to must be one of `state`, `line`, `circle`; it is `pose`"),
     ] {
         let mut wrong = json.clone();
         wrong[path] = value;

@@ -8,18 +8,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room of `src/` with the rooms that it may import.
-const ROOMS: [(&str, &[&str]); 17] = [
+const ROOMS: [(&str, &[&str]); 18] = [
     ("error", &[]),
     ("steps", &[]),
     ("files", &["error"]),
+    ("plain", &[]),
     ("num", &["steps", "error"]),
     ("plot", &["error"]),
     ("grid", &["num", "error"]),
     ("curve", &["num", "steps", "error"]),
     ("family", &["curve", "grid", "num", "steps", "error"]),
     ("eval", &["family", "grid", "num", "error"]),
-    ("recipe", &["family", "grid", "num", "files", "error"]),
-    ("atlas", &["eval", "family", "grid", "num", "files", "error"]),
+    ("recipe", &["family", "grid", "num", "files", "plain", "error"]),
+    ("atlas", &["eval", "family", "grid", "num", "files", "plain", "error"]),
     ("cells", &["atlas", "family", "grid", "files", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
     ("path", &["transition", "family", "curve", "num", "steps", "error"]),
@@ -42,6 +43,7 @@ const ROOMS: [(&str, &[&str]); 17] = [
             "grid",
             "num",
             "files",
+            "plain",
             "error",
         ],
     ),

@@ -4,7 +4,7 @@ mod parse;
 mod request;
 
 use super::path::figure::{SAMPLES, drawn};
-use super::{Outcome, output, points};
+use super::{Outcome, numbers, output, points};
 use parse::{COLUMNS, states};
 use spiral_atlas::Result;
 use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
@@ -64,7 +64,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "goal", "figure"], help_heading = ENDS)]
     points: Option<PathBuf>,
     /// Greatest curvature allowed, 1 / length: one over the least radius.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     greatest_curvature: Option<f64>,
     /// What kind of spirals.
     #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = parse::named::<Family>(&["cubic", "ph-quintic", "involute", "trig-quintic"]))]
@@ -73,14 +73,14 @@ pub struct Args {
     #[arg(long, value_name = "NAME", default_value = "length", value_parser = parse::named::<Objective>(&OBJECTIVES))]
     objective: Objective,
     /// A join longer than this counts as none; in your unit of length.
-    #[arg(long, value_name = "LENGTH", default_value_t = f64::INFINITY, hide_default_value = true, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::number, default_value_t = f64::INFINITY, hide_default_value = true, allow_hyphen_values = true)]
     longest: f64,
     /// Most pieces allowed.
-    #[arg(long, value_name = "N", default_value_t = Request::MOST_PIECES)]
-    most_pieces: usize,
+    #[arg(long, value_name = "N", value_parser = numbers::count::<0, 1000>, default_value_t = Request::MOST_PIECES as u32)]
+    most_pieces: u32,
     /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from
     /// the start), x, y, heading (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
     #[arg(long, requires = "samples")]
@@ -172,7 +172,7 @@ impl Args {
     fn request(&self, from: End, to: End) -> Request {
         let limit = self.greatest_curvature.unwrap_or_else(|| super::refuse("`--greatest-curvature` is needed"));
         let Args { family, objective, longest, most_pieces, .. } = *self;
-        Request { family, objective, longest, most_pieces, ..Request::new(from, to, limit) }
+        Request { family, objective, longest, most_pieces: most_pieces as usize, ..Request::new(from, to, limit) }
     }
 }
 

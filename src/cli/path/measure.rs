@@ -1,7 +1,7 @@
 //! `path measure`.
 
 use super::{Files, Outcome, figure};
-use crate::cli::output;
+use crate::cli::{numbers, output};
 use serde::Serialize;
 use spiral_atlas::path::{Course, OffsetCurve, Spot, Summary};
 use spiral_atlas::transition::Station;
@@ -26,13 +26,13 @@ pub struct Args {
     #[command(flatten)]
     files: Files,
     /// Tell so many points at equal steps of length, both ends included: station (length from the start), x, y, heading (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else.
     #[arg(long, requires = "samples")]
     csv: bool,
     /// Distance of an offset curve, positive to the left.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     offset: Option<f64>,
 }
 

@@ -2,6 +2,7 @@
 
 use super::input::objects;
 use super::{Files, Outcome, figure};
+use crate::cli::numbers;
 use serde::{Deserialize, Serialize};
 use spiral_atlas::path::{Motion, Separation, Verdict, separations};
 use spiral_atlas::transition::Piece;
@@ -23,7 +24,7 @@ pub struct Args {
     #[command(flatten)]
     files: Files,
     /// The distance to keep.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     minimum: f64,
 }
 
