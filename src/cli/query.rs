@@ -48,7 +48,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
-    let atlas = args.atlas.as_ref().map(Opened::open).transpose()?;
+    let atlas = args.atlas.as_ref().map(Opened::checked).transpose()?;
     let of = |atlas: &Opened| match atlas {
         Opened::Nodes(atlas) => picture::of(atlas),
         Opened::Cells(found) => Ok(found.family()),

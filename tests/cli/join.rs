@@ -76,6 +76,10 @@ fn a_request_stands_in_a_file() {
     circle["from"] = json!({ "line": { "point": [0, 0], "direction": 0 } });
     circle["to"] = json!({ "circle": { "centre": [9, 3], "radius": 2, "turn": "left" } });
     assert_eq!(piped(&["join", "-"], &circle.to_string()).code, Some(0));
+    // The curvature of a straight end is 0, and no rounding of it.
+    let ramp = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/ramp.toml");
+    let csv = fine(["join", ramp, "--samples", "21", "--csv"]).out;
+    assert!(csv.lines().last().unwrap().ends_with(",0.0"), "{csv}");
     for (path, value, what) in [
         (
             "objective",

@@ -7,8 +7,8 @@ use super::path::figure::{SAMPLES, drawn};
 use super::{Outcome, numbers, output, points};
 use parse::{COLUMNS, states};
 use spiral_atlas::Result;
+use spiral_atlas::transition::Station;
 use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
-use spiral_atlas::transition::{Station, stations};
 use std::path::PathBuf;
 
 /// Join two states, or two lines and circles, by few spirals, arcs and lines, within a limit of curvature.
@@ -166,7 +166,7 @@ fn reason(found: &join::Outcome) -> Option<&str> {
 impl Args {
     /// The samples that are asked for, where there is a join.
     fn samples(&self, found: &join::Outcome) -> Result<Option<Vec<Station>>> {
-        self.samples.zip(found.join()).map(|(n, join)| stations(&join.pieces, n as usize)).transpose()
+        self.samples.zip(found.join()).map(|(n, join)| join.stations(n as usize)).transpose()
     }
 
     fn request(&self, from: End, to: End) -> Request {
@@ -178,7 +178,7 @@ impl Args {
 
 /// The path, and its curvature over the length.
 fn figure(join: &Join) -> Result<Vec<u8>> {
-    let all = stations(&join.pieces, SAMPLES)?;
+    let all = join.stations(SAMPLES)?;
     let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
     let (lines, arcs) = (kinds("line"), kinds("arc"));
     let spirals = join.pieces.len() - lines - arcs;
