@@ -210,7 +210,8 @@ fn picture() -> Table {
             "outlines",
             "a list of flags such as `[\"SPIRAL\"]`",
             "none, beside `regions`",
-            "Which flags to draw as a line with stripes on its inner side, which hides nothing. It goes with `regions`.",
+            "Which flags to draw as a line with stripes on its inner side, which hides nothing. The line of one that holds all \
+             over a plot runs around the plot. It goes with `regions`.",
         ),
         optional(
             "field",
