@@ -305,8 +305,6 @@ fn mistakes_in_toml_are_named() {
     fine(["path", "hermite", &folder.text("ends.toml")]);
 }
 
-/// Some of the curves run along a line and stand still on it.
-
 /// Texts that a reader could take for degrees, numbers that no double holds, and what the program says of each.
 #[test]
 fn angles_and_curves_beyond_their_range_are_told() {

@@ -347,6 +347,7 @@ fn mistakes_are_named() {
     }
 }
 
+/// Some of the curves run along a line and stand still on it.
 #[test]
 fn a_curve_that_stands_still_has_no_greatest_curvature() {
     let ends = r#"{"start": [0, 0], "end": [1, 0], "start_derivative": [6, 0], "end_derivative": [6, 0]}"#;
