@@ -28,7 +28,8 @@ pub fn json(path: &str, error: &serde_json::Error) -> String {
     }
 }
 
-/// A complaint of TOML's reader about the text: what the reader says, with the line and column of the bytes that are to blame.
+/// A complaint of TOML's reader about the text: what the reader says, with the line and column of the bytes that are to
+/// blame.
 pub fn toml(text: &str, at: Option<Range<usize>>, message: &str) -> String {
     let what = syntax(message);
     match at.and_then(|at| text.get(..at.start)) {

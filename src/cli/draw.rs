@@ -39,8 +39,8 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
     Product::of(&file).map(Some)
 }
 
-/// Makes sure, before any work, that every grid lies in the family's domain, every picture has room and the letters that it needs, no two
-/// pictures of a recipe have one name, and nothing but files has these names.
+/// Makes sure, before any work, that every grid lies in the family's domain, every picture has room and the letters
+/// that it needs, no two pictures of a recipe have one name, and nothing but files has these names.
 ///
 /// # Errors
 /// Those of [`spiral_atlas::family::Family::table`], [`Error::Recipe`] that names the file, and [`Error::Io`].

@@ -26,8 +26,8 @@ enum Format {
 
 /// ASAM OpenDRIVE 1.7: a road for each path, whose reference line the path is, with one driving lane to the right.
 ///
-/// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve --json`, `join` and the tools of `path` print it, or a line of JSON
-/// for each of several, as with --points; lines without a path are told on standard error.
+/// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve --json`, `join` and the tools of `path` print
+/// it, or a line of JSON for each of several, as with --points; lines without a path are told on standard error.
 ///
 /// Lines, arcs and cubic curves are exact. PH quintics are fitted by cubics, no further away than the tolerance; how many, how well, and how
 /// much the curvature differs at joints is told on standard error. Involutes and trigonometric curves are refused.

@@ -10,7 +10,8 @@ use std::path::PathBuf;
 
 /// Tell what an atlas holds: grid, fields, legend, hashes, recipe.
 ///
-/// The hashes are checked first, as in `render` and `query --atlas`: a file with a damaged bit is refused. Whether what it says is true,
+/// The hashes are checked first, as in `render` and `query --atlas`: a file with a damaged bit is refused. Whether what
+/// it says is true,
 /// `verify` tells.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas info out/quickstart.atlas.safetensors")]

@@ -30,7 +30,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Proved atlases of spiral regions: is there a transition curve with monotone curvature between two ends, and which one?
 ///
-/// Angles are radians, or degrees when written like 40deg or 40°. Beyond a full turn the unit must be named: 40deg or 40rad.
+/// Angles are radians, or degrees when written like 40deg or 40°. Beyond a full turn the unit must be named: 40deg or
+/// 40rad.
 #[derive(Parser)]
 #[command(name = "spiral-atlas", version, arg_required_else_help = true, after_help = EXIT_STATUS)]
 struct Cli {

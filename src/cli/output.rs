@@ -70,7 +70,8 @@ pub fn table(out: &mut impl Write, samples: &[Station], comma: &str) -> io::Resu
     rows(out, "", samples, comma)
 }
 
-/// Writes rows of samples, each after the same words. A number that there is not, where a path stands still, is an empty cell.
+/// Writes rows of samples, each after the same words. A number that there is not, where a path stands still, is an
+/// empty cell.
 pub fn rows(out: &mut impl Write, lead: &str, samples: &[Station], comma: &str) -> io::Result<()> {
     let cell = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
     samples.iter().try_for_each(|s| writeln!(out, "{lead}{}", s.numbers().map(cell).join(comma)))

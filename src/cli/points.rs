@@ -1,5 +1,5 @@
-//! `query`, `curve` and `join` with `--points`: a CSV file in, a line of JSON or rows of a table out for each row, in order, in bounded
-//! memory.
+//! `query`, `curve` and `join` with `--points`: a CSV file in, a line of JSON or rows of a table out for each row, in
+//! order, in bounded memory.
 //!
 //! Rows are numbers, so a row is a line: a stray quotation mark spoils its own row alone, never the rest of the file.
 
@@ -27,7 +27,8 @@ pub struct Row<'l> {
 }
 
 impl Row<'_> {
-    /// The rows of a table of samples, which begin with the number of this row; without samples the reason goes to standard error.
+    /// The rows of a table of samples, which begin with the number of this row; without samples the reason goes to
+    /// standard error.
     pub fn table(&self, samples: &[Station], reason: Option<&str>) -> Result<Vec<u8>> {
         if let Some(reason) = reason {
             output::note(&format!("row {}: {reason}", self.number));
@@ -43,7 +44,8 @@ fn table_header() -> String {
     format!("row,{}\n", Station::COLUMNS.join(","))
 }
 
-/// Answers for every row of a file, or of standard input for `-`, with what `answer` gives: a line of JSON, or for a `table` whole rows.
+/// Answers for every row of a file, or of standard input for `-`, with what `answer` gives: a line of JSON, or for a
+/// `table` whole rows.
 pub fn run(
     path: &Path,
     charts: &[&'static [&'static str]],

@@ -77,7 +77,8 @@ const LEAST: f64 = 1e-2;
 ///
 /// # Errors
 /// [`Error::Domain`] naming a number that is not finite, ends that coincide, a greatest length not above their distance or beyond a million times
-/// that. [`Error::NoPath`] where no searched path is short enough, or none but such as all but stand still at their ends.
+/// that. [`Error::NoPath`] where no searched path is short enough, or none but such as all but stand still at their
+/// ends.
 ///
 /// ```
 /// use spiral_atlas::path::{Directions, Free, least_curvature};

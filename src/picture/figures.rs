@@ -10,8 +10,8 @@ use crate::plot::{self, AxisView, Caption, Mark, Multiples, Region, Sheet, Slice
 use crate::recipe::{Levels, Look, PictureKind, PicturePlan, is_angle};
 use std::sync::atomic::AtomicBool;
 
-/// What is drawn: the nodes of an atlas or, to look for room before there is one, a grid without anything known of its nodes; then
-/// masks are empty.
+/// What is drawn: the nodes of an atlas or, to look for room before there is one, a grid without anything known of its
+/// nodes; then masks are empty.
 #[derive(Clone, Copy)]
 pub(super) struct Subject<'a> {
     pub name: &'a str,
@@ -88,8 +88,8 @@ pub(super) fn heading(plan: &PicturePlan, usual: &str) -> String {
     plan.look.title.as_deref().unwrap_or(usual.trim_end_matches([':', ' '])).to_owned()
 }
 
-/// Panels over the other axes. Those of one node are told in the heading; of the rest the slower ones make the rows, upwards, and the
-/// faster ones the columns.
+/// Panels over the other axes. Those of one node are told in the heading; of the rest the slower ones make the rows,
+/// upwards, and the faster ones the columns.
 pub(super) fn multiples(subject: &Subject, plan: &PicturePlan) -> Result<Multiples> {
     let axes = subject.grid.axes();
     let (fixed, open): (Vec<_>, Vec<_>) = plan.at.iter().cloned().partition(|(_, nodes)| nodes.len() == 1);
@@ -123,8 +123,8 @@ pub(super) fn multiples(subject: &Subject, plan: &PicturePlan) -> Result<Multipl
     })
 }
 
-/// A line of captions for each axis: its values, each as often as a slower axis has values, over as many panels as faster axes have.
-/// Those of rows run backwards, since the first row is the topmost.
+/// A line of captions for each axis: its values, each as often as a slower axis has values, over as many panels as
+/// faster axes have. Those of rows run backwards, since the first row is the topmost.
 fn captions(axes: &[Axis], chosen: &[Chosen], backwards: bool) -> Vec<Caption> {
     let count = |of: &[Chosen]| of.iter().map(|(_, nodes)| nodes.len()).product::<usize>();
     let caption = |(i, (axis, nodes)): (usize, &Chosen)| {
@@ -152,7 +152,8 @@ fn combinations(axes: &[Chosen]) -> Vec<Vec<Chosen>> {
     })
 }
 
-/// The flags on a plane of the atlas through nodes of the other axes, x fastest; where there are several, what is true at any of them.
+/// The flags on a plane of the atlas through nodes of the other axes, x fastest; where there are several, what is true
+/// at any of them.
 fn plane(subject: &Subject, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Vec<u8>> {
     let Some(atlas) = subject.atlas else { return Ok(Vec::new()) };
     let axes = subject.grid.axes();

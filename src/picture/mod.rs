@@ -111,7 +111,8 @@ impl<'a> SideBySide<'a> {
     }
 }
 
-/// Makes sure, before any work, that a picture of an atlas has room beside its labels, and that the font has its letters.
+/// Makes sure, before any work, that a picture of an atlas has room beside its labels, and that the font has its
+/// letters.
 ///
 /// # Errors
 /// [`Error::Domain`] with the size that would do, or the letter.

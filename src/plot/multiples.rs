@@ -205,7 +205,8 @@ impl<'a> Layout<'a> {
             label_left(canvas, style, self.grid, self.numbers, &figure.panels[0].y.label);
         }
     }
-    /// Size of the letters of values, so small that each fits over its panels, whose steps are so long; but not too small to read.
+    /// Size of the letters of values, so small that each fits over its panels, whose steps are so long; but not too
+    /// small to read.
     fn caption_em(&self, canvas: &Canvas, captions: &[Caption], step: i32) -> f64 {
         let em = self.style.em;
         let fits = |(value, _, count): (&str, usize, usize)| {

@@ -162,7 +162,8 @@ pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
 /// Radians; degrees are divided by 180 and then multiplied by π, each rounded once, so that `180deg` is π's double itself.
 ///
 /// # Errors
-/// [`Error::Domain`] when it is no finite number with one of these units, or a number above 2π alone: degrees, most likely.
+/// [`Error::Domain`] when it is no finite number with one of these units, or a number above 2π alone: degrees, most
+/// likely.
 ///
 /// ```
 /// use spiral_atlas::recipe::parse_angle;

@@ -363,7 +363,8 @@ fn a_damaged_bit_is_seen_by_all_that_read_an_atlas() {
     }
 }
 
-/// A million samples are printed as they come: all of the text would be some 160 MB, and its parts in memory several times that.
+/// A million samples are printed as they come: all of the text would be some 160 MB, and its parts in memory several
+/// times that.
 #[cfg(target_os = "linux")]
 #[test]
 fn many_samples_take_little_memory() {

@@ -186,7 +186,8 @@ fn what_cannot_be_searched_is_named() {
     says(Directions { end_direction: f64::NAN, ..fine }, &["`end_direction`", "NaN"]);
 }
 
-/// A length so near the distance that a path would all but stand still at its ends has no curvature to tell: that is said.
+/// A length so near the distance that a path would all but stand still at its ends has no curvature to tell: that is
+/// said.
 #[test]
 fn no_room_for_a_turn_is_no_path() {
     for free in [Free::Length, Free::Derivatives] {

@@ -21,9 +21,9 @@ use std::path::PathBuf;
 /// the limit that the pieces' ends keep holds everywhere. The join is the best of those tried, not of all.
 ///
 /// Prints {"paths":[path]} with the path {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,
-/// "bending_energy":..,"pieces":[..]}, where a rate is dκ/ds, or {"paths":[],"reason":".."}. With --points, for each row
-/// in order a line with the path alone, or {"pieces":null,"reason":".."}; a bad row gives {"line":..,"error":".."}. `path
-/// measure` and `export opendrive` read all of it.
+/// "bending_energy":..,"pieces":[..]}, where a rate is dκ/ds, or {"paths":[],"reason":".."}. With --points, for each
+/// row in order a line with the path alone, or {"pieces":null,"reason":".."}; a bad row gives {"line":..,"error":".."}.
+/// `path measure` and `export opendrive` read all of it.
 ///
 /// Exit status: 0 when there is a join, 1 when none was found, 2 for an error. With --points it is 0 when every row was
 /// answered, whatever the answers, and 2 when one was bad.

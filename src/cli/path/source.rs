@@ -51,8 +51,8 @@ impl Source {
         input::parse(&text, self.is_toml()).map_err(|e| self.blame(Error::Domain(e)))
     }
 
-    /// The paths in the input, each with its place for messages. Of several lines that are objects each, which batches print, those
-    /// without a path are left out and told on standard error.
+    /// The paths in the input, each with its place for messages. Of several lines that are objects each, which batches
+    /// print, those without a path are left out and told on standard error.
     pub fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
         let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
         let wrong = |place: &str, what: String| self.blame(Error::Domain(format!("{place}{what}")));

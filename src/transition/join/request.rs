@@ -197,7 +197,8 @@ impl Join {
         Join { measures: Measures::of(&pieces, limit), pieces }
     }
 
-    /// `count` points at equal lengths: [`stations`], where the curvature of a straight joint or end is 0 and not a rounding of it.
+    /// `count` points at equal lengths: [`stations`], where the curvature of a straight joint or end is 0 and not a
+    /// rounding of it.
     ///
     /// # Errors
     /// Those of [`stations`].
