@@ -134,6 +134,8 @@ pub mod num;
 pub mod path;
 #[cfg(feature = "cli")]
 pub mod picture;
+#[doc(hidden)]
+pub mod plain;
 #[cfg(feature = "cli")]
 pub mod plot;
 pub mod question;

@@ -3,6 +3,7 @@
 use super::Spec;
 use crate::family::{NO_VALUE, unpack};
 use crate::grid::{Axis, Grid, Spacing};
+use crate::plain;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, HashMap};
@@ -258,7 +259,7 @@ fn json<T: Serialize>(value: &T) -> Result<String, String> {
 }
 
 fn list<T: DeserializeOwned>(key: &str, text: &str) -> Result<Vec<T>, String> {
-    serde_json::from_str(text).map_err(|e| format!("its metadata `{key}` cannot be read: {e}"))
+    serde_json::from_str(text).map_err(|e| format!("its metadata `{key}` cannot be read: {}", plain::json("", &e)))
 }
 
 /// Names are identifiers of at most 64 characters (atlas names may have hyphens), so that no reader trips over them.

@@ -7,6 +7,7 @@
 
 use super::about::{About, Kind, check_name};
 use crate::grid::{Grid, MAX_AXES};
+use crate::plain;
 use blake3::Hash;
 use safetensors::tensor::{Dtype, Metadata, TensorInfo};
 use std::collections::BTreeMap;
@@ -145,7 +146,8 @@ impl Header {
     /// Touches the header and the axes only.
     pub fn parse(file: &[u8]) -> Result<(Header, usize), String> {
         let (text, body) = split(file)?;
-        let metadata: Metadata = serde_json::from_slice(text).map_err(|e| format!("its header is no safetensors header: {e}"))?;
+        let metadata: Metadata =
+            serde_json::from_slice(text).map_err(|e| format!("its header is no safetensors header: {}", plain::json("", &e)))?;
         if metadata.data_len() != body.len() {
             return Err(format!("{} bytes of tensors are announced, {} are there", metadata.data_len(), body.len()));
         }

@@ -25,15 +25,15 @@ pub struct BackendArgs {
     #[arg(long, value_name = "SUBSTRING")]
     pub adapter: Option<String>,
     /// Worker threads [default: one for each processor].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = super::numbers::count::<1, 1024>)]
+    threads: Option<u32>,
 }
 
 impl BackendArgs {
     /// Number of worker threads.
     pub fn threads(&self) -> usize {
         let all = || std::thread::available_parallelism().map_or(1, NonZero::get);
-        self.threads.map_or_else(all, usize::from)
+        self.threads.map_or_else(all, |threads| threads as usize)
     }
 
     /// The one backend to compute with.

@@ -3,8 +3,8 @@
 use super::output::Product;
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::files::{check_place, write_file};
-use spiral_atlas::recipe::{AtlasPlan, PictureKind, PicturePlan, Recipe};
-use spiral_atlas::{Error, Result, picture};
+use spiral_atlas::recipe::{AtlasPlan, Look, PictureKind, PicturePlan, Recipe};
+use spiral_atlas::{Error, Result, picture, plain};
 use std::path::{Path, PathBuf};
 
 /// Draws an atlas's pictures into a folder.
@@ -21,6 +21,11 @@ fn first_slice(pictures: &[PicturePlan]) -> Option<&PicturePlan> {
     pictures.iter().find(|p| matches!(p.kind, PictureKind::Slice | PictureKind::Compare { .. }))
 }
 
+/// An atlas of nodes with its first slice.
+fn with_slice(plan: &AtlasPlan) -> Option<(&AtlasPlan, &PicturePlan)> {
+    Some((plan, first_slice(&plan.pictures).filter(|_| plan.cells.is_none())?))
+}
+
 /// Draws the first planned slices or comparisons of several atlases side by side; `None` when there are not several.
 pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
     let of_nodes = recipe.atlases.iter().filter(|plan| plan.cells.is_none());
@@ -34,8 +39,8 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
     Product::of(&file).map(Some)
 }
 
-/// Makes sure, before any work, that every grid lies in the family's domain, no two pictures of a recipe have one name, and nothing
-/// but files has these names.
+/// Makes sure, before any work, that every grid lies in the family's domain, every picture has room and the letters
+/// that it needs, no two pictures of a recipe have one name, and nothing but files has these names.
 ///
 /// # Errors
 /// Those of [`spiral_atlas::family::Family::table`], [`Error::Recipe`] that names the file, and [`Error::Io`].
@@ -50,13 +55,26 @@ pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
             other => other,
         })?;
     }
+    // Of a picture by its file, and by the line of the recipe that has its size.
+    let blamed = |file: &Path, look: &Look, checked: Result<()>| {
+        checked.map_err(|e| {
+            let line = look.at.map_or(String::new(), |at| format!(", line {}", plain::place(&recipe.text[..at]).0));
+            let picture = file.file_name().unwrap_or_default().display();
+            Error::Recipe(format!("{}{line}: `{picture}`: {e}", source.display()))
+        })
+    };
     let mut files: Vec<PathBuf> = Vec::new();
     for plan in &recipe.atlases {
-        files.extend(picture::files(folder, &plan.name, plan.pictures.len()));
+        for (picture, file) in plan.pictures.iter().zip(picture::files(folder, &plan.name, plan.pictures.len())) {
+            blamed(&file, &picture.look, picture::check(plan, picture))?;
+            files.push(file);
+        }
     }
-    let sliced = |plan: &&AtlasPlan| plan.cells.is_none() && first_slice(&plan.pictures).is_some();
-    if recipe.atlases.iter().filter(sliced).count() > 1 {
-        files.push(together_path(source, folder));
+    let sliced: Vec<(&AtlasPlan, &PicturePlan)> = recipe.atlases.iter().filter_map(with_slice).collect();
+    if sliced.len() > 1 {
+        let file = together_path(source, folder);
+        blamed(&file, &recipe.look, picture::check_side_by_side(&stem(source), &recipe.look, &sliced))?;
+        files.push(file);
     }
     files.sort();
     match files.windows(2).find(|pair| pair[0] == pair[1]) {

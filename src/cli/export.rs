@@ -1,10 +1,11 @@
 //! `export`: paths as files of other programs.
 
 use super::path::Source;
-use super::{Outcome, output};
+use super::{Outcome, numbers, output};
 use spiral_atlas::Result;
 use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::files::write_file;
+use spiral_atlas::path::Course;
 use std::path::PathBuf;
 
 /// Write paths as files that other programs read.
@@ -25,7 +26,8 @@ enum Format {
 
 /// ASAM OpenDRIVE 1.7: a road for each path, whose reference line the path is, with one driving lane to the right.
 ///
-/// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve --json` and the tools of `path` print it.
+/// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve --json`, `join` and the tools of `path` print
+/// it, or a line of JSON for each of several, as with --points; lines without a path are told on standard error.
 ///
 /// Lines, arcs and cubic curves are exact. PH quintics are fitted by cubics, no further away than the tolerance; how many, how well, and how
 /// much the curvature differs at joints is told on standard error. Involutes and trigonometric curves are refused.
@@ -35,10 +37,10 @@ struct RoadArgs {
     #[command(flatten)]
     source: Source,
     /// Width of the lane in metres.
-    #[arg(long, value_name = "METRES", default_value_t = 3.5)]
+    #[arg(long, value_name = "METRES", value_parser = numbers::number, default_value_t = 3.5)]
     lane_width: f64,
     /// How far a fitted curve may be from the true one, in metres.
-    #[arg(long, value_name = "METRES", default_value_t = 0.001)]
+    #[arg(long, value_name = "METRES", value_parser = numbers::number, default_value_t = 0.001)]
     tolerance: f64,
     /// Where the file goes; standard output unless given.
     #[arg(long, value_name = "FILE.xodr")]
@@ -49,7 +51,7 @@ struct RoadArgs {
 pub fn run(args: &Args) -> Result<Outcome> {
     let Format::Opendrive(args) = &args.format;
     let options = OpenDrive { lane_width: args.lane_width, tolerance: args.tolerance };
-    let paths = args.source.courses()?;
+    let paths: Vec<Course> = args.source.courses()?.into_iter().map(|(_, course)| course).collect();
     let (text, fit) = opendrive(&paths, &options).map_err(|e| args.source.blame(e))?;
     match &args.out {
         Some(path) => write_file(path, text.as_bytes())?,

@@ -10,7 +10,9 @@ use std::path::PathBuf;
 
 /// Tell what an atlas holds: grid, fields, legend, hashes, recipe.
 ///
-/// The hashes are those that the file states; `verify` tells whether they are true.
+/// The hashes are checked first, as in `render` and `query --atlas`: a file with a damaged bit is refused. Whether what
+/// it says is true,
+/// `verify` tells.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas info out/quickstart.atlas.safetensors")]
 pub struct Args {
@@ -23,7 +25,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
-    let atlas = match Opened::open(&args.atlas)? {
+    let atlas = match Opened::checked(&args.atlas)? {
         Opened::Nodes(atlas) => atlas,
         Opened::Cells(found) => return cells::info(&found, args.json).map(|()| Outcome::Fine),
     };
@@ -95,7 +97,7 @@ fn text(atlas: &Atlas) -> String {
     for scalar in &about.scalars {
         text += &format!("  {:<20} {}\n", scalar.name, scalar.doc);
     }
-    text += "BLAKE3 of each tensor, as stated (`verify` checks them)\n";
+    text += "BLAKE3 of each tensor, checked\n";
     for (name, hash) in atlas.hashes() {
         text += &format!("  {name:<12} {hash}\n");
     }

@@ -13,6 +13,7 @@ mod export;
 mod generate;
 mod info;
 mod join;
+mod numbers;
 mod output;
 mod path;
 mod points;
@@ -30,7 +31,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Proved atlases of spiral regions: is there a transition curve with monotone curvature between two ends, and which one?
 ///
-/// Angles are radians, or degrees when written like 40deg or 40°.
+/// Angles are radians, or degrees when written like 40deg or 40°. Beyond a full turn the unit must be named: 40deg or
+/// 40rad.
 #[derive(Parser)]
 #[command(name = "spiral-atlas", version, arg_required_else_help = true, after_help = EXIT_STATUS)]
 struct Cli {
@@ -137,7 +139,8 @@ fn refuse_by(mut command: clap::Command, what: &str) -> ! {
 /// clap leaves it out where a single value is wrong.
 fn parse() -> Cli {
     Cli::try_parse().unwrap_or_else(|mut error| {
-        if !error.use_stderr() {
+        // Help that was asked for, or that stands where a subcommand is missing.
+        if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
             error.exit();
         }
         let mut command = given();

@@ -6,15 +6,25 @@ use spiral_atlas::files::size;
 pub use spiral_atlas::picture::{angle, grouped};
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Prints to standard output. That nobody reads on is no failure.
+/// Prints to standard output.
 pub fn print(text: &str) -> Result<()> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    stream(|out| out.write_all(text.as_bytes()))
+}
+
+/// Prints to standard output as it goes, so that the text need not fit in memory. That nobody reads on is no failure.
+pub fn stream(write: impl FnOnce(&mut BufWriter<io::StdoutLock>) -> io::Result<()>) -> Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush()) {
         Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(stdout_error(e)),
-        _ => Ok(()),
+        Err(_) => {
+            // What is left in the buffer would be tried again.
+            let _ = out.into_parts();
+            Ok(())
+        }
+        Ok(()) => Ok(()),
     }
 }
 
@@ -38,7 +48,10 @@ pub fn has_extension(path: &Path, extension: &str) -> bool {
 
 /// Prints a value as JSON with indents.
 pub fn print_json(value: &impl Serialize) -> Result<()> {
-    print(&(to_json(value)? + "\n"))
+    stream(|out| {
+        serde_json::to_writer_pretty(&mut *out, value)?;
+        out.write_all(b"\n")
+    })
 }
 
 /// A value as JSON with indents.
@@ -51,11 +64,17 @@ pub fn to_value(value: &impl Serialize) -> Result<serde_json::Value> {
     serde_json::to_value(value).map_err(json_error)
 }
 
-/// Samples with their header.
-pub fn table(samples: &[Station], comma: &str) -> String {
-    let row = |s: &Station| s.numbers().map(|x| format!("{x:?}")).join(comma);
-    let lines = std::iter::once(Station::COLUMNS.join(comma)).chain(samples.iter().map(row));
-    lines.map(|line| line + "\n").collect()
+/// Writes samples with their header.
+pub fn table(out: &mut impl Write, samples: &[Station], comma: &str) -> io::Result<()> {
+    writeln!(out, "{}", Station::COLUMNS.join(comma))?;
+    rows(out, "", samples, comma)
+}
+
+/// Writes rows of samples, each after the same words. A number that there is not, where a path stands still, is an
+/// empty cell.
+pub fn rows(out: &mut impl Write, lead: &str, samples: &[Station], comma: &str) -> io::Result<()> {
+    let cell = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
+    samples.iter().try_for_each(|s| writeln!(out, "{lead}{}", s.numbers().map(cell).join(comma)))
 }
 
 /// The failure of writing JSON; none is known.

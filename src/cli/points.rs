@@ -1,10 +1,12 @@
-//! `query --points` and `curve --points`: a CSV file in, a line of JSON out for each row, in order, in bounded memory.
+//! `query`, `curve` and `join` with `--points`: a CSV file in, a line of JSON or rows of a table out for each row, in
+//! order, in bounded memory.
 //!
 //! Rows are numbers, so a row is a line: a stray quotation mark spoils its own row alone, never the rest of the file.
 
 use super::Outcome;
-use super::output::{json_error, stdout_error};
+use super::output::{self, json_error, stdout_error};
 use spiral_atlas::files::size;
+use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::Path;
@@ -14,12 +16,41 @@ const MAX_LINE: usize = 1 << 16;
 /// A line that still has no end after so many bytes may have none at all, as in /dev/zero: it is not read on.
 const MAX_SKIPPED: usize = 1 << 26;
 
-/// Answers for every row of a file, or of standard input for `-`: with `answer`, from the index of the first set of columns that the header
-/// has, and the cells of a row in the order of that set.
+/// A row of data.
+pub struct Row<'l> {
+    /// Index of the first set of columns that the header has.
+    pub chart: usize,
+    /// Its number among the rows of data, from 1.
+    number: u64,
+    /// Its cells in the order of that set.
+    pub cells: &'l [&'l str],
+}
+
+impl Row<'_> {
+    /// The rows of a table of samples, which begin with the number of this row; without samples the reason goes to
+    /// standard error.
+    pub fn table(&self, samples: &[Station], reason: Option<&str>) -> Result<Vec<u8>> {
+        if let Some(reason) = reason {
+            output::note(&format!("row {}: {reason}", self.number));
+        }
+        let mut text = Vec::new();
+        output::rows(&mut text, &format!("{},", self.number), samples, ",").map_err(stdout_error)?;
+        Ok(text)
+    }
+}
+
+/// The header of a table of samples of several rows.
+fn table_header() -> String {
+    format!("row,{}\n", Station::COLUMNS.join(","))
+}
+
+/// Answers for every row of a file, or of standard input for `-`, with what `answer` gives: a line of JSON, or for a
+/// `table` whole rows.
 pub fn run(
     path: &Path,
     charts: &[&'static [&'static str]],
-    answer: impl Fn(usize, &[&str]) -> Result<Vec<u8>>,
+    table: bool,
+    answer: impl Fn(&Row) -> Result<Vec<u8>>,
 ) -> Result<Outcome> {
     let io = |source| Error::Io { path: path.to_owned(), source };
     let input: Box<dyn Read> =
@@ -40,7 +71,10 @@ pub fn run(
     };
     let header = header.map_err(|what| Error::Domain(format!("{}: line {}: {what}", path.display(), lines.number)))?;
     let mut out = BufWriter::new(io::stdout().lock());
-    let mut outcome = Outcome::Fine;
+    let (mut outcome, mut number) = (Outcome::Fine, 0);
+    if table && let Some(end) = broken(out.write_all(table_header().as_bytes()))? {
+        return Ok(end);
+    }
     loop {
         // Whoever waits for an answer before sending the next row gets it.
         let waiting = lines.input.buffer().is_empty();
@@ -50,19 +84,28 @@ pub fn run(
         let told = match lines.next().map_err(io)? {
             None => break,
             Some(Ok(line)) if line.trim().is_empty() => continue,
-            Some(line) => line.and_then(|line| {
-                let cells = header.cells(line)?;
-                answer(header.chart, &cells).map_err(|e| e.to_string())
-            }),
+            Some(line) => {
+                number += 1;
+                line.and_then(|line| {
+                    let row = Row { chart: header.chart, number, cells: &header.cells(line)? };
+                    answer(&row).map_err(|e| e.to_string())
+                })
+            }
         };
         let mut text = match told {
             Ok(text) => text,
             Err(error) => {
                 outcome = Outcome::Failed;
+                if table {
+                    output::complain(&format!("row {number}, line {}: {error}", lines.number));
+                    continue;
+                }
                 serde_json::to_vec(&Bad { line: lines.number, error }).map_err(json_error)?
             }
         };
-        text.push(b'\n');
+        if !table {
+            text.push(b'\n');
+        }
         if let Some(end) = broken(out.write_all(&text))? {
             return Ok(end);
         }

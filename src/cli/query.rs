@@ -53,7 +53,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Outcome> {
-    let atlas = args.atlas.as_ref().map(Opened::open).transpose()?;
+    let atlas = args.atlas.as_ref().map(Opened::checked).transpose()?;
     let of = |atlas: &Opened| match atlas {
         Opened::Nodes(atlas) => picture::of(atlas),
         Opened::Cells(found) => Ok(found.family()),
@@ -68,8 +68,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
     if let Some(path) = &args.points {
         let charts: Vec<&'static [&'static str]> = family.about().charts.iter().map(|chart| chart.axes).collect();
-        return points::run(path, &charts, |chart, cells| {
-            let answer = Answer::new(family, from_cells(family, chart, cells)?, atlas.as_ref())?;
+        return points::run(path, &charts, false, |row| {
+            let answer = Answer::new(family, from_cells(family, row.chart, row.cells)?, atlas.as_ref())?;
             serde_json::to_vec(&answer).map_err(output::json_error)
         });
     }

@@ -34,7 +34,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let products = if args.source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
         of_recipe(args)?
     } else {
-        let opened = Opened::open(&args.source)?;
+        let opened = Opened::checked(&args.source)?;
         output::make_folder(&args.out)?;
         match &opened {
             Opened::Nodes(atlas) => draw::one(atlas, &picture::plans(atlas)?, &args.out)?,

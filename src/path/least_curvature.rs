@@ -77,7 +77,8 @@ const LEAST: f64 = 1e-2;
 ///
 /// # Errors
 /// [`Error::Domain`] naming a number that is not finite, ends that coincide, a greatest length not above their distance or beyond a million times
-/// that. [`Error::NoPath`] where no searched path is short enough.
+/// that. [`Error::NoPath`] where no searched path is short enough, or none but such as all but stand still at their
+/// ends.
 ///
 /// ```
 /// use spiral_atlas::path::{Directions, Free, least_curvature};
@@ -101,6 +102,13 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     })?;
     let back = chord.sqrt();
     let curve = PhQuintic::between(ends.start, ends.end, best.preimage.map(|w| pair(complex(w) * back)));
+    if !curve.is_regular() {
+        return Err(Error::NoPath(format!(
+            "the paths as short as `greatest_length`, {:?}, all but stand still at their ends, slower than 1e-12 of their mean speed, \
+             where doubles have no curvature for them: it hardly exceeds the distance {distance:?} of the ends; allow more",
+            ends.greatest_length
+        )));
+    }
     let greatest_curvature = curve.greatest_curvature().1;
     Ok(LeastCurvature {
         curve,

@@ -1,9 +1,10 @@
 //! Pictures of cells: a plane through them, where each flag is known, and where it is not.
 
-use super::{heading, place, sheet, view};
+use super::figures::{heading, middle_slice, place, sheet, view};
 use crate::cells::{Cells, Known};
 use crate::error::{Error, Result};
-use crate::grid::{Axis, Spacing};
+use crate::family::Family;
+use crate::grid::{Axis, Grid, Spacing};
 use crate::plot::{self, AxisView, Mark, Region, Slice};
 use crate::recipe::{PicturePlan, Recipe, SLICE_SIZE};
 
@@ -17,7 +18,7 @@ pub fn plans(cells: &Cells) -> Result<Vec<PicturePlan>> {
     let planned = recipe.and_then(|r| r.atlases.into_iter().find(|a| a.name == about.name && a.grid == *cells.grid()));
     match planned.map(|a| a.pictures) {
         Some(pictures) if !pictures.is_empty() => Ok(pictures),
-        _ => super::middle_slice(cells.grid()).map(|plan| vec![plan]),
+        _ => middle_slice(cells.grid()).map(|plan| vec![plan]),
     }
 }
 
@@ -27,7 +28,7 @@ pub fn plans(cells: &Cells) -> Result<Vec<PicturePlan>> {
 /// # Errors
 /// Those of [`plot`].
 pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
-    let (axes, family) = (cells.grid().axes(), cells.family());
+    let axes = cells.grid().axes();
     let [across, up] = [plan.x, plan.y].map(|axis| middles(&axes[axis]));
     let mut point: Vec<f64> = axes.iter().map(|axis| axis.values()[0]).collect();
     for (axis, nodes) in &plan.at {
@@ -41,6 +42,13 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
             known.push(cell);
         }
     }
+    let slice = slice(&cells.about().name, cells.family(), cells.grid(), plan, &known);
+    plot::slice_png(&slice, sheet(&plan.look, SLICE_SIZE))
+}
+
+/// The slice, of what is known of each finest cell, x fastest.
+pub(super) fn slice(name: &str, family: &dyn Family, grid: &Grid, plan: &PicturePlan, known: &[Known]) -> Slice {
+    let axes = grid.axes();
     let named = |name: &&str| family.about().flags.iter().position(|flag| flag.name == *name);
     let usual = || family.about().nested.iter().take(1).chain(family.about().yes).filter_map(named).collect::<Vec<usize>>();
     let shown = if plan.regions.is_empty() { usual() } else { plan.regions.clone() };
@@ -53,18 +61,17 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
         ]
     });
     let places: Vec<String> = plan.at.iter().filter_map(|(axis, nodes)| Some(place(&axes[*axis], *nodes.first()?))).collect();
-    let axis = |axis: usize, values: Vec<f64>| AxisView { values, ..view(&axes[axis]) };
-    let slice = Slice {
-        title: heading(plan, &format!("{}: {}", cells.about().name, places.join(", "))),
-        x: axis(plan.x, across),
-        y: axis(plan.y, up),
+    let axis = |axis: usize| AxisView { values: middles(&axes[axis]), ..view(&axes[axis]) };
+    Slice {
+        title: heading(plan, &format!("{name}: {}", places.join(", "))),
+        x: axis(plan.x),
+        y: axis(plan.y),
         regions: regions.collect(),
         outlines: Vec::new(),
         marks: plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect(),
         note: "INSIDE is proved at every point of a cell; MIXED is not known, or true in a part of it".into(),
         counted: "cell",
-    };
-    plot::slice_png(&slice, sheet(&plan.look, SLICE_SIZE))
+    }
 }
 
 /// The middle of each finest cell of an axis.

@@ -1,19 +1,18 @@
 //! Pictures of an atlas: from a plan of its recipe to the plain data that [`crate::plot`] draws.
 
 pub mod cells;
+mod figures;
 mod words;
 
+pub use figures::family_of as of;
 pub use words::{angle, grouped, short};
 
 use crate::atlas::Atlas;
 use crate::error::{Error, Result};
-use crate::eval::{Backend, Job, evaluate};
-use crate::family::{self, Family, Flag};
-use crate::grid::{Axis, Grid, Spacing};
-use crate::plot::{self, AxisView, Mark, Multiples, Region, Sheet, Slice};
-use crate::recipe::{self, Levels, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE, is_angle};
+use crate::plot::{self, Multiples, Region, Sheet, Slice};
+use crate::recipe::{self, AtlasPlan, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE};
+use figures::{Subject, middle_slice, multiples, sheet};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 // What a recipe may ask for can be drawn: the two rooms do not know each other.
 const _: () = assert!(plot::DPI == recipe::DPI && plot::MAX_PIXELS == recipe::MAX_PIXELS);
@@ -34,26 +33,6 @@ pub fn plans(atlas: &Atlas) -> Result<Vec<PicturePlan>> {
     }
 }
 
-/// The last two axes, at the middle of the others.
-fn middle_slice(grid: &Grid) -> Result<PicturePlan> {
-    let counts = grid.shape();
-    let Some(x) = counts.len().checked_sub(2) else {
-        return Err(Error::Domain("an atlas of one axis has no slices; pictures need two axes".into()));
-    };
-    let at = counts[..x].iter().enumerate().map(|(axis, count)| (axis, vec![count / 2])).collect();
-    Ok(PicturePlan {
-        kind: PictureKind::Slice,
-        x,
-        y: x + 1,
-        at,
-        regions: Vec::new(),
-        outlines: Vec::new(),
-        levels: None,
-        marks: Vec::new(),
-        look: Look::default(),
-    })
-}
-
 /// The files of an atlas's pictures: `NAME.png`, or `NAME-1.png`, `NAME-2.png`, ... for several.
 pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
     match count {
@@ -67,44 +46,13 @@ pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
 /// # Errors
 /// Those of [`plot`], and [`Error::Domain`] for a family that this program does not have.
 pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
+    let subject = Subject::of(atlas)?;
     match plan.kind {
         PictureKind::Slice | PictureKind::Union | PictureKind::Compare { .. } => {
-            plot::slice_png(&slice(atlas, plan)?, sheet(&plan.look, SLICE_SIZE))
+            plot::slice_png(&figures::slice(&subject, plan)?, sheet(&plan.look, SLICE_SIZE))
         }
-        PictureKind::Multiples => plot::multiples_png(&multiples(atlas, plan)?, sheet(&plan.look, MULTIPLES_SIZE)),
+        PictureKind::Multiples => plot::multiples_png(&multiples(&subject, plan)?, sheet(&plan.look, MULTIPLES_SIZE)),
     }
-}
-
-/// The sheet for a look, of a usual size at the usual resolution.
-fn sheet(look: &Look, usual: (u32, u32)) -> Sheet {
-    Sheet { size: look.pixels(usual), dpi: look.dpi }
-}
-
-/// Draws slices of several atlases side by side: under one legend where they show the same, or else each with its own.
-///
-/// # Errors
-/// As [`draw`].
-pub fn side_by_side(stem: &str, look: &Look, mut slices: Vec<Slice>) -> Result<Vec<u8>> {
-    let title = look.title.as_deref().unwrap_or(stem);
-    // The legend counts all panels together.
-    for slice in &mut slices {
-        let share = |region: &Region| {
-            let yes = region.mask.iter().filter(|m| **m).count();
-            format!("; {} {:.1} %", region.label, 100.0 * yes as f64 / region.mask.len() as f64)
-        };
-        slice.note += &slice.regions.iter().map(share).collect::<String>();
-    }
-    let count = slices.len() as u32;
-    let labels = |slice: &Slice| slice.regions.iter().chain(&slice.outlines).map(|r| r.label.clone()).collect::<Vec<_>>();
-    if slices.iter().any(|slice| labels(slice) != labels(&slices[0])) {
-        let columns = slices.len().min(3);
-        let rows = slices.len().div_ceil(columns) as u32;
-        let usual = (PANEL_SIZE.0 * columns as u32, PANEL_SIZE.1.saturating_mul(rows) + HEAD);
-        return plot::montage_png(title, &slices, columns, sheet(look, usual));
-    }
-    let columns = vec![String::new(); slices.len()];
-    let figure = Multiples { title: title.into(), note: String::new(), columns, rows: vec![String::new()], panels: slices };
-    plot::multiples_png(&figure, sheet(look, (PANEL_SIZE.0.saturating_mul(count), PANEL_SIZE.1)))
 }
 
 /// The slice of a plan: the chosen node of each axis that is not drawn or, of a union, all chosen ones together.
@@ -112,270 +60,115 @@ pub fn side_by_side(stem: &str, look: &Look, mut slices: Vec<Slice>) -> Result<V
 /// # Errors
 /// [`Error::Domain`] for a family that this program does not have.
 pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
-    let axes = atlas.grid().axes();
-    let place = |(axis, nodes): &(usize, Vec<usize>)| match nodes[..] {
-        [node] => place(&axes[*axis], node),
-        [.., last] => {
-            let (axis, count) = (&axes[*axis], nodes.len());
-            format!("any of {count} {} from {} to {}", plot::symbol(axis.name()), value(axis, nodes[0]), value(axis, last))
-        }
-        [] => String::new(),
-    };
-    let places: Vec<String> = plan.at.iter().map(place).collect();
-    let title = format!("{}: {}", atlas.about().name, places.join(", "));
-    let mut slice = panel(atlas, plan, &plan.at)?;
-    if let PictureKind::Compare { with } = plan.kind {
-        slice.regions = compared(atlas, plan, with)?;
-        slice.outlines = Vec::new();
-    }
-    slice.title = heading(plan, &title);
-    let (x, y) = (slice.x.values.len() as u64, slice.y.values.len() as u64);
-    slice.note = format!("{} × {} = {} nodes, each proved", grouped(x), grouped(y), grouped(x * y));
-    slice.marks = plan.marks.iter().map(|m| Mark { x: m.x, y: m.y, label: m.label.clone() }).collect();
-    Ok(slice)
+    figures::slice(&Subject::of(atlas)?, plan)
 }
 
-/// The heading that the recipe chooses, or else this one, which may end with a colon.
-fn heading(plan: &PicturePlan, usual: &str) -> String {
-    plan.look.title.as_deref().unwrap_or(usual.trim_end_matches([':', ' '])).to_owned()
-}
-
-/// Panels over the other axes. Those of one node are told in the heading; of the rest the slower ones make the rows, upwards, and the
-/// faster ones the columns.
-fn multiples(atlas: &Atlas, plan: &PicturePlan) -> Result<Multiples> {
-    let axes = atlas.grid().axes();
-    let (fixed, open): (Vec<_>, Vec<_>) = plan.at.iter().cloned().partition(|(_, nodes)| nodes.len() == 1);
-    // As many slow axes make the rows as leave the grid of panels least long.
-    let count = |of: &[Chosen]| of.iter().map(|(_, nodes)| nodes.len()).product::<usize>();
-    let split = (0..open.len()).min_by_key(|split| count(&open[..*split]).max(count(&open[*split..]))).unwrap_or(0);
-    let rows: Vec<Vec<Chosen>> = combinations(&open[..split]).into_iter().rev().collect();
-    let columns = combinations(&open[split..]);
-    let mut panels = Vec::new();
-    for row in &rows {
-        for column in &columns {
-            panels.push(panel(atlas, plan, &[&fixed[..], row, column].concat())?);
-        }
-    }
-    let caption = |at: &Vec<Chosen>| at.iter().map(|(axis, nodes)| place(&axes[*axis], nodes[0])).collect::<Vec<_>>();
-    let title = format!("{}: {}", atlas.about().name, caption(&fixed).join(", "));
-    let nodes = panels.iter().map(|p| p.x.values.len() * p.y.values.len()).sum::<usize>();
-    let of = open
-        .iter()
-        .map(|(axis, nodes)| format!("{} of {} {}", nodes.len(), axes[*axis].values().len(), plot::symbol(axes[*axis].name())));
-    let of = of.collect::<Vec<_>>().join(", ");
-    let of = if of.is_empty() { "1 panel".to_owned() } else { format!("{} panels ({of})", panels.len()) };
-    Ok(Multiples {
-        title: heading(plan, &title),
-        note: format!("{of}, {} nodes, each proved", grouped(nodes as u64)),
-        columns: columns.iter().map(|at| caption(at).join("\n")).collect(),
-        rows: rows.iter().map(|at| caption(at).join("\n")).collect(),
-        panels,
-    })
-}
-
-/// An axis that is not drawn, and the nodes chosen of it.
-type Chosen = (usize, Vec<usize>);
-
-/// All ways to take one node of each axis, the last axis fastest; one empty way for no axes.
-fn combinations(axes: &[Chosen]) -> Vec<Vec<Chosen>> {
-    axes.iter().fold(vec![vec![]], |all, (axis, nodes)| {
-        let longer = |way: Vec<Chosen>| nodes.iter().map(move |node| [way.clone(), vec![(*axis, vec![*node])]].concat());
-        all.into_iter().flat_map(longer).collect()
-    })
-}
-
-/// The flags on a plane of the atlas through nodes of the other axes, x fastest; where there are several, what is true at any of them.
-fn plane(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Vec<u8>> {
-    let axes = atlas.grid().axes();
-    let [x, y] = [plan.x, plan.y].map(|axis| axes[axis].values().len());
-    let mut plane = vec![0; x * y];
-    for combination in 0..at.iter().map(|(_, nodes)| nodes.len()).product() {
-        let mut index = vec![0; axes.len()];
-        let mut rest: usize = combination;
-        for (axis, nodes) in at {
-            index[*axis] = nodes[rest % nodes.len()];
-            rest /= nodes.len();
-        }
-        for (place, byte) in plane.iter_mut().enumerate() {
-            (index[plan.x], index[plan.y]) = (place % x, place / x);
-            let entry = atlas.at(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
-            *byte |= entry.flags;
-        }
-    }
-    Ok(plane)
-}
-
-/// The regions of a plan on such a plane.
-fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Slice> {
-    let family = of(atlas)?;
-    let (axes, flags, plane) = (atlas.grid().axes(), family.about().flags, plane(atlas, plan, at)?);
-    let (x, y) = (&axes[plan.x], &axes[plan.y]);
-    let region = |(bit, flag): (usize, &Flag)| Region {
-        label: flag.label.to_owned(),
-        mask: plane.iter().map(|byte| byte >> bit & 1 == 1).collect(),
-    };
-    let place = |name: &&str| flags.iter().enumerate().find(|(_, f)| f.name == *name);
-    let nested = family.about().nested;
-    let chosen = |places: &[usize]| places.iter().map(|i| region((*i, &flags[*i]))).collect::<Vec<_>>();
-    let (regions, outlines) = if let Some(levels) = &plan.levels {
-        (at_most(atlas, plan, levels, at)?, Vec::new())
-    } else if plan.regions.is_empty() {
-        let others = flags.iter().enumerate().filter(|(_, f)| !nested.contains(&f.name));
-        (nested.iter().filter_map(place).map(region).collect(), others.map(region).collect())
-    } else {
-        (chosen(&plan.regions), chosen(&plan.outlines))
-    };
-    Ok(Slice {
-        title: String::new(),
-        x: view(x),
-        y: view(y),
-        regions,
-        outlines,
-        marks: Vec::new(),
-        note: String::new(),
-        counted: "node",
-    })
-}
-
-/// Where a scalar is at most each level, on the plane through one node of each other axis: the largest first.
-fn at_most(atlas: &Atlas, plan: &PicturePlan, levels: &Levels, at: &[(usize, Vec<usize>)]) -> Result<Vec<Region>> {
-    let field = atlas.scalar(levels.field);
-    let field = field.ok_or_else(|| Error::Domain(format!("the atlas has no scalar `{}`", levels.field)))?;
-    let grid = atlas.grid();
-    let [x, y] = [plan.x, plan.y].map(|axis| grid.axes()[axis].values().len());
-    let mut index = vec![0; grid.axes().len()];
-    for (axis, nodes) in at {
-        index[*axis] = nodes.first().copied().unwrap_or_default();
-    }
-    let values = (0..x * y).map(|place| {
-        (index[plan.x], index[plan.y]) = (place % x, place / x);
-        let node = grid.axes().iter().zip(&index).fold(0, |flat, (axis, i)| flat * axis.values().len() + i);
-        field.get(node).copied().filter(|value| *value != family::NO_VALUE)
-    });
-    let values: Vec<Option<f32>> = values.collect();
-    let region = |level: &f64| Region {
-        label: format!("{} ≤ {level}", levels.field),
-        mask: values.iter().map(|value| value.is_some_and(|value| f64::from(value) <= *level)).collect(),
-    };
-    Ok(levels.values.iter().rev().map(region).collect())
-}
-
-/// Where any spiral exists, where only this family has one, only the other, and both; the other is evaluated here.
-fn compared(atlas: &Atlas, plan: &PicturePlan, with: &str) -> Result<Vec<Region>> {
-    let (own, other) = (of(atlas)?, family::by_name(with));
-    let other = other.ok_or_else(|| Error::Domain(format!("this program has no family `{with}`")))?;
-    let bit = |family: &dyn Family, name: &str| family.about().flags.iter().position(|f| f.name == name).unwrap_or_default();
-    let (ours, theirs) = (plane(atlas, plan, &plan.at)?, evaluated(other, atlas, plan)?);
-    let (a, b) = (bit(own, "SPIRAL"), bit(other, "SPIRAL"));
-    let region = |label: String, holds: &dyn Fn(bool, bool) -> bool| {
-        let mask = ours.iter().zip(&theirs).map(|(x, y)| holds(x >> a & 1 == 1, y >> b & 1 == 1)).collect();
-        Region { label, mask }
-    };
-    let outer = own.about().nested.first().map_or(a, |name| bit(own, name));
-    let outer_mask = ours.iter().map(|byte| byte >> outer & 1 == 1).collect();
-    Ok(vec![
-        Region { label: own.about().flags[outer].label.to_owned(), mask: outer_mask },
-        region(format!("{} only", own.about().name), &|a, b| a && !b),
-        region(format!("{with} only"), &|a, b| b && !a),
-        region("both".into(), &|a, b| a && b),
-    ])
-}
-
-/// The flags of another family at the nodes of a slice, x fastest.
-fn evaluated(family: &'static dyn Family, atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
-    // The same axes, those that are not drawn at their one node.
-    let mut axes = atlas.grid().axes().to_vec();
-    for (axis, nodes) in &plan.at {
-        let values = nodes.iter().map(|node| axes[*axis].values()[*node]).collect();
-        axes[*axis] = Axis::new(axes[*axis].name(), Spacing::Values(values))?;
-    }
-    let grid = Grid::new(axes)?;
-    let mut flags: Vec<u8> = Vec::new();
-    let job = Job { family, grid: &grid, scalars: &[] };
-    evaluate(&job, &Backend::Cpu, 1, &AtomicBool::new(false), |chunk| {
-        flags.extend_from_slice(&chunk.flags);
-        Ok(())
-    })?;
-    let [x, y] = [plan.x, plan.y].map(|axis| grid.axes()[axis].values().len());
-    let at = |(i, j): (usize, usize)| if plan.x < plan.y { i * y + j } else { j * x + i };
-    Ok((0..x * y).map(|place| flags[at((place % x, place / x))]).collect())
-}
-
-/// The family of an atlas.
+/// Draws slices of several atlases side by side: under one legend where they show the same, or else each with its own.
 ///
 /// # Errors
-/// [`Error::Atlas`] for one that this program does not have.
-pub fn of(atlas: &Atlas) -> Result<&'static dyn Family> {
-    family::by_name(atlas.family_name()).ok_or_else(|| {
-        let known: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-        let what = format!("its family is `{}`; this program has `{}`", atlas.family_name(), known.join("`, `"));
-        Error::Atlas { path: atlas.path().to_owned(), what }
+/// As [`draw`].
+pub fn side_by_side(stem: &str, look: &Look, slices: Vec<Slice>) -> Result<Vec<u8>> {
+    match SideBySide::new(stem, look, slices) {
+        SideBySide::Alike(figure, usual) => plot::multiples_png(&figure, sheet(look, usual)),
+        SideBySide::Unlike { title, slices, columns, usual } => plot::montage_png(title, &slices, columns, sheet(look, usual)),
+    }
+}
+
+/// Slices of several atlases, and their usual size.
+enum SideBySide<'a> {
+    /// Of the same regions, under one legend.
+    Alike(Multiples, (u32, u32)),
+    Unlike {
+        title: &'a str,
+        slices: Vec<Slice>,
+        columns: usize,
+        usual: (u32, u32),
+    },
+}
+
+impl<'a> SideBySide<'a> {
+    fn new(stem: &'a str, look: &'a Look, mut slices: Vec<Slice>) -> SideBySide<'a> {
+        let title = look.title.as_deref().unwrap_or(stem);
+        // The legend counts all panels together.
+        for slice in &mut slices {
+            let share = |region: &Region| {
+                let yes = region.mask.iter().filter(|m| **m).count();
+                format!("; {} {:.1} %", region.label, 100.0 * yes as f64 / region.mask.len().max(1) as f64)
+            };
+            slice.note += &slice.regions.iter().map(share).collect::<String>();
+        }
+        let count = slices.len();
+        let labels = |slice: &Slice| slice.regions.iter().chain(&slice.outlines).map(|r| r.label.clone()).collect::<Vec<_>>();
+        if slices.iter().any(|slice| labels(slice) != labels(&slices[0])) {
+            let columns = count.min(3);
+            let rows = count.div_ceil(columns) as u32;
+            let usual = (PANEL_SIZE.0 * columns as u32, PANEL_SIZE.1.saturating_mul(rows) + HEAD);
+            return SideBySide::Unlike { title, slices, columns, usual };
+        }
+        let (title, note, shape) = (title.into(), String::new(), [1, count]);
+        let figure = Multiples { title, note, shape, columns: Vec::new(), rows: Vec::new(), panels: slices };
+        SideBySide::Alike(figure, (PANEL_SIZE.0.saturating_mul(count as u32), PANEL_SIZE.1))
+    }
+}
+
+/// Makes sure, before any work, that a picture of an atlas has room beside its labels, and that the font has its
+/// letters.
+///
+/// # Errors
+/// [`Error::Domain`] with the size that would do, or the letter.
+pub fn check(plan: &AtlasPlan, picture: &PicturePlan) -> Result<()> {
+    check_letters(picture.look.title.iter().chain(picture.marks.iter().map(|mark| &mark.label)))?;
+    let subject = Subject { name: &plan.name, family: plan.family, grid: &plan.grid, atlas: None };
+    if picture.kind == PictureKind::Multiples {
+        let figure = multiples(&subject, picture)?;
+        return check_size(&picture.look, MULTIPLES_SIZE, |sheet| plot::multiples_fit(&figure, sheet));
+    }
+    let slice = match plan.cells {
+        Some(_) => cells::slice(&plan.name, plan.family, &plan.grid, picture, &[]),
+        None => figures::slice(&subject, picture)?,
+    };
+    check_size(&picture.look, SLICE_SIZE, |sheet| plot::slice_fits(&slice, sheet))
+}
+
+/// The same for slices of several atlases side by side.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_side_by_side(stem: &str, look: &Look, slices: &[(&AtlasPlan, &PicturePlan)]) -> Result<()> {
+    check_letters([look.title.as_deref().unwrap_or(stem)])?;
+    let slice = |(plan, picture): &(&AtlasPlan, &PicturePlan)| {
+        figures::slice(&Subject { name: &plan.name, family: plan.family, grid: &plan.grid, atlas: None }, picture)
+    };
+    match SideBySide::new(stem, look, slices.iter().map(slice).collect::<Result<_>>()?) {
+        SideBySide::Alike(figure, usual) => check_size(look, usual, |sheet| plot::multiples_fit(&figure, sheet)),
+        SideBySide::Unlike { slices, columns, usual, .. } => {
+            check_size(look, usual, |sheet| plot::montage_fits(&slices, columns, sheet))
+        }
+    }
+}
+
+/// Refuses letters that no picture can show.
+fn check_letters(texts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
+    for text in texts {
+        if let Some(letter) = plot::missing_letter(text.as_ref()) {
+            let what = format!("the font has no letter `{letter}`, which stands in {:?}; write it in others", text.as_ref());
+            return Err(Error::Domain(what));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a size without room, with the least one of the same shape that has it, or nearly the least.
+fn check_size(look: &Look, usual: (u32, u32), fits: impl Fn(Sheet) -> Result<()>) -> Result<()> {
+    let Err(error) = fits(sheet(look, usual)) else { return Ok(()) };
+    let (width, height) = look.size.unwrap_or(usual);
+    let larger = |tenths: u32| {
+        let side = |side: u32| side.saturating_mul(tenths).div_ceil(10);
+        Look { size: Some((side(width), side(height))), ..look.clone() }
+    };
+    let enough = (11..200).map(larger).find(|look| fits(sheet(look, usual)).is_ok());
+    Err(match (error, enough.and_then(|look| look.size)) {
+        (Error::Domain(what), Some((width, height))) => Error::Domain(format!("{what}, such as `size = [{width}, {height}]`")),
+        (error, _) => error,
     })
-}
-
-fn view(axis: &Axis) -> AxisView {
-    let log = matches!(axis.spacing(), Spacing::Log { .. });
-    AxisView { name: axis.name().into(), label: plot::symbol(axis.name()), values: axis.values().to_vec(), log }
-}
-
-/// `φ₀ = 0.7`, with as many digits as a reader wants.
-fn place(axis: &Axis, node: usize) -> String {
-    format!("{} = {}", plot::symbol(axis.name()), value(axis, node))
-}
-
-fn value(axis: &Axis, node: usize) -> String {
-    let x = axis.values()[node];
-    if is_angle(axis.name()) { angle(x) } else { short(x) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// An atlas of `any-spiral` whose outer axes have two and three nodes, and one plan.
-    fn atlas_and_plan(folder: &Path, picture: &str) -> (Atlas, PicturePlan) {
-        use crate::atlas::{Spec, Writer};
-        let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = { values = [1, 2] }";
-        let text =
-            format!("family = \"any-spiral\"\n[[atlas]]\nname = \"a\"\n[atlas.axes]\n{axes}\n[[atlas.picture]]\n{picture}");
-        let recipe = Recipe::parse(&text).unwrap();
-        let plan = &recipe.atlases[0];
-        let path = folder.join("a.safetensors");
-        let spec = Spec { name: "a", family: plan.family, grid: &plan.grid, scalars: &[], recipe: &text };
-        let mut writer = Writer::create(&path, &spec).unwrap();
-        let job = Job { family: plan.family, grid: &plan.grid, scalars: &[] };
-        evaluate(&job, &Backend::Cpu, 1, &AtomicBool::new(false), |chunk| writer.put(&chunk)).unwrap();
-        writer.finish().unwrap();
-        (Atlas::open(&path).unwrap(), plan.pictures[0].clone())
-    }
-
-    #[test]
-    fn captions_tell_the_nodes_of_their_panels() {
-        let folder = tempfile::tempdir().unwrap();
-        let (atlas, plan) = atlas_and_plan(folder.path(), "kind = \"multiples\"\nx = \"k1\"\ny = \"k2\"");
-        let figure = multiples(&atlas, &plan).unwrap();
-        assert_eq!(figure.rows, ["α = 0.5", "α = −1"]);
-        assert_eq!(figure.columns, ["β = 0.25", "β = 0.75", "β = 1.5"]);
-        assert_eq!((&figure.title[..], &figure.note[..]), ("a", "6 panels (2 of 2 α, 3 of 3 β), 24 nodes, each proved"));
-        let more = "at = { beta = 0.75 }\ntitle = \"Mine\"";
-        let (atlas, plan) = atlas_and_plan(folder.path(), &format!("kind = \"multiples\"\nx = \"k1\"\ny = \"k2\"\n{more}"));
-        let figure = multiples(&atlas, &plan).unwrap();
-        assert_eq!((&figure.rows[..], &figure.columns[..]), (&[String::new()][..], &["α = −1".to_owned(), "α = 0.5".into()][..]));
-        assert_eq!(figure.title, "Mine");
-        let untitled = PicturePlan { look: Look::default(), ..plan };
-        assert_eq!(multiples(&atlas, &untitled).unwrap().title, "a: β = 0.75");
-        let (atlas, plan) =
-            atlas_and_plan(folder.path(), "kind = \"multiples\"\nx = \"alpha\"\ny = \"beta\"\nat = { k1 = 0, k2 = [1, 2] }");
-        let one = PicturePlan { at: vec![(2, vec![0]), (3, vec![1])], ..plan };
-        assert_eq!(multiples(&atlas, &one).unwrap().note, "1 panel, 6 nodes, each proved");
-    }
-
-    #[test]
-    fn combinations_run_through_the_last_axis_first() {
-        let nodes = |ways: Vec<Vec<Chosen>>| {
-            ways.into_iter().map(|way| way.into_iter().map(|(_, n)| n[0]).collect()).collect::<Vec<Vec<_>>>()
-        };
-        assert_eq!(nodes(combinations(&[(0, vec![3, 5]), (4, vec![1, 2])])), [[3, 1], [3, 2], [5, 1], [5, 2]]);
-        assert_eq!(combinations(&[]), [vec![]]);
-    }
 }

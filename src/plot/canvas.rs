@@ -91,8 +91,21 @@ pub(super) struct Canvas {
     font: FontRef<'static>,
 }
 
+/// The first letter of a text that the font of all pictures lacks.
+pub fn missing_letter(text: &str) -> Option<char> {
+    let font = FontRef::try_from_slice(FONT).ok()?;
+    text.chars().find(|c| !c.is_whitespace() && font.glyph_id(*c).0 == 0)
+}
+
 impl Canvas {
     pub fn new(sheet: impl Into<Sheet>) -> Result<Canvas> {
+        let mut canvas = Canvas::measuring(sheet)?;
+        canvas.pixels = vec![255; canvas.size.0 as usize * canvas.size.1 as usize * 3];
+        Ok(canvas)
+    }
+
+    /// One to measure texts by, that nothing can be drawn on.
+    pub fn measuring(sheet: impl Into<Sheet>) -> Result<Canvas> {
         let Sheet { size, dpi } = sheet.into();
         let (width, height) = size;
         let count = u64::from(width) * u64::from(height);
@@ -101,7 +114,7 @@ impl Canvas {
             return Err(Error::Domain(format!("a picture of {width} x {height} pixels; {limit}")));
         }
         let font = FontRef::try_from_slice(FONT).map_err(|e| Error::Domain(format!("the built-in font: {e}")))?;
-        Ok(Canvas { size, dpi, pixels: vec![255; count as usize * 3], font })
+        Ok(Canvas { size, dpi, pixels: Vec::new(), font })
     }
 
     /// The whole sheet.

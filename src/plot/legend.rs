@@ -126,6 +126,11 @@ impl Hatch {
         Hatch { line, band: style.px(0.7).max(3), period: style.em * 0.7, half: style.em * 0.04 + 0.1, casing: style.em * 0.06 }
     }
 
+    /// Width of the casing on either side of the line.
+    pub fn rim(&self) -> i32 {
+        (self.line / 2).max(1)
+    }
+
     /// Draws as much of the stripes and their casing as lies on this pixel; of the casing alone where the stripes have ended.
     pub fn draw(&self, canvas: &mut Canvas, (x, y): (i32, i32), outline: Outline, stripes: bool) {
         // Distance from the nearest of the lines x - y, or x + y, = multiple of the period.

@@ -13,12 +13,12 @@ mod paths;
 mod scale;
 mod slice;
 
-pub use canvas::{DPI, MAX_PIXELS, Sheet};
+pub use canvas::{DPI, MAX_PIXELS, Sheet, missing_letter};
 pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
-pub use multiples::{Multiples, multiples_png};
+pub use multiples::{Caption, Multiples, multiples_fit, multiples_png};
 pub use palette::region_colors;
 pub use paths::{Backdrop, Lines, PathsFigure, paths_png};
-pub use slice::{montage_png, slice_png};
+pub use slice::{montage_fits, montage_png, slice_fits, slice_png};
 
 /// One axis of a slice.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,6 +9,17 @@ use crate::error::{Error, Result};
 
 /// Height of a line of a caption, in em.
 const LINE: f64 = 1.25;
+/// Least size of the letters of a caption, in pixels.
+const LEAST_EM: f64 = 8.0;
+
+/// A line of captions along panels: an outer axis, and its values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Caption {
+    /// What stands once, before the values, such as `φ₀ =`.
+    pub name: String,
+    /// The values in order, each with the number of panels that it is about.
+    pub values: Vec<(String, usize)>,
+}
 
 /// Slices in rows and columns, usually over two outer axes of a grid.
 ///
@@ -20,10 +31,12 @@ pub struct Multiples {
     pub title: String,
     /// Small print below the heading; may be empty.
     pub note: String,
-    /// What stands above each column; may be empty texts, or of several lines.
-    pub columns: Vec<String>,
-    /// What stands beside each row, topmost first; may be empty texts, or of several lines.
-    pub rows: Vec<String>,
+    /// Numbers of rows and of columns.
+    pub shape: [usize; 2],
+    /// What stands above the columns; the last line is nearest to them.
+    pub columns: Vec<Caption>,
+    /// What stands beside the rows, topmost first; the first line is nearest to them.
+    pub rows: Vec<Caption>,
     /// The panels row by row, all with the same labels of regions and outlines. Their titles and notes stand above them.
     pub panels: Vec<Slice>,
 }
@@ -42,11 +55,11 @@ pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<
     let style = layout.style;
     layout.heading.draw(&mut canvas, style, layout.sheet);
     for (i, (panel, slice)) in panels.iter().zip(&figure.panels).enumerate() {
-        let (row, column) = (i / figure.columns.len(), i % figure.columns.len());
+        let (row, column) = (i / figure.shape[1], i % figure.shape[1]);
         let rect = layout.panel(row, column);
         let own = !layout.shared;
         panel.draw(&mut canvas, layout.signs, rect, false);
-        draw_below(&mut canvas, &panel.x.scale, style, rect, own || row + 1 == figure.rows.len());
+        draw_below(&mut canvas, &panel.x.scale, style, rect, own || row + 1 == figure.shape[0]);
         draw_left(&mut canvas, &panel.y.scale, style, rect, own || column == 0);
         if own {
             label_below(&mut canvas, style, rect, style.below(), &slice.x.label);
@@ -64,11 +77,18 @@ pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<
 }
 
 fn check(figure: &Multiples) -> Result<()> {
-    let (rows, columns, count) = (figure.rows.len(), figure.columns.len(), figure.panels.len());
+    let ([rows, columns], count) = (figure.shape, figure.panels.len());
     if count == 0 || rows.checked_mul(columns) != Some(count) {
         return Err(Error::Domain(format!(
             "{count} panels for {rows} rows and {columns} columns of small multiples; it must be rows times columns, at least 1"
         )));
+    }
+    for (captions, count, what) in [(&figure.rows, rows, "rows"), (&figure.columns, columns, "columns")] {
+        let of = |caption: &Caption| caption.values.iter().map(|(_, count)| count).sum::<usize>();
+        if let Some(caption) = captions.iter().find(|caption| of(caption) != count) {
+            let (name, of) = (&caption.name, of(caption));
+            return Err(Error::Domain(format!("the caption `{name}` is about {of} of {count} {what} of small multiples")));
+        }
     }
     let labels = |slice: &Slice| -> Vec<String> {
         slice.regions.iter().chain(&slice.outlines).map(|region| region.label.clone()).collect()
@@ -110,7 +130,7 @@ impl<'a> Layout<'a> {
     fn new(canvas: &Canvas, figure: &'a Multiples, panels: &[Panel], size: (u32, u32)) -> Result<Layout<'a>> {
         let first = &figure.panels[0];
         let shared = figure.panels.iter().all(|p| p.x == first.x && p.y == first.y);
-        let (rows, columns) = (figure.rows.len() as i32, figure.columns.len() as i32);
+        let [rows, columns] = figure.shape.map(|count| count as i32);
         let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 72.0).max(10.0);
         let style = Style { em, slack: em * 0.4 };
         let small = Style { em: em * 0.85, ..style };
@@ -121,8 +141,7 @@ impl<'a> Layout<'a> {
 
         let label = style.px(1.6);
         let gap = style.px(if shared { 0.8 } else { 1.4 });
-        let lines = |captions: &[String]| captions.iter().map(|c| c.lines().count()).max().unwrap_or(0);
-        let captions = |of: &[String]| style.px(LINE * lines(of) as f64 + 0.35);
+        let captions = |of: &[Caption]| style.px(LINE * of.len() as f64 + 0.35);
         let about = sheet.width() / columns - style.px(if shared { 1.0 } else { 6.0 });
         let heights = figure.panels.iter().map(|p| Heading::new(canvas, &p.title, &p.note, small, about).height(small));
         let above = heights.max().unwrap_or(0);
@@ -135,7 +154,7 @@ impl<'a> Layout<'a> {
         let widths = panels.iter().map(|p| width_left(canvas, &p.y.scale, style, height));
         let numbers = widths.max().unwrap_or(0);
         let beside = numbers + label;
-        let right = sheet.right - if lines(&figure.rows) > 0 { captions(&figure.rows) } else { 0 };
+        let right = sheet.right - if !figure.rows.is_empty() { captions(&figure.rows) } else { 0 };
         let left = sheet.left + beside;
         let between_columns = gap + if shared { 0 } else { beside };
         let width = (right - left - (columns - 1) * between_columns) / columns;
@@ -157,25 +176,109 @@ impl<'a> Layout<'a> {
     /// Captions of rows and columns, and the axis labels where panels share them.
     fn draw_captions(&self, canvas: &mut Canvas, figure: &Multiples) {
         let style = self.style;
-        for (column, caption) in figure.columns.iter().enumerate() {
-            let rect = self.panel(0, column);
-            for (line, i) in caption.lines().rev().zip(0..) {
-                let up = style.em * (0.85 + LINE * f64::from(i));
-                let line = canvas.fit(style.em, line, f64::from(self.step.0) - style.em * 0.5);
-                canvas.text([rect.at(0.5, 0.0)[0], f64::from(rect.top - self.above) - up], Pen::new(style.em, 0.5), &line);
+        let em = self.caption_em(canvas, &figure.columns, self.step.0);
+        for (caption, i) in figure.columns.iter().rev().zip(0..) {
+            let y = f64::from(self.grid.top - self.above) - style.em * (0.85 + LINE * f64::from(i));
+            let name = canvas.fit(style.em, &caption.name, f64::from(self.grid.left));
+            canvas.text([f64::from(self.grid.left) - style.em * 0.4, y], Pen::new(style.em, 1.0), &name);
+            for (value, first, count) in spans(caption) {
+                let [from, to] = [first, first + count - 1].map(|column| self.panel(0, column));
+                let value = canvas.fit(em, value, f64::from(to.right - from.left));
+                canvas.text([0.5 * f64::from(from.left + to.right), y], Pen::new(em, 0.5), &value);
             }
         }
-        for (row, caption) in figure.rows.iter().enumerate() {
-            let rect = self.panel(row, 0);
-            for (line, i) in caption.lines().zip(0..) {
-                let at = [f64::from(self.grid.right) + style.em * (1.0 + LINE * f64::from(i)), rect.at(0.0, 0.5)[1]];
-                let line = canvas.fit(style.em, line, f64::from(self.step.1) - style.em * 0.5);
-                canvas.text(at, Pen { up: true, ..Pen::new(style.em, 0.5) }, &line);
+        let em = self.caption_em(canvas, &figure.rows, self.step.1);
+        for (caption, i) in figure.rows.iter().zip(0..) {
+            let x = f64::from(self.grid.right) + style.em * (1.0 + LINE * f64::from(i));
+            // It reads upwards, as the values do, and ends where they begin.
+            let name = canvas.fit(style.em, &caption.name, style.em * 4.0);
+            let end = f64::from(self.grid.bottom) + style.em * 0.4 + canvas.text_width(style.em, &name);
+            canvas.text([x, end], Pen { up: true, ..Pen::new(style.em, 0.0) }, &name);
+            for (value, first, count) in spans(caption) {
+                let [from, to] = [first, first + count - 1].map(|row| self.panel(row, 0));
+                let value = canvas.fit(em, value, f64::from(to.bottom - from.top));
+                canvas.text([x, 0.5 * f64::from(from.top + to.bottom)], Pen { up: true, ..Pen::new(em, 0.5) }, &value);
             }
         }
         if self.shared {
             label_below(canvas, style, self.grid, style.below(), &figure.panels[0].x.label);
             label_left(canvas, style, self.grid, self.numbers, &figure.panels[0].y.label);
+        }
+    }
+    /// Size of the letters of values, so small that each fits over its panels, whose steps are so long; but not too
+    /// small to read.
+    fn caption_em(&self, canvas: &Canvas, captions: &[Caption], step: i32) -> f64 {
+        let em = self.style.em;
+        let fits = |(value, _, count): (&str, usize, usize)| {
+            em * (f64::from(step) * count as f64 - em * 0.5) / canvas.text_width(em, value)
+        };
+        captions.iter().flat_map(spans).map(fits).fold(em, f64::min).max(LEAST_EM.min(em))
+    }
+}
+
+/// The values of a caption, with the first panel of each and their number.
+fn spans(caption: &Caption) -> impl Iterator<Item = (&str, usize, usize)> {
+    caption.values.iter().scan(0, |next, (value, count)| {
+        let first = *next;
+        *next += count;
+        Some((&value[..], first, *count))
+    })
+}
+
+/// Whether there is room for small multiples, whatever their nodes turn out to be: masks are not looked at.
+///
+/// # Errors
+/// As [`multiples_png`], where none of that size can be drawn.
+pub fn multiples_fit(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<()> {
+    let sheet = sheet.into();
+    check(figure)?;
+    let panels = figure.panels.iter().map(Panel::of_axes).collect::<Result<Vec<_>>>()?;
+    Layout::new(&Canvas::measuring(sheet)?, figure, &panels, sheet.size).map(drop)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{AxisView, Region};
+    use super::*;
+
+    /// As many panels as a recipe may ask for, and values as long as axes give them.
+    #[test]
+    fn every_caption_is_told_whole() {
+        let axis = || AxisView { name: "k".into(), label: "k".into(), values: vec![0.0, 1.0], log: false };
+        let panel = Slice {
+            title: String::new(),
+            x: axis(),
+            y: axis(),
+            regions: vec![Region { label: "some region of nodes".into(), mask: vec![true; 4] }],
+            outlines: vec![],
+            marks: vec![],
+            note: String::new(),
+            counted: "node",
+        };
+        let line = |values: usize, panels: usize| Caption {
+            name: "φ₀ =".into(),
+            values: (0..values).map(|i| (format!("−0.{}", 3332 + i), panels)).collect(),
+        };
+        for (rows, columns) in [(12, vec![line(12, 1)]), (3, vec![line(4, 4), line(16, 1)]), (1, vec![line(24, 1)])] {
+            let shape = [rows, columns.last().unwrap().values.len()];
+            let figure = Multiples {
+                title: "t".into(),
+                note: "n".into(),
+                shape,
+                columns,
+                rows: vec![line(rows, 1)],
+                panels: vec![panel.clone(); shape[0] * shape[1]],
+            };
+            let size = (1500, 1350);
+            let panels: Vec<Panel> = figure.panels.iter().map(|p| Panel::new(p).unwrap()).collect();
+            let canvas = Canvas::measuring(size).unwrap();
+            let layout = Layout::new(&canvas, &figure, &panels, size).unwrap();
+            for (captions, step) in [(&figure.columns, layout.step.0), (&figure.rows, layout.step.1)] {
+                let em = layout.caption_em(&canvas, captions, step);
+                for (value, _, count) in captions.iter().flat_map(spans) {
+                    assert!(canvas.text_width(em, value) < f64::from(step) * count as f64, "{shape:?}: {value}");
+                }
+            }
         }
     }
 }

@@ -32,17 +32,42 @@ pub fn montage_png(title: &str, slices: &[Slice], columns: usize, sheet: impl In
     }
     let sheet = sheet.into();
     let mut canvas = Canvas::new(sheet)?;
-    let (columns, rows) = (columns as u32, slices.len().div_ceil(columns) as u32);
-    let (width, height) = (sheet.size.0 / columns, sheet.size.1 / rows);
-    let em = style((width, height)).em * 1.5;
-    let head = (em * 2.4) as u32;
-    let size = (width, sheet.size.1.saturating_sub(head) / rows);
+    let (columns, em, head, size) = montage(slices.len(), columns, sheet);
     let title = canvas.fit(em, title, f64::from(sheet.size.0) - 1.6 * em);
     canvas.text([em * 0.8, f64::from(head) * 0.6], Pen::new(em, 0.0), &title);
     for (slice, i) in slices.iter().zip(0..) {
-        canvas.paste(&drawn(slice, Sheet { size, ..sheet })?, (i % columns * width, head + i / columns * size.1));
+        canvas.paste(&drawn(slice, Sheet { size, ..sheet })?, (i % columns * size.0, head + i / columns * size.1));
     }
     canvas.into_png()
+}
+
+/// Columns, size of the title's letters, height of the head and size of each slice.
+fn montage(slices: usize, columns: usize, sheet: Sheet) -> (u32, f64, u32, (u32, u32)) {
+    let (columns, rows) = (columns as u32, slices.div_ceil(columns) as u32);
+    let (width, height) = (sheet.size.0 / columns, sheet.size.1 / rows);
+    let em = style((width, height)).em * 1.5;
+    let head = (em * 2.4) as u32;
+    (columns, em, head, (width, sheet.size.1.saturating_sub(head) / rows))
+}
+
+/// Whether there is room for a slice, whatever its nodes turn out to be: its masks are not looked at.
+///
+/// # Errors
+/// As [`slice_png`], where none of that size can be drawn.
+pub fn slice_fits(slice: &Slice, sheet: impl Into<Sheet>) -> Result<()> {
+    let sheet = sheet.into();
+    let (canvas, entries) = (Canvas::measuring(sheet)?, entries(&[slice], false));
+    Layout::new(&canvas, slice, &Panel::of_axes(slice)?, &entries, style(sheet.size)).map(drop)
+}
+
+/// The same for [`montage_png`].
+///
+/// # Errors
+/// As [`montage_png`], where none of that size can be drawn.
+pub fn montage_fits(slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<()> {
+    let sheet = sheet.into();
+    let (.., size) = montage(slices.len(), columns.max(1), sheet);
+    slices.iter().try_for_each(|slice| slice_fits(slice, Sheet { size, ..sheet }))
 }
 
 fn style(size: (u32, u32)) -> Style {
@@ -54,19 +79,8 @@ fn drawn(slice: &Slice, sheet: Sheet) -> Result<Canvas> {
     let mut canvas = Canvas::new(sheet)?;
     let panel = Panel::new(slice)?;
     let style = style(sheet.size);
-    let sheet = canvas.rect().grown(-style.px(1.2));
-    let heading = Heading::new(&canvas, &slice.title, &slice.note, style, sheet.width());
     let entries = entries(&[slice], false);
-    let legend = Legend::new(&canvas, &entries, style, sheet.width());
-    let label = style.px(1.6);
-    let mut rect = Rect {
-        top: sheet.top + heading.height(style) + style.px(0.3),
-        bottom: sheet.bottom - legend.height(style) - style.px(0.6) - label - style.below(),
-        ..sheet
-    };
-    let left = width_left(&canvas, &panel.y.scale, style, rect.height());
-    rect.left += left + label;
-    check_room(&canvas, rect)?;
+    let Layout { sheet, heading, legend, rect, left } = Layout::new(&canvas, slice, &panel, &entries, style)?;
     heading.draw(&mut canvas, style, sheet);
     panel.draw(&mut canvas, style, rect, true);
     draw_below(&mut canvas, &panel.x.scale, style, rect, true);
@@ -75,6 +89,36 @@ fn drawn(slice: &Slice, sheet: Sheet) -> Result<Canvas> {
     label_left(&mut canvas, style, rect, left, &slice.y.label);
     legend.draw(&mut canvas, style, (sheet.left, sheet.bottom - legend.height(style)));
     Ok(canvas)
+}
+
+/// Where everything goes.
+struct Layout<'a> {
+    /// What margins leave of the sheet.
+    sheet: Rect,
+    heading: Heading<'a>,
+    legend: Legend<'a>,
+    /// The plot.
+    rect: Rect,
+    /// Width of the numbers to its left.
+    left: i32,
+}
+
+impl<'a> Layout<'a> {
+    fn new(canvas: &Canvas, slice: &'a Slice, panel: &Panel, entries: &'a [Entry], style: Style) -> Result<Layout<'a>> {
+        let sheet = canvas.rect().grown(-style.px(1.2));
+        let heading = Heading::new(canvas, &slice.title, &slice.note, style, sheet.width());
+        let legend = Legend::new(canvas, entries, style, sheet.width());
+        let label = style.px(1.6);
+        let mut rect = Rect {
+            top: sheet.top + heading.height(style) + style.px(0.3),
+            bottom: sheet.bottom - legend.height(style) - style.px(0.6) - label - style.below(),
+            ..sheet
+        };
+        let left = width_left(canvas, &panel.y.scale, style, rect.height());
+        rect.left += left + label;
+        check_room(canvas, rect)?;
+        Ok(Layout { sheet, heading, legend, rect, left })
+    }
 }
 
 /// Says so when labels leave no room for a plot.
@@ -100,8 +144,13 @@ pub(super) struct Panel<'a> {
 }
 
 impl Panel<'_> {
+    /// One whose axes alone are checked, to lay it out.
+    pub fn of_axes(slice: &Slice) -> Result<Panel<'_>> {
+        Ok(Panel { slice, x: Cells::new(&slice.x)?, y: Cells::new(&slice.y)? })
+    }
+
     pub fn new(slice: &Slice) -> Result<Panel<'_>> {
-        let (x, y) = (Cells::new(&slice.x)?, Cells::new(&slice.y)?);
+        let panel = Panel::of_axes(slice)?;
         let (columns, rows) = (slice.x.values.len(), slice.y.values.len());
         for region in slice.regions.iter().chain(&slice.outlines) {
             // As u128, because a product of lengths of two slices fits.
@@ -119,15 +168,19 @@ impl Panel<'_> {
             let (label, x, y) = (&mark.label, mark.x, mark.y);
             return Err(Error::Domain(format!("mark `{label}` is at ({x}, {y}); both must be finite")));
         }
-        Ok(Panel { slice, x, y })
+        Ok(panel)
     }
 
     /// Draws all but axes; labels of marks only where asked.
     pub fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect, mark_labels: bool) {
         let pixels = Pixels::new(self, rect);
         self.draw_regions(canvas, style, &pixels);
+        // Lines around the whole plot would hide each other: each runs inside the one before.
+        let (hatch, mut inset) = (Hatch::new(style), 0);
         for (i, region) in self.slice.outlines.iter().enumerate() {
-            pixels.draw_outline(canvas, Hatch::new(style), region, Outline::of(i));
+            let whole = region.mask.iter().all(|inside| *inside);
+            pixels.draw_outline(canvas, hatch, region, Outline::of(i), whole.then_some(inset));
+            inset += if whole { hatch.band + 2 * hatch.rim() } else { 0 };
         }
         canvas.frame(rect, INK);
         self.draw_marks(canvas, style, rect, mark_labels);
@@ -206,11 +259,23 @@ impl Pixels {
     }
 
     /// A line along the inside of a region's boundary and stripes further in, all in a white casing that parts them from every fill.
-    fn draw_outline(&self, canvas: &mut Canvas, hatch: Hatch, region: &Region, outline: Outline) {
-        let (line, rim) = (hatch.line, (hatch.line / 2).max(1));
+    /// The boundary of a region that is the whole plot is the plot's, so many pixels further in.
+    fn draw_outline(&self, canvas: &mut Canvas, hatch: Hatch, region: &Region, outline: Outline, whole: Option<i32>) {
+        let (line, rim) = (hatch.line, hatch.rim());
         let columns = self.columns.len();
         let inside: Vec<bool> = self.rows.iter().flat_map(|j| self.columns.iter().map(move |i| region.mask[j + i])).collect();
-        for (at, (here, depth)) in inside.iter().zip(depths(&inside, columns)).enumerate() {
+        let (width, height) = (columns as i32, self.rows.len() as i32);
+        let within = |at: usize, inset: i32| {
+            let (x, y) = ((at % columns) as i32, (at / columns) as i32);
+            let depth = x.min(y).min(width - 1 - x).min(height - 1 - y) - inset;
+            (depth >= 0, if depth >= 0 { depth + 1 } else { -depth } * STEP)
+        };
+        let all: Vec<(bool, i32)> = match whole {
+            Some(inset) => (0..inside.len()).map(|at| within(at, inset)).collect(),
+            None => inside.iter().copied().zip(depths(&inside, columns)).collect(),
+        };
+        for (at, (here, depth)) in all.iter().enumerate() {
+            let depth = *depth;
             let (x, y) = (self.rect.left + (at % columns) as i32, self.rect.top + (at / columns) as i32);
             if *here && depth <= line * STEP {
                 canvas.blend(x, y, outline.color, 1.0);
@@ -266,10 +331,6 @@ pub(super) fn entries(slices: &[&Slice], stars: bool) -> Vec<Entry> {
         entries.push(Entry { key: Key::Fill(color), text });
     }
     for (i, region) in first.outlines.iter().enumerate() {
-        // What covers everything has no rim to draw.
-        if slices.iter().all(|s| s.outlines.get(i).is_some_and(|region| region.mask.iter().all(|inside| *inside))) {
-            continue;
-        }
         let text = text(&region.label, &|s| s.outlines.get(i).map_or(0, count));
         entries.push(Entry { key: Key::Hatched(Outline::of(i)), text });
     }

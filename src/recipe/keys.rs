@@ -4,7 +4,7 @@
 //! default are those that it misses; every example is accepted.
 
 use super::levels::LEVELS_RULE;
-use super::look::{DPI, LEAST_SIZE, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, RESOLUTIONS, SLICE_SIZE};
+use super::look::{DPI, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, RESOLUTIONS, SLICE_SIZE};
 use super::panels::{MOST_PANELS, PANELS};
 use crate::grid::{MAX_AXES, MAX_COUNT};
 
@@ -47,12 +47,15 @@ fn size((width, height): (u32, u32)) -> String {
 
 /// The keys `title`, `size` and `dpi`.
 fn look(title: &str, usual: &str, whose: &str) -> [Key; 3] {
-    let ((width, height), [least, most]) = (LEAST_SIZE, RESOLUTIONS);
-    let of_size = format!("two whole numbers of pixels such as `[800, 600]`, at least `[{width}, {height}]`");
-    let meaning = format!("Width and height of {whose} at {DPI} dpi. The picture may have at most {MAX_PIXELS} pixels.");
+    let [least, most] = RESOLUTIONS;
+    let of_size = "two whole numbers of pixels such as `[800, 600]`";
+    let meaning = format!(
+        "Width and height of {whose} at {DPI} dpi. The picture may have at most {MAX_PIXELS} pixels; one without room for a plot beside its \
+         labels is refused before any work, with a size that would do."
+    );
     [
         optional("title", "a text in quotation marks", title, &format!("The heading of {whose}.")),
-        optional("size", &of_size, usual, &meaning),
+        optional("size", of_size, usual, &meaning),
         optional(
             "dpi",
             &format!("a whole number from {least} to {most}"),
@@ -207,7 +210,8 @@ fn picture() -> Table {
             "outlines",
             "a list of flags such as `[\"SPIRAL\"]`",
             "none, beside `regions`",
-            "Which flags to draw as a line with stripes on its inner side, which hides nothing. It goes with `regions`.",
+            "Which flags to draw as a line with stripes on its inner side, which hides nothing. The line of one that holds all \
+             over a plot runs around the plot. It goes with `regions`.",
         ),
         optional(
             "field",

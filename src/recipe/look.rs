@@ -15,8 +15,6 @@ pub const MULTIPLES_SIZE: (u32, u32) = (1500, 1350);
 pub const PANEL_SIZE: (u32, u32) = (620, 700);
 /// The resolutions that a recipe may choose.
 pub(super) const RESOLUTIONS: [u32; 2] = [24, 2400];
-/// Least width and height, below which labels leave no room for a plot.
-pub(super) const LEAST_SIZE: (u32, u32) = (240, 180);
 
 /// Heading, size and resolution.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,11 +25,13 @@ pub struct Look {
     pub size: Option<(u32, u32)>,
     /// Pixels per inch.
     pub dpi: u32,
+    /// Where in the text of the recipe the size or the resolution stands, or else the picture.
+    pub at: Option<usize>,
 }
 
 impl Default for Look {
     fn default() -> Look {
-        Look { title: None, size: None, dpi: DPI }
+        Look { title: None, size: None, dpi: DPI, at: None }
     }
 }
 
@@ -44,11 +44,12 @@ impl Look {
     }
 }
 
-/// The look that a recipe chooses, for a picture of a usual size.
+/// The look that a recipe chooses, for a picture of a usual size that stands so far in its text.
 pub(super) fn look(
     title: Option<&String>,
     size: Option<&Spanned<Vec<Pixels>>>,
     dpi: Option<&Spanned<Pixels>>,
+    picture: Option<usize>,
     usual: (u32, u32),
 ) -> Result<Look, Fault> {
     let mut look = Look { title: title.cloned(), ..Look::default() };
@@ -64,13 +65,14 @@ pub(super) fn look(
         let [width, height] = size.get_ref()[..] else {
             return fail(format!("`size` has {} numbers; it is a list of two, width and height in pixels", size.get_ref().len()));
         };
-        let [(width, height), (least_width, least_height)] = [(width.count(), height.count()), LEAST_SIZE];
-        if width < least_width || height < least_height {
-            return fail(format!("`size` is {width} x {height} pixels; it must be at least {least_width} x {least_height}"));
+        let (width, height) = (width.count(), height.count());
+        if width == 0 || height == 0 {
+            return fail(format!("`size` is {width} x {height} pixels; both must be above 0"));
         }
         look.size = Some((width, height));
     }
     let ((wide, high), at) = (look.pixels(usual), size.map(Spanned::span).or(dpi.map(Spanned::span)));
+    look.at = at.as_ref().map(|at| at.start).or(picture);
     match at {
         Some(at) if u64::from(wide) * u64::from(high) > MAX_PIXELS => {
             let what = format!("the picture would have {wide} x {high} pixels; the product must be at most {MAX_PIXELS}");

@@ -39,10 +39,9 @@ pub use reference::reference;
 
 use crate::error::{Error, Result};
 use crate::family::{self, Chart, Family};
-use crate::grid::Lookup;
 use crate::grid::{Axis, Grid, Spacing};
-use panels::PANELS;
-use raw::{Fault, Number, Numbers, RawAtlas, RawAxis, RawPicture, unknown};
+use panels::{ends, nodes};
+use raw::{Fault, Number, RawAtlas, RawAxis, RawPicture, unknown};
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml::Spanned;
@@ -156,7 +155,7 @@ fn resolve(text: &str) -> Result<Recipe, Fault> {
     let raw = raw::parse(text)?;
     let at = raw.atlas.span();
     let usual = (PANEL_SIZE.0.saturating_mul(raw.atlas.get_ref().len() as u32), PANEL_SIZE.1);
-    let look = look::look(raw.title.as_ref(), raw.size.as_ref(), raw.dpi.as_ref(), usual)?;
+    let look = look::look(raw.title.as_ref(), raw.size.as_ref(), raw.dpi.as_ref(), None, usual)?;
     let mut atlases: Vec<AtlasPlan> = Vec::new();
     for atlas in raw.atlas.into_inner() {
         let name = atlas.name.span();
@@ -296,7 +295,8 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, st
     }
     let levels = levels::levels(raw, kind, family, stored)?;
     let usual = if kind == PictureKind::Multiples { MULTIPLES_SIZE } else { SLICE_SIZE };
-    let look = look::look(raw.title.as_ref(), raw.size.as_ref(), raw.dpi.as_ref(), usual)?;
+    let here = Some(raw.kind.span().start);
+    let look = look::look(raw.title.as_ref(), raw.size.as_ref(), raw.dpi.as_ref(), here, usual)?;
     Ok(PicturePlan { kind, x, y, at, regions, outlines, levels, marks, look })
 }
 
@@ -332,44 +332,6 @@ fn axis_index(grid: &Grid, name: &Spanned<String>) -> Result<usize, Fault> {
     index.ok_or_else(|| Fault::new(name.span(), unknown("axis", name.get_ref(), &known)))
 }
 
-/// The nodes of an axis that is not drawn.
-fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<Vec<usize>, Fault> {
-    let (name, count) = (axis.name(), axis.values().len());
-    let Some((_, given)) = raw.at.iter().find(|(key, _)| key.get_ref() == name) else {
-        return match kind {
-            PictureKind::Slice | PictureKind::Compare { .. } if count > 1 => {
-                Err(Fault::new(raw.kind.span(), format!("the slice leaves `{name}` open; say `at = {{ {name} = .. }}`")))
-            }
-            PictureKind::Union => Ok((0..count).collect()),
-            _ if count <= PANELS => Ok((0..count).collect()),
-            _ => Ok((0..PANELS).map(|i| i * (count - 1) / (PANELS - 1)).collect()),
-        };
-    };
-    let fail = |what: String| Fault::new(given.span(), what);
-    let points = match (given.get_ref(), kind) {
-        (Numbers::One(point), _) => std::slice::from_ref(point),
-        (Numbers::Many(points), PictureKind::Multiples | PictureKind::Union) if !points.is_empty() => points,
-        (Numbers::Many(_), PictureKind::Slice | PictureKind::Compare { .. }) => {
-            return Err(fail(format!("a slice takes one value of `{name}`")));
-        }
-        (Numbers::Many(_), _) => return Err(fail(format!("`{name}` has an empty list"))),
-    };
-    let lookup = Lookup::new(axis);
-    let mut nodes: Vec<usize> = Vec::new();
-    for point in points {
-        let point = point.on(name).map_err(fail)?;
-        let Some(node) = lookup.nearest(point) else {
-            let (first, last) = ends(axis);
-            return Err(fail(format!("{name} = {point} lies outside the axis, which runs from {first} to {last}")));
-        };
-        if nodes.last().is_some_and(|last| *last >= node) {
-            return Err(fail(format!("the values of `{name}` must increase, from node to node of the axis; {point} does not")));
-        }
-        nodes.push(node);
-    }
-    Ok(nodes)
-}
-
 fn mark(raw: &Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>, axes: [&Axis; 2]) -> Result<Mark, Fault> {
     let known = [axes[0].name(), axes[1].name(), "label"];
     let map = raw.get_ref();
@@ -395,9 +357,4 @@ fn mark(raw: &Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>, axes: [&Axis;
         Number::Text(text) => Ok(Mark { x: coordinate(axes[0])?, y: coordinate(axes[1])?, label: text.clone() }),
         Number::Plain(_) => Err(Fault::new(label.span(), "the label of a mark is a text")),
     }
-}
-
-fn ends(axis: &Axis) -> (f64, f64) {
-    let values = axis.values();
-    (values[0], values[values.len() - 1])
 }

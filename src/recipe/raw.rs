@@ -1,9 +1,10 @@
 //! A recipe as TOML has it, before anything is looked up.
 
 use crate::error::{Error, Result};
+use crate::plain;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -21,8 +22,7 @@ impl Fault {
     /// An error of the recipe, with line and column.
     pub fn within(self, text: &str) -> Error {
         let before = text.get(..self.at.start).unwrap_or(text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        let (line, column) = plain::place(before);
         Error::Recipe(format!("line {line}, column {column}: {}", self.what))
     }
 }
@@ -127,7 +127,7 @@ impl Number {
 
 /// Parses the text; an unknown key is refused with the nearest known one.
 pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
-    toml::from_str(text).map_err(|e| super::words::plain(text, e.span().unwrap_or(0..0), e.message()))
+    toml::from_str(text).map_err(|e| super::words::complaint(text, e.span().unwrap_or(0..0), e.message()))
 }
 
 /// The complaint about a name that is not known, with the nearest that is.
@@ -156,20 +156,21 @@ pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
     text.trim().parse().map_err(|_| Error::Domain(format!("{axis}: {text:?} is no number")))
 }
 
-/// Reads an angle: `40deg` or `40°`, `0.7rad`, or radians alone, `0.7`.
+/// Reads an angle: `40deg` or `40°`, `0.7rad`, or radians alone, `0.7`. Beyond a full turn the unit must be named.
 ///
 /// # Returns
 /// Radians; degrees are divided by 180 and then multiplied by π, each rounded once, so that `180deg` is π's double itself.
 ///
 /// # Errors
-/// [`Error::Domain`] when it is no finite number with one of these units.
+/// [`Error::Domain`] when it is no finite number with one of these units, or a number above 2π alone: degrees, most
+/// likely.
 ///
 /// ```
 /// use spiral_atlas::recipe::parse_angle;
 /// assert_eq!(parse_angle("90deg")?, std::f64::consts::FRAC_PI_2);
 /// assert_eq!(parse_angle("0.7 rad")?, 0.7);
 /// assert_eq!(parse_angle("40°")?, parse_angle("40deg")?);
-/// assert!(parse_angle("40%").is_err());
+/// assert!(parse_angle("40%").is_err() && parse_angle("40").is_err());
 /// # Ok::<(), spiral_atlas::Error>(())
 /// ```
 pub fn parse_angle(text: &str) -> Result<f64> {
@@ -180,7 +181,11 @@ pub fn parse_angle(text: &str) -> Result<f64> {
         (None, Some(number)) => (number, false),
         (None, None) => (trimmed, false),
     };
+    let unit = number.len() < trimmed.len();
     match number.trim_end().parse::<f64>() {
+        Ok(value) if value.is_finite() && !unit && value.abs() > TAU => Err(Error::Domain(format!(
+            "{text:?} is more than a full turn in radians; say which unit is meant: `{trimmed}deg` or `{trimmed}rad`"
+        ))),
         Ok(value) if value.is_finite() => Ok(if degrees { value / 180.0 * PI } else { value }),
         _ => {
             Err(Error::Domain(format!("{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`")))

@@ -2,11 +2,12 @@
 
 use super::keys::takes;
 use super::raw::{Fault, unknown};
+use crate::plain;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 /// A complaint of the TOML reader in plain words. Serde speaks of its own types, and names no key.
-pub(super) fn plain(text: &str, at: Range<usize>, message: &str) -> Fault {
+pub(super) fn complaint(text: &str, at: Range<usize>, message: &str) -> Fault {
     let path = DeTable::parse(text).ok().and_then(|table| path_to(table.get_ref(), &at));
     let what = if let Some(rest) = message.strip_prefix("unknown field `") {
         let mut names = rest.split('`').step_by(2);
@@ -26,7 +27,7 @@ pub(super) fn plain(text: &str, at: Range<usize>, message: &str) -> Fault {
         let takes = takes(&keys).unwrap_or_else(|| expected.to_owned());
         format!("`{}` has {}, but it takes {takes}", keys.last().unwrap_or(&""), snippet(text, &at))
     } else {
-        format!("this is not TOML: {message}")
+        format!("this is not TOML: {}", plain::syntax(message))
     };
     Fault::new(at, what)
 }

@@ -151,9 +151,9 @@ impl Solution {
         let local_control_points = placement.place_local(datum, f0, f1);
         let legs = placement.to_user_legs(&CubicBezier::legs([datum.phi0, datum.phi1], [datum.kappa0, datum.kappa1], [f0, f1]));
         let mut all = control_points.p.iter().chain(&local_control_points.p).chain(&legs);
-        if let Some([x, y]) = all.find(|p| !(p[0].is_finite() && p[1].is_finite())) {
+        if !all.all(|p| p[0].is_finite() && p[1].is_finite()) {
             return Err(Error::Domain(format!(
-                "a control point of the root ({f0:?}, {f1:?}) is ({x:?}, {y:?}), outside the range of doubles (change the unit of length)"
+                "the cubic of the root ({f0:?}, {f1:?}) leaves the range of doubles; change the unit of length"
             )));
         }
         let length = arc_length(|t| of_legs(&legs, t).speed(), 0.0, 1.0);

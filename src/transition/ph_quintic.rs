@@ -116,10 +116,9 @@ impl PhSolution {
         let Quintic { a, b, spiral, margin, length, energy, curve } = quintic;
         let control_points = curve.control_points();
         let (user, local) = (placement.to_user(&control_points), placement.to_user_local(&control_points));
-        if let Some([x, y]) = user.iter().chain(&local).find(|p| !(p[0].is_finite() && p[1].is_finite())) {
+        if !user.iter().chain(&local).flatten().all(|x| x.is_finite()) {
             return Err(Error::Domain(format!(
-                "a control point of the solution with A = {a:?}, B = {b:?} is ({x:?}, {y:?}), outside the range of doubles (change the \
-                 unit of length)"
+                "the solution with A = {a:?}, B = {b:?} leaves the range of doubles; change the unit of length"
             )));
         }
         Ok(PhSolution {

@@ -7,7 +7,7 @@ use super::words::degrees;
 use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::{Error, Result};
-use crate::family::reach::{Datum, Kind, Level, level_of_shape, solve};
+use crate::family::reach::{Datum, Kind, Level, legs, level_of_shape, preimage, solve};
 use crate::num::told;
 use serde::Serialize;
 
@@ -166,8 +166,11 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
     if let (Target::Point(point), Some(end)) = (target, control_points.last_mut()) {
         *end = point;
     }
-    if let Some([x, y]) = control_points.iter().find(|p| !(p[0].is_finite() && p[1].is_finite())) {
-        return Err(Error::Domain(format!("a control point is ({x:?}, {y:?}), outside the range of doubles")));
+    if !control_points.iter().flatten().all(|x| x.is_finite()) {
+        let what = format!(
+            "the segment from {start:?} with the radius {radius:?} leaves the range of doubles; change the unit of length"
+        );
+        return Err(Error::Domain(what));
     }
     let piece = piece(kind, &frame, preimage(case, theta, m, q), &control_points, &legs);
     let length = piece.length();
@@ -227,39 +230,6 @@ impl Frame {
         }
         let ([x, y], r) = (point, self.radius);
         Err(Error::Domain(format!("the end point ({x:?}, {y:?}) is out of range in units of the radius {r:?}")))
-    }
-}
-
-/// The sides of the control polygon for r = 1.
-fn legs(kind: Kind, case: u8, theta: f64, m: f64, q: f64) -> Vec<Vector> {
-    let (s, c) = theta.sin_cos();
-    match kind {
-        Kind::Cubic => {
-            // The round end's leg is d = q; curvature 1 makes the middle one d²/(2 sin θ), the flat one m times that.
-            let middle = q * q / (2.0 * s);
-            let lengths = [m * middle, middle, q].map(|d| d / 3.0);
-            match case {
-                1 => vec![[lengths[0], 0.0], [lengths[1], 0.0], scale([c, s], lengths[2])],
-                _ => vec![[lengths[2], 0.0], scale([c, s], lengths[1]), scale([c, s], lengths[0])],
-            }
-        }
-        Kind::Ph => {
-            let [a, b, c] = preimage(case, theta, m, q);
-            let middle = scale(add(scale(turn(b, b), 2.0), turn(a, c)), 1.0 / 3.0);
-            [turn(a, a), turn(a, b), middle, turn(b, c), turn(c, c)].map(|leg| scale(leg, 0.2)).to_vec()
-        }
-    }
-}
-
-/// Bernstein coefficients of the PH quintic's pre-image for r = 1.
-fn preimage(case: u8, theta: f64, m: f64, q: f64) -> [Vector; 3] {
-    let (sh, ch) = (0.5 * theta).sin_cos();
-    let round = q.sqrt();
-    let middle = q * round / (4.0 * sh);
-    let tilted = |f: f64| [f * ch, f * sh];
-    match case {
-        1 => [[m * middle, 0.0], [middle, 0.0], tilted(round)],
-        _ => [[round, 0.0], tilted(middle), tilted(m * middle)],
     }
 }
 

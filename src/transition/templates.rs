@@ -147,11 +147,9 @@ pub fn path(request: &Request) -> Result<Outcome> {
     let map = |z: [f64; 2]| turn(along, if side == Turn::Right { [z[0], -z[1]] } else { z });
     let place = |part: &Part| Part { curve: part.curve.mapped(add(at, map(part.curve.start)), map), ..*part };
     let parts: Vec<Part> = local.iter().map(place).collect();
-    let points = parts.iter().flat_map(|part| part.curve.points());
-    if let Some([x, y]) = points.into_iter().find(|p| !(p[0].is_finite() && p[1].is_finite())) {
-        return Err(Error::Domain(format!(
-            "a control point is ({x:?}, {y:?}), outside the range of doubles (change the unit of length)"
-        )));
+    if !parts.iter().flat_map(|part| part.curve.points()).flatten().all(|x| x.is_finite()) {
+        let what = format!("the curve through {at:?} leaves the range of doubles; change the unit of length");
+        return Err(Error::Domain(what));
     }
     let hand = if side == Turn::Right { -1.0 } else { 1.0 };
     let circles = circles(&parts, &round.map(|k| hand * k));

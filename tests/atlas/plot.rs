@@ -166,8 +166,9 @@ fn bad_data_are_errors() {
         let figure = Multiples {
             title: String::new(),
             note: String::new(),
-            columns: vec![String::new()],
-            rows: vec![String::new()],
+            shape: [1, 1],
+            columns: vec![],
+            rows: vec![],
             panels: vec![slice],
         };
         assert!(multiples_png(&figure, size).is_err(), "{says}");
@@ -272,8 +273,9 @@ fn overview(columns: usize, rows: usize) -> Multiples {
     Multiples {
         title: "Cubic spirals over all angles".into(),
         note: "Each panel: which end curvatures κ₀ (right) and κ₁ (up) can be joined.".into(),
-        columns: p1.iter().map(|p| format!("φ₁ = {p:.3}")).collect(),
-        rows: p0.iter().rev().map(|p| format!("φ₀ = {p:.3}")).collect(),
+        shape: [rows, columns],
+        columns: vec![Caption { name: "φ₁ =".into(), values: p1.iter().map(|p| (format!("{p:.3}"), 1)).collect() }],
+        rows: vec![Caption { name: "φ₀ =".into(), values: p0.iter().rev().map(|p| (format!("{p:.3}"), 1)).collect() }],
         panels: p0.iter().rev().flat_map(|p0| p1.iter().map(|p1| panel(*p0, *p1))).collect(),
     }
 }
@@ -288,13 +290,38 @@ fn multiples_share_axes_and_legend() {
     );
     save("multiples_8x6.png", &multiples_png(&overview(8, 6), (1600, 1200)).unwrap());
     let mut wrong = figure.clone();
-    wrong.rows.pop();
-    assert!(multiples_png(&wrong, (1200, 1100)).is_err());
+    wrong.rows[0].values.pop();
+    assert!(multiples_png(&wrong, (1200, 1100)).unwrap_err().to_string().contains("`φ₀ =` is about 3 of 4 rows"));
     let mut wrong = figure.clone();
     wrong.panels[3].regions[1].label = "other".into();
     assert!(multiples_png(&wrong, (1200, 1100)).unwrap_err().to_string().contains("panel 3"));
-    let none = Multiples { columns: vec![], rows: vec![], panels: vec![], ..figure };
+    let none = Multiples { shape: [0, 0], columns: vec![], rows: vec![], panels: vec![], ..figure };
     assert!(multiples_png(&none, (1200, 1100)).is_err());
+}
+
+/// What is true all over a plot has a line around it, and each of several its own.
+#[test]
+fn what_is_true_everywhere_is_outlined() {
+    let drawn = |outlines: usize| {
+        let mut slice = pattern();
+        let mask = vec![true; 28];
+        slice.outlines = (0..outlines).map(|i| Region { label: format!("o{i}"), mask: mask.clone() }).collect();
+        slice.marks.clear();
+        image::load_from_memory(&slice_png(&slice, (640, 480)).unwrap()).unwrap().to_rgb8()
+    };
+    let [none, one, two] = [0, 1, 2].map(drawn);
+    // Colours of pixels in the upper half, above the legend, that are those of the picture before in no place.
+    let colors = |picture: &image::RgbImage| -> std::collections::BTreeMap<[u8; 3], usize> {
+        picture.enumerate_pixels().filter(|(_, y, _)| *y < 240).fold(Default::default(), |mut all, (_, _, pixel)| {
+            *all.entry(pixel.0).or_insert(0) += 1;
+            all
+        })
+    };
+    let fresh = |before: &image::RgbImage, after: &image::RgbImage| {
+        let known = colors(before);
+        colors(after).into_iter().filter(|(color, _)| !known.contains_key(color)).map(|(_, count)| count).max().unwrap_or(0)
+    };
+    assert!(fresh(&none, &one) > 500 && fresh(&one, &two) > 500, "{} {}", fresh(&none, &one), fresh(&one, &two));
 }
 
 #[test]
@@ -311,8 +338,9 @@ fn multiples_with_their_own_axes() {
     let figure = Multiples {
         title: "The three cases of Fig. 2".into(),
         note: String::new(),
-        columns: vec![String::new(); 3],
-        rows: vec![String::new()],
+        shape: [1, 3],
+        columns: vec![],
+        rows: vec![],
         panels: vec![
             panel(0.7, 1.4, (0.005, 0.7), (0.8, 60.0), (0.4, 4.0), true),
             panel(0.1, 1.5, (0.001, 0.1), (3.0, 1000.0), (0.035, 100.0), true),

@@ -224,6 +224,18 @@ fn batches_have_a_line_for_each_row() {
         assert_eq!((&lines[2]["line"], &lines[2]["error"]), (&json!(4), &json!("y0: \"x\" is no number")));
         assert!(lines[3]["error"].is_string() && lines[4] == lines[0], "{}", lines[3]);
     }
+    // Lines of both answers are read where paths are read, and samples come as one table.
+    let lines = piped(&["curve", "--points", "-"], rows).out;
+    let measured = piped(&["path", "measure", "-", "--samples", "2", "--csv"], &lines);
+    assert_eq!(measured.out.lines().map(|line| &line[..2]).collect::<Vec<_>>(), ["pa", "0,", "0,"], "{}", measured.err);
+    assert_eq!(measured.err, "line 2 of standard input has no path; the reason stands there\n");
+    assert_eq!(piped(&["export", "opendrive", "-"], &lines).out.matches("<road ").count(), 1);
+    let table =
+        piped(&["curve", "--points", "-", "--samples", "3", "--csv"], &format!("{rows}\n{}", rows.split_once('\n').unwrap().1));
+    let alone = curve("cubic", &ENDS, &["--samples", "3", "--csv"]).out;
+    let rows_of = |row: &str| alone.lines().skip(1).map(|line| format!("{row},{line}\n")).collect::<String>();
+    assert_eq!(table.out, format!("row,station,x,y,heading,curvature\n{}{}", rows_of("1"), rows_of("3")));
+    assert!(table.code == Some(0) && table.err.starts_with("row 2: ") && table.err.contains("row 4: "), "{}", table.err);
     let header = piped(&["curve", "--points", "-"], "x0,y0\n");
     assert!(header.code == Some(2) && header.err.contains("curvature1"), "{}", header.err);
 }

@@ -175,3 +175,26 @@ fn options_of_other_families_are_refused() {
     refused(&all, &["`--turns` means nothing to `--family cubic`"]);
     refused(&["query", "--family", "reach-ph", "--phi0", "1"], &["a datum of `reach-ph` needs `--theta --xi --eta`", "`--phi0`"]);
 }
+
+/// `query` tells a segment's length in radii, `curve` in the user's unit.
+#[test]
+fn lengths_of_added_segments_agree() {
+    for (family, theta, xi, eta, base) in [
+        ("reach-cubic", "45deg", 1.7, 0.4, "line"),
+        ("reach-ph", "40deg", 1.5, 0.35, "line"),
+        ("reach-ph", "40deg", 1.1, 0.6, "circle"),
+    ] {
+        let datum = ["--theta", theta, "--xi", &xi.to_string(), "--eta", &eta.to_string(), "--json"];
+        let json = run(["query", "--family", family].iter().chain(&datum)).json();
+        let case = if base == "line" { 1 } else { 2 };
+        let segment = json["solutions"].as_array().unwrap().iter().find(|s| s["case"] == case).unwrap();
+        let [m, q] = ["m", "q"].map(|name| segment[name].to_string());
+        let shape =
+            ["--base", base, "--from", "0,0", "--start-direction", "0", "--turn", "left", "--radius", "20", "--angle", theta];
+        let rest = ["--m", &m, "--q", &q, "--json"];
+        let curve: serde_json::Value =
+            serde_json::from_str(&run(["curve", "--family", family].iter().chain(&shape).chain(&rest)).out).unwrap();
+        let [a, b] = [&segment["length"], &curve["segment"]["length"]].map(|x| x.as_f64().unwrap());
+        assert!((20.0 * a / b - 1.0).abs() < 1e-12, "{family}: {a} {b}");
+    }
+}

@@ -274,3 +274,106 @@ fn a_folder_or_a_dead_link_in_place_of_a_file_is_told_at_the_start() {
         assert_eq!(names(&folder.at("out")), [""; 0]);
     }
 }
+
+#[test]
+fn mistakes_in_toml_are_named() {
+    let folder = Folder::new("");
+    let says = |tool: &str, text: &str, part: &str| {
+        std::fs::write(folder.at("ends.toml"), text).unwrap();
+        let said = run(["path", tool, &folder.text("ends.toml")]);
+        assert!(said.code == Some(2) && said.err.contains(&format!("ends.toml: {part}")), "{}", said.err);
+    };
+    let ends = "end = [1, 0]\nstart_derivative = [1, 1]\nend_derivative = [1, -1]";
+    says("hermite", &format!("start = [0, 0, 1]\n{ends}"), "start has more values than belong there: 3");
+    says("hermite", &format!("start = [0, \"a\"]\n{ends}"), "start[1] must be a number; it is the text \"a\"");
+    says("hermite", ends, "the field `start` is missing");
+    says(
+        "equal-length",
+        "length = 2\n[[paths]]\nstart = [0, 0]\nend = 1",
+        "paths[0].end must be a pair of numbers [x, y]; it is `1`",
+    );
+    says("equal-length", "length = 2\npaths = [[1]]", "paths[0] must be an object with the fields start, end");
+    says(
+        "equal-length",
+        "length = 2\npaths = [{ start_direction = true }]",
+        "paths[0].start_direction must be an angle, a number",
+    );
+    says("hermite", "a = ", "it is not TOML (line 1, column 5): string values must be quoted");
+    let deep = format!("a={}", "[".repeat(100_000));
+    says("hermite", &deep, "it is not TOML (line 1, column 83): lists are in each other too deep\n");
+    std::fs::write(folder.at("ends.toml"), format!("start = [0, 0]\n{ends}")).unwrap();
+    fine(["path", "hermite", &folder.text("ends.toml")]);
+}
+
+/// Texts that a reader could take for degrees, numbers that no double holds, and what the program says of each.
+#[test]
+fn angles_and_curves_beyond_their_range_are_told() {
+    let ends = |direction: &str, more: &[&str]| {
+        let given = ["curve", "--family", "involute", "--from", "0,0", "--to", "2,0", "--end-direction", "1"];
+        let rest = ["--start-curvature=-0.3", "--end-curvature", "4", "--start-direction", direction];
+        run(given.iter().chain(&rest).chain(more))
+    };
+    let said = ends("-40", &[]);
+    assert!(said.code == Some(2) && said.err.contains("say which unit is meant: `-40deg` or `-40rad`"), "{}", said.err);
+    assert_eq!(ends("-40deg", &[]).code, ends("320°", &[]).code);
+    assert_ne!(ends("-40rad", &[]).code, Some(2));
+    assert_ne!(ends("6.283", &[]).code, Some(2));
+    let query = run(["query", "--phi0", "40", "--phi1", "1", "--kappa0", "1", "--kappa1", "2"]);
+    assert!(query.code == Some(2) && query.err.contains("`40deg` or `40rad`"), "{}", query.err);
+    for more in [&["reach-cubic", "--base", "line", "--q", "1.9"][..], &["trig-quintic", "--template", "s"]] {
+        let far = [
+            "--from",
+            "1e308,0",
+            "--start-direction",
+            "0",
+            "--turn",
+            "left",
+            "--radius",
+            "1e308",
+            "--angle",
+            "45deg",
+            "--m",
+            "0.8",
+        ];
+        let said = run(["curve", "--family"].iter().chain(more).chain(&far));
+        assert!(said.code == Some(2) && said.err.contains("leaves the range of doubles; change the unit"), "{}", said.err);
+        assert!(!said.err.contains("NaN") && !said.err.contains("inf"), "{}", said.err);
+    }
+}
+
+#[test]
+fn a_damaged_bit_is_seen_by_all_that_read_an_atlas() {
+    let folder = Folder::new(TINY);
+    folder.generate(&[]);
+    let (file, out) = (folder.text("out/tiny.atlas.safetensors"), folder.text("pictures"));
+    let datum = ["--phi0", "0.7", "--phi1", "1.4", "--kappa0", "0.4", "--kappa1", "4"];
+    let query: Vec<&str> = ["query", "--atlas", &file].into_iter().chain(datum).collect();
+    let readers = [vec!["info", &file], vec!["render", &file, "--out", &out], query];
+    for args in &readers {
+        fine(args);
+    }
+    let mut bytes = std::fs::read(&file).unwrap();
+    let last = bytes.len() - 1;
+    bytes[last] ^= 1;
+    std::fs::write(&file, bytes).unwrap();
+    for args in &readers {
+        let said = run(args);
+        assert_eq!((said.code, &said.out[..]), (Some(2), ""), "{args:?}");
+        assert!(said.err.contains("the BLAKE3 of `solutions` is"), "{args:?}: {}", said.err);
+    }
+}
+
+/// A million samples are printed as they come: all of the text would be some 160 MB, and its parts in memory several
+/// times that.
+#[cfg(target_os = "linux")]
+#[test]
+fn many_samples_take_little_memory() {
+    let curve =
+        "curve --from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg --start-curvature 0.004 --end-curvature 0.04";
+    for form in ["--json", "--csv", ""] {
+        let limited =
+            format!("ulimit -v 200000 && exec {} {curve} --samples 1000000 {form} | wc -l", env!("CARGO_BIN_EXE_spiral-atlas"));
+        let said: super::Said = Command::new("sh").args(["-c", &limited]).output().unwrap().into();
+        assert!(said.err.is_empty() && said.out.trim().parse::<u32>().unwrap() > 1_000_000, "{form}: {} {}", said.out, said.err);
+    }
+}

@@ -148,3 +148,34 @@ fn info_tells_what_an_atlas_holds() {
     let flags = blake3::hash(&bytes[bytes.len() - 2 * TINY_NODES..bytes.len() - TINY_NODES]);
     assert_eq!(json["blake3"]["flags"], flags.to_hex().as_str());
 }
+
+/// Sizes without room, and letters that the font lacks, are told before anything is made; the size that is advised
+/// works, and one hardly smaller than that does not.
+#[test]
+fn pictures_that_cannot_be_drawn_are_refused_before_the_work() {
+    let recipe = |more: &str| TINY.replacen("at = {", &format!("{more}\nat = {{"), 1);
+    let folder = Folder::new(&recipe("size = [240, 180]"));
+    let args = ["generate", &folder.text("recipe.toml"), "--out", &folder.text("out"), "--backend", "cpu"];
+    let line = 1 + recipe("size").lines().position(|line| line == "size").unwrap();
+    let said = run(args);
+    let place = format!("recipe.toml, line {line}: `tiny-1.png`: a picture of ");
+    assert!(said.code == Some(2) && said.err.contains(&place) && !folder.at("out").exists(), "{}", said.err);
+    let advised = said.err.split("such as `size = [").nth(1).unwrap().split("]`").next().unwrap();
+    let [width, height] = [0, 1].map(|i| advised.split(", ").nth(i).unwrap().parse::<f64>().unwrap());
+    let works = |scale: f64| {
+        let size = format!("size = [{}, {}]", (width * scale).round(), (height * scale).round());
+        std::fs::write(folder.at("recipe.toml"), recipe(&size)).unwrap();
+        run(args).code == Some(0)
+    };
+    assert!(works(1.0) && !works(0.9), "{advised}");
+    for more in ["title = \"螺旋\"", "mark = [{ kappa0 = 0.4, kappa1 = 4, label = \"螺\" }]"] {
+        std::fs::write(
+            folder.at("recipe.toml"),
+            recipe(more).replace("mark = [{ kappa0 = 0.4, kappa1 = 4, label = \"example 1\" }]", ""),
+        )
+        .unwrap();
+        let said = run(args);
+        let place = format!("line {}: `tiny-1.png`: the font has no letter `螺`", line - 3);
+        assert!(said.code == Some(2) && said.err.contains(&place), "{}", said.err);
+    }
+}

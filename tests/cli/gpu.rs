@@ -88,6 +88,21 @@ fn standard_error_is_silent_on_a_machine_without_a_display() {
     }
 }
 
+/// EGL, which is asked where Vulkan has nothing, has nothing to say where it has no driver.
+#[test]
+fn standard_error_is_silent_where_there_is_no_driver() {
+    let none = "/no/such/drivers";
+    let mut command = program();
+    command
+        .env("VK_DRIVER_FILES", none)
+        .env("VK_ICD_FILENAMES", none)
+        .env("LIBGL_DRIVERS_PATH", none)
+        .env_remove("EGL_LOG_LEVEL");
+    let said: Said = command.arg("adapters").output().unwrap().into();
+    assert_eq!((said.code, &said.err[..]), (Some(0), ""));
+    assert!(said.out.contains("there is no adapter"), "{}", said.out);
+}
+
 /// The workflow of docs/ci.md: what it runs of this program is run here, and it installs what `tests/setup` installs.
 #[test]
 fn the_workflow_of_the_page_about_ci_works() {

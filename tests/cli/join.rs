@@ -15,7 +15,7 @@ fn with_limit(arguments: &[&str]) -> super::Said {
 }
 
 fn kinds(json: &Value) -> Vec<&str> {
-    json["pieces"].as_array().unwrap().iter().map(|piece| piece["kind"].as_str().unwrap()).collect()
+    json["paths"][0]["pieces"].as_array().unwrap().iter().map(|piece| piece["kind"].as_str().unwrap()).collect()
 }
 
 #[test]
@@ -25,15 +25,15 @@ fn states_lines_and_circles_are_joined() {
     let said = with_limit(&["--from", "0,0,0deg", "--to", "8,6,90deg", "--figure", &figure, "--samples", "11"]).json();
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     assert_eq!(said["samples"].as_array().unwrap().len(), 11);
-    assert_eq!(said["samples"][10]["station"], said["length"]);
-    let arc = said["pieces"].as_array().unwrap().iter().find(|piece| piece["kind"] == "arc").unwrap();
+    assert_eq!(said["samples"][10]["station"], said["paths"][0]["length"]);
+    let arc = said["paths"][0]["pieces"].as_array().unwrap().iter().find(|piece| piece["kind"] == "arc").unwrap();
     assert!(arc["start"].is_array() && arc["direction"].is_number() && arc["curvature"] == 0.5 && arc["length"].is_number());
     let u = with_limit(&["--from-line", "0,0,0", "--to-line", "0,9,100deg", "--family", "ph-quintic"]).json();
     assert_eq!(kinds(&u), ["ph-quintic", "arc", "ph-quintic"]);
     let j = with_limit(&["--from-line=-3,0,0", "--to-circle", "0,4.2,4,left", "--most-pieces", "1"]).json();
     assert_eq!(kinds(&j), ["cubic"]);
     let s = with_limit(&["--from-circle", "0,0,4,left", "--to-circle", "12,0,3,right", "--objective", "greatest-rate"]).json();
-    let [low, high] = [0, 1].map(|i| s["curvature_range"][i].as_f64().unwrap());
+    let [low, high] = [0, 1].map(|i| s["paths"][0]["curvature_range"][i].as_f64().unwrap());
     assert!((low + 1.0 / 3.0).abs() < 1e-12 && (high - 0.25).abs() < 1e-12, "{low} {high}");
 }
 
@@ -52,7 +52,7 @@ fn no_join_is_an_answer() {
     let none = with_limit(&["--from", "0,0,0,0.7", "--to", "5,0,0"]);
     assert_eq!(none.code, Some(1));
     let none: Value = serde_json::from_str(&none.out).unwrap();
-    assert_eq!(none, json!({ "pieces": null, "reason": "the start curvature 0.7 is beyond the greatest curvature 0.5" }));
+    assert_eq!(none, json!({ "paths": [], "reason": "the start curvature 0.7 is beyond the greatest curvature 0.5" }));
     let one = with_limit(&["--from-line", "0,0,0", "--to-line", "5,0,0"]);
     assert!(one.code == Some(1) && one.out.contains("there is nothing to join"), "{}", one.out);
 }
@@ -76,11 +76,19 @@ fn a_request_stands_in_a_file() {
     circle["from"] = json!({ "line": { "point": [0, 0], "direction": 0 } });
     circle["to"] = json!({ "circle": { "centre": [9, 3], "radius": 2, "turn": "left" } });
     assert_eq!(piped(&["join", "-"], &circle.to_string()).code, Some(0));
+    // The curvature of a straight end is 0, and no rounding of it.
+    let ramp = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/ramp.toml");
+    let csv = fine(["join", ramp, "--samples", "21", "--csv"]).out;
+    assert!(csv.lines().last().unwrap().ends_with(",0.0"), "{csv}");
     for (path, value, what) in [
-        ("objective", json!("speed"), "objective: unknown variant `speed`"),
-        ("longset", json!(3), "longset: unknown field `longset`"),
-        ("from", json!({ "state": { "point": [0, 0] } }), "from.state: missing field `direction`"),
-        ("to", json!({ "pose": {} }), "to: unknown variant `pose`"),
+        (
+            "objective",
+            json!("speed"),
+            "objective must be one of `length`, `greatest-curvature`, `greatest-rate`, `bending-energy`; it is `speed`",
+        ),
+        ("longset", json!(3), "there is no field `longset`; known are `from`, `to`"),
+        ("from", json!({ "state": { "point": [0, 0] } }), "from.state lacks the field `direction`"),
+        ("to", json!({ "pose": {} }), "to must be one of `state`, `line`, `circle`; it is `pose`"),
     ] {
         let mut wrong = json.clone();
         wrong[path] = value;
@@ -100,9 +108,43 @@ fn tables_are_answered_row_by_row() {
     assert!(lines[1]["pieces"].is_null() && lines[1]["reason"].as_str().unwrap().contains("start curvature 1.0"));
     assert_eq!(lines[2], json!({ "line": 4, "error": "curvature0: \"x\" is no number" }));
     assert!(lines[3]["error"].as_str().unwrap().contains("start curvature is NaN"));
+    let told = piped(&["join", "--points", "-", "--greatest-curvature", "0.5", "--samples", "3", "--csv"], rows);
+    let table: Vec<&str> = told.out.lines().collect();
+    assert_eq!((told.code, table.len(), table[0]), (Some(2), 4, "row,station,x,y,heading,curvature"), "{}", told.err);
+    assert!(table[1].starts_with("1,0.0,0.0,0.0,0.0,") && table[3].starts_with("1,"), "{}", told.out);
+    let [two, three] = ["row 2: the start curvature 1.0 is beyond", "row 3, line 4: curvature0: \"x\" is no number"];
+    assert!(told.err.contains(two) && told.err.contains(three), "{}", told.err);
+    let sampled = piped(&["join", "--points", "-", "--greatest-curvature", "0.5", "--samples", "3"], rows);
+    let first: Value = serde_json::from_str(sampled.out.lines().next().unwrap()).unwrap();
+    assert_eq!(first["samples"][2]["station"], first["length"]);
     let fine = rows.lines().take(3).collect::<Vec<_>>().join("\n");
     let said = piped(&["join", "--points", "-", "--greatest-curvature", "0.5"], &fine);
     assert_eq!(said.code, Some(0));
+}
+
+/// One answer, lines of answers with a no and a bad row among them, and a path alone.
+#[test]
+fn joins_are_read_by_what_reads_paths() {
+    let one = with_limit(&["--from", "0,0,0", "--to", "8,6,90deg"]).out;
+    let length = serde_json::from_str::<Value>(&one).unwrap()["paths"][0]["length"].as_f64().unwrap();
+    let near = |measured: &Value| (measured.as_f64().unwrap() - length).abs() < 1e-12 * length;
+    let rows = "x0,y0,direction0,curvature0,x1,y1,direction1,curvature1\n0,0,0,0,8,6,90deg,0\n0,0,0,1,8,6,1,0\n0,0,0,x,8,6,1,0\n\
+                0,0,0,0,8,6,90deg,0\n";
+    let lines = piped(&["join", "--points", "-", "--greatest-curvature", "0.5"], rows).out;
+    let alone = lines.lines().next().unwrap();
+    for (input, count, note) in [(&one[..], 1, ""), (&lines, 2, "lines 2, 3 of standard input have no path"), (alone, 1, "")] {
+        let said = piped(&["path", "measure", "-"], input);
+        assert!(said.err.contains(note) && said.err.is_empty() == note.is_empty(), "{}", said.err);
+        let paths = said.json()["paths"].as_array().unwrap().clone();
+        assert!(paths.len() == count && paths.iter().all(|path| near(&path["length"])), "{paths:?}");
+        let road = piped(&["export", "opendrive", "-"], input);
+        assert_eq!((road.code, road.out.matches("<road ").count()), (Some(0), count), "{}", road.err);
+    }
+    let apart = piped(&["path", "separation", "-", "--minimum", "1"], &lines).json();
+    assert_eq!(apart["verdict"], "violated");
+    let broken = lines.replacen("\"kind\":\"arc\"", "\"kind\":\"ark\"", 2);
+    let said = piped(&["path", "measure", "-"], &broken);
+    assert!(said.code == Some(2) && said.err.contains("standard input: line 1: pieces["), "{}", said.err);
 }
 
 #[test]
@@ -119,6 +161,8 @@ fn mistakes_are_told() {
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--longest=-1"], "the longest length is -1.0"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "would be a PNG picture"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--csv"], "--samples"),
+        (vec!["--from", "0,0,0", "--to", "4e12,0,0"], "the ends are 2000000000000 least radii apart, where no join is sought"),
+        (vec!["--from-circle", "0,0,1e13,left", "--to-circle", "0,0,4,left"], "check the unit of length"),
         (vec!["request.toml"], "cannot be used with"),
     ] {
         let said = with_limit(&arguments);

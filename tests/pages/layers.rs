@@ -8,18 +8,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room of `src/` with the rooms that it may import.
-const ROOMS: [(&str, &[&str]); 18] = [
+const ROOMS: [(&str, &[&str]); 19] = [
     ("error", &[]),
     ("steps", &[]),
     ("files", &["error"]),
+    ("plain", &[]),
     ("num", &["steps", "error"]),
     ("plot", &["error"]),
     ("grid", &["num", "error"]),
     ("curve", &["num", "steps", "error"]),
     ("family", &["curve", "grid", "num", "steps", "error"]),
     ("eval", &["family", "grid", "num", "error"]),
-    ("recipe", &["family", "grid", "num", "files", "error"]),
-    ("atlas", &["eval", "recipe", "family", "grid", "num", "files", "error"]),
+    ("recipe", &["family", "grid", "num", "files", "plain", "error"]),
+    ("atlas", &["eval", "recipe", "family", "grid", "num", "files", "plain", "error"]),
     ("cells", &["atlas", "family", "grid", "files", "error"]),
     ("question", &["family", "num", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
@@ -44,6 +45,7 @@ const ROOMS: [(&str, &[&str]); 18] = [
             "grid",
             "num",
             "files",
+            "plain",
             "error",
         ],
     ),

@@ -185,3 +185,22 @@ fn what_cannot_be_searched_is_named() {
     says(Directions { start: [f64::INFINITY, 0.0], ..fine }, &["`start`", "inf"]);
     says(Directions { end_direction: f64::NAN, ..fine }, &["`end_direction`", "NaN"]);
 }
+
+/// A length so near the distance that a path would all but stand still at its ends has no curvature to tell: that is
+/// said.
+#[test]
+fn no_room_for_a_turn_is_no_path() {
+    for free in [Free::Length, Free::Derivatives] {
+        for length in [1.0 + f64::EPSILON, 1.0 + 4.0 * f64::EPSILON] {
+            match least_curvature(&ends(0.5, -0.5, length, free)) {
+                Err(spiral_atlas::Error::NoPath(why)) => {
+                    assert!(why.contains("all but stand still at their ends") && why.contains("allow more"), "{why}")
+                }
+                other => panic!("{other:?}"),
+            }
+            // A straight line stands still nowhere.
+            assert_eq!(check(&ends(0.0, 0.0, length, free)).greatest_curvature, 0.0);
+        }
+        check(&ends(0.5, -0.5, 1.00000001, free));
+    }
+}

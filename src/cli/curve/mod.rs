@@ -9,7 +9,7 @@ mod report;
 mod table;
 mod trig;
 
-use super::{Outcome, output};
+use super::{Outcome, numbers, output};
 use report::{Report, Wish};
 use serde::Serialize;
 use spiral_atlas::curve::Jet;
@@ -71,14 +71,14 @@ pub struct Args {
     #[arg(long, value_name = "ANGLE|DX,DY", value_parser = parse_direction, allow_hyphen_values = true)]
     end_direction: Option<f64>,
     /// Curvature at the start, 1 / length.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     start_curvature: Option<f64>,
     /// Curvature at the end, 1 / length.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     end_curvature: Option<f64>,
     /// A CSV file of ends for `cubic`, `ph-quintic` or `involute`, - for standard input. Columns, in any order: x0, y0, direction0, curvature0,
     /// x1, y1, direction1, curvature1.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["csv", "figure"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "figure")]
     points: Option<PathBuf>,
     /// How often an involute's image turns about its start and about its end.
     #[arg(long, value_name = "N1,N2", value_parser = parse_turns, help_heading = "For `involute`")]
@@ -90,31 +90,31 @@ pub struct Args {
     #[arg(long, value_parser = ["left", "right"], help_heading = REACH)]
     turn: Option<String>,
     /// Radius of its round end.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = REACH)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, help_heading = REACH)]
     radius: Option<f64>,
     /// How far it turns.
     #[arg(long, value_name = "ANGLE", value_parser = parse_angle, allow_hyphen_values = true, help_heading = REACH)]
     angle: Option<f64>,
     /// Shape m, instead of the end point.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = REACH)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, help_heading = REACH)]
     m: Option<f64>,
     /// Shape q, instead of the end point.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = REACH)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, help_heading = REACH)]
     q: Option<f64>,
     /// What is joined, in the direction of travel; `--from` is its start, for `s` and `c` the point between the spirals.
     #[arg(long, value_name = "NAME", value_parser = ["line-circle", "line-line", "s", "c", "circle-in-circle"], help_heading = TRIG)]
     template: Option<String>,
     /// s / tan(angle/2); left out: 6, or with --as-printed the paper's (6 + m)/2.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = TRIG)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, help_heading = TRIG)]
     ratio: Option<f64>,
     /// Shape p, from -4 to 1; left out: 0, and so is q.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = TRIG)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, help_heading = TRIG)]
     p: Option<f64>,
     /// Angle, radius, ratio, m, p, q of the second spiral; left out: as the first.
     #[arg(long, value_name = "ANGLE,RADIUS,RATIO,M,P,Q", value_parser = parse_second, allow_hyphen_values = true, help_heading = TRIG)]
     second: Option<[f64; 6]>,
     /// Radius of the outer circle, for `circle-in-circle`.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, help_heading = TRIG)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, help_heading = TRIG)]
     outer: Option<f64>,
     /// Scale the curve as the paper does, which misses the end curvature.
     #[arg(long, help_heading = TRIG)]
@@ -124,9 +124,9 @@ pub struct Args {
     longest: Option<f64>,
     /// Print so many points at equal lengths along the curve too, both ends included: station (length from the start), x, y, heading
     /// (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
-    /// Print the samples as CSV, and nothing else.
+    /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
     #[arg(long, requires = "samples", conflicts_with = "json")]
     csv: bool,
     /// Draw the curve with its polygon and end circles, its curvature and the derivative of that.
@@ -203,7 +203,7 @@ impl Args {
         match (self.json, self.csv) {
             (true, _) => output::print_json(&report)?,
             (_, true) => report.csv()?,
-            _ => output::print(&report.text())?,
+            _ => report.text()?,
         }
         let Some(path) = &self.figure else { return Ok(report.outcome()) };
         match found.figure() {

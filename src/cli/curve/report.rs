@@ -8,6 +8,7 @@ use spiral_atlas::path::{Course, Summary};
 use spiral_atlas::transition::segment::Request;
 use spiral_atlas::transition::{self, Ends, Fit, Piece, Station, fit};
 use spiral_atlas::{Error, Result};
+use std::io::Write;
 
 /// An answer as JSON.
 #[derive(Debug, Serialize)]
@@ -100,18 +101,20 @@ impl<'f, F: Found> Report<'f, F> {
         if self.reason.is_some() { Outcome::Bad } else { Outcome::Fine }
     }
 
-    /// All of it in words.
-    pub fn text(&self) -> String {
+    /// Prints all of it in words.
+    pub fn text(&self) -> Result<()> {
         let mut text = match &self.reason {
             Some(reason) if self.found.spirals().is_ok() => format!("{reason}\n"),
             _ => self.found.text(),
         };
         text += &self.others.as_ref().map_or(String::new(), Others::advice);
-        if let Some(samples) = self.samples.as_ref().filter(|samples| !samples.is_empty()) {
-            text += "\n";
-            text += output::table(samples, ", ").trim_end();
-        }
-        text + "\n"
+        output::stream(|out| {
+            writeln!(out, "{text}")?;
+            match self.samples.as_ref().filter(|samples| !samples.is_empty()) {
+                Some(samples) => output::table(out, samples, ", "),
+                None => Ok(()),
+            }
+        })
     }
 
     /// The samples alone, as CSV; without any, the reason goes to standard error.
@@ -121,7 +124,7 @@ impl<'f, F: Found> Report<'f, F> {
                 output::note(reason);
                 Ok(())
             }
-            None => output::print(&output::table(self.samples.as_deref().unwrap_or_default(), ",")),
+            None => output::stream(|out| output::table(out, self.samples.as_deref().unwrap_or_default(), ",")),
         }
     }
 }

@@ -14,19 +14,25 @@ const COLUMNS: [&str; 8] = ["x0", "y0", "direction0", "curvature0", "x1", "y1", 
 /// Answers for every row of a file, or of standard input for `-`.
 pub fn run(args: &Args, path: &Path) -> Result<Outcome> {
     let wish = args.wish();
-    let line = |cells: &[&str]| {
-        let ends = ends(cells)?;
+    points::run(path, &[&COLUMNS], args.csv, |row| {
+        let ends = ends(row.cells)?;
         match args.family {
-            Family::PhQuintic => report(&ph_spiral(&ends)?.no_longer_than(wish.longest()), wish),
-            Family::Involute => report(&involute::find(&ends, args.turns.unwrap_or_default())?, wish),
-            _ => report(&spiral(&ends)?.no_longer_than(wish.longest()), wish),
+            Family::PhQuintic => args.row(row, &ph_spiral(&ends)?.no_longer_than(wish.longest()), wish),
+            Family::Involute => args.row(row, &involute::find(&ends, args.turns.unwrap_or_default())?, wish),
+            _ => args.row(row, &spiral(&ends)?.no_longer_than(wish.longest()), wish),
         }
-    };
-    points::run(path, &[&COLUMNS], |_, cells| line(cells))
+    })
 }
 
-fn report(found: &impl Found, wish: Wish) -> Result<Vec<u8>> {
-    serde_json::to_vec(&Report::new(found, wish)?).map_err(output::json_error)
+impl Args {
+    /// What is printed for a row.
+    fn row(&self, row: &points::Row, found: &impl Found, wish: Wish) -> Result<Vec<u8>> {
+        let report = Report::new(found, wish)?;
+        if self.csv {
+            return row.table(report.samples.as_deref().unwrap_or_default(), report.reason.as_deref());
+        }
+        serde_json::to_vec(&report).map_err(output::json_error)
+    }
 }
 
 /// The ends of a row.

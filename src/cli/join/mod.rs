@@ -4,11 +4,11 @@ mod parse;
 mod request;
 
 use super::path::figure::{SAMPLES, drawn};
-use super::{Outcome, output, points};
+use super::{Outcome, numbers, output, points};
 use parse::{COLUMNS, states};
 use spiral_atlas::Result;
+use spiral_atlas::transition::Station;
 use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
-use spiral_atlas::transition::{Station, stations};
 use std::path::PathBuf;
 
 /// Join two states, or two lines and circles, by few spirals, arcs and lines, within a limit of curvature.
@@ -20,9 +20,10 @@ use std::path::PathBuf;
 /// Position, direction and curvature of the path are continuous. The curvature of each piece is monotone, proved, so
 /// the limit that the pieces' ends keep holds everywhere. The join is the best of those tried, not of all.
 ///
-/// Prints {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,"bending_energy":..,"pieces":[..]},
-/// where a rate is dκ/ds, or {"pieces":null,"reason":".."}. With --points, one such line for each row, in order; a bad
-/// row gives {"line":..,"error":".."}.
+/// Prints {"paths":[path]} with the path {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,
+/// "bending_energy":..,"pieces":[..]}, where a rate is dκ/ds, or {"paths":[],"reason":".."}. With --points, for each
+/// row in order a line with the path alone, or {"pieces":null,"reason":".."}; a bad row gives {"line":..,"error":".."}.
+/// `path measure` and `export opendrive` read all of it.
 ///
 /// Exit status: 0 when there is a join, 1 when none was found, 2 for an error. With --points it is 0 when every row was
 /// answered, whatever the answers, and 2 when one was bad.
@@ -63,7 +64,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "goal", "figure"], help_heading = ENDS)]
     points: Option<PathBuf>,
     /// Greatest curvature allowed, 1 / length: one over the least radius.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     greatest_curvature: Option<f64>,
     /// What kind of spirals.
     #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = parse::named::<Family>(&["cubic", "ph-quintic", "involute", "trig-quintic"]))]
@@ -72,16 +73,16 @@ pub struct Args {
     #[arg(long, value_name = "NAME", default_value = "length", value_parser = parse::named::<Objective>(&OBJECTIVES))]
     objective: Objective,
     /// A join longer than this counts as none; in your unit of length.
-    #[arg(long, value_name = "LENGTH", default_value_t = f64::INFINITY, hide_default_value = true, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::number, default_value_t = f64::INFINITY, hide_default_value = true, allow_hyphen_values = true)]
     longest: f64,
     /// Most pieces allowed.
-    #[arg(long, value_name = "N", default_value_t = Request::MOST_PIECES)]
-    most_pieces: usize,
+    #[arg(long, value_name = "N", value_parser = numbers::count::<0, 1000>, default_value_t = Request::MOST_PIECES as u32)]
+    most_pieces: u32,
     /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from
     /// the start), x, y, heading (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000), conflicts_with = "points")]
+    #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
-    /// Print the samples as CSV, and nothing else.
+    /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
     #[arg(long, requires = "samples")]
     csv: bool,
     /// Draw the path and its curvature.
@@ -95,6 +96,16 @@ const OBJECTIVES: [&str; 4] = ["length", "greatest-curvature", "greatest-rate", 
 /// What is printed of a single join.
 #[derive(serde::Serialize)]
 struct Told<'a> {
+    paths: Vec<&'a Join>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<Vec<Station>>,
+}
+
+/// What is printed of a join in a table.
+#[derive(serde::Serialize)]
+struct Line<'a> {
     #[serde(flatten)]
     found: &'a join::Outcome,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -108,9 +119,14 @@ pub fn run(args: &Args) -> Result<Outcome> {
         // A limit or a length that is none spoils every row alike: it is told once.
         let nowhere = State { point: [0.0, 0.0], direction: 0.0, curvature: 0.0 };
         join::join(&args.request(nowhere.into(), State { point: [1.0, 0.0], ..nowhere }.into()))?;
-        return points::run(path, &[&COLUMNS], |_, cells| {
-            let [from, to] = states(cells)?;
-            serde_json::to_vec(&join::join(&args.request(from, to))?).map_err(output::json_error)
+        return points::run(path, &[&COLUMNS], args.csv, |row| {
+            let [from, to] = states(row.cells)?;
+            let found = join::join(&args.request(from, to))?;
+            let samples = args.samples(&found)?;
+            if args.csv {
+                return row.table(&samples.unwrap_or_default(), reason(&found));
+            }
+            serde_json::to_vec(&Line { found: &found, samples }).map_err(output::json_error)
         });
     }
     let request = match &args.request {
@@ -121,11 +137,11 @@ pub fn run(args: &Args) -> Result<Outcome> {
         ),
     };
     let found = join::join(&request)?;
-    let samples = args.samples.zip(found.join()).map(|(n, join)| stations(&join.pieces, n as usize)).transpose()?;
-    match (&found, &samples) {
-        (join::Outcome::None(reason), _) if args.csv => output::note(reason),
-        (_, Some(samples)) if args.csv => output::print(&output::table(samples, ","))?,
-        _ => output::print_json(&Told { found: &found, samples })?,
+    let samples = args.samples(&found)?;
+    match (reason(&found), &samples) {
+        (Some(reason), _) if args.csv => output::note(reason),
+        (None, Some(samples)) if args.csv => output::stream(|out| output::table(out, samples, ","))?,
+        (reason, _) => output::print_json(&Told { paths: found.join().into_iter().collect(), reason, samples })?,
     }
     let Some(join) = found.join() else { return Ok(Outcome::Bad) };
     if let Some(path) = &args.figure {
@@ -139,17 +155,30 @@ fn missing(end: &str) -> ! {
     super::refuse(&format!("one of `--{end}`, `--{end}-line` and `--{end}-circle` is needed, or `--points`, or a file"))
 }
 
+/// Why there is no join.
+fn reason(found: &join::Outcome) -> Option<&str> {
+    match found {
+        join::Outcome::Join(_) => None,
+        join::Outcome::None(reason) => Some(reason),
+    }
+}
+
 impl Args {
+    /// The samples that are asked for, where there is a join.
+    fn samples(&self, found: &join::Outcome) -> Result<Option<Vec<Station>>> {
+        self.samples.zip(found.join()).map(|(n, join)| join.stations(n as usize)).transpose()
+    }
+
     fn request(&self, from: End, to: End) -> Request {
         let limit = self.greatest_curvature.unwrap_or_else(|| super::refuse("`--greatest-curvature` is needed"));
         let Args { family, objective, longest, most_pieces, .. } = *self;
-        Request { family, objective, longest, most_pieces, ..Request::new(from, to, limit) }
+        Request { family, objective, longest, most_pieces: most_pieces as usize, ..Request::new(from, to, limit) }
     }
 }
 
 /// The path, and its curvature over the length.
 fn figure(join: &Join) -> Result<Vec<u8>> {
-    let all = stations(&join.pieces, SAMPLES)?;
+    let all = join.stations(SAMPLES)?;
     let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
     let (lines, arcs) = (kinds("line"), kinds("arc"));
     let spirals = join.pieces.len() - lines - arcs;

@@ -49,12 +49,13 @@ pub fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
 }
 
 /// Paths with their curvatures and offset curves.
-pub fn measured(courses: &[Course], offset: Option<f64>) -> Result<Vec<u8>> {
+pub fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f64>) -> Result<Vec<u8>> {
+    let courses: Vec<&Course> = courses.collect();
     let all = courses.iter().map(|course| course.stations(SAMPLES)).collect::<Result<Vec<_>>>()?;
     let each = |f: &dyn Fn(&Station) -> [f64; 2]| all.iter().map(|path| path.iter().map(f).collect()).collect();
     let offsets = offset.map_or(vec![], |d| each(&|s| s.beside(d)));
-    let length: f64 = courses.iter().map(Course::length).sum();
-    let title = if let [_] = courses { format!("A path of length {length:.6}") } else { format!("{} paths", courses.len()) };
+    let length: f64 = courses.iter().map(|course| course.length()).sum();
+    let title = if let [_] = courses[..] { format!("A path of length {length:.6}") } else { format!("{} paths", courses.len()) };
     let note = offset.map_or("dots: starts".into(), |d| format!("dots: starts; the other colours: at distance {d}"));
     drawn(each(&|s| [s.x, s.y]), each(&|s| [s.station, s.curvature]), offsets, &title, &note)
 }

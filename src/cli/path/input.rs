@@ -1,8 +1,9 @@
-//! Reads input by the names of its fields, and tells mistakes by their paths.
+//! Reads input by the names of its fields, and tells mistakes by their paths, in plain words.
 
 use serde::de::value::{Error as Unread, MapAccessDeserializer};
 use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
+use spiral_atlas::plain;
 use spiral_atlas::recipe::parse_angle;
 use std::fmt;
 use std::marker::PhantomData;
@@ -14,24 +15,22 @@ use std::marker::PhantomData;
 pub fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> std::result::Result<T, String> {
     if toml {
         // As a table first: read from the text, `[0, 0, 1]` would be taken for a point.
-        return at_path(toml::from_str::<toml::Table>(text).map_err(|e| e.to_string())?);
+        let table = toml::from_str::<toml::Table>(text).map_err(|e| plain::toml(text, e.span(), e.message()))?;
+        return at_path(table, |path, e: &toml::de::Error| plain::value(path, e.message()));
     }
     let mut json = serde_json::Deserializer::from_str(text);
-    let value = at_path(&mut json)?;
-    json.end().map_err(|e| e.to_string())?;
+    let value = at_path(&mut json, plain::json)?;
+    json.end().map_err(|e| plain::json("", &e))?;
     Ok(value)
 }
 
-fn at_path<'de, T: Deserialize<'de>, D: Deserializer<'de, Error: fmt::Display>>(from: D) -> std::result::Result<T, String> {
+fn at_path<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    from: D,
+    told: impl Fn(&str, &D::Error) -> String,
+) -> std::result::Result<T, String> {
     let read: std::result::Result<Named<T>, _> = serde_path_to_error::deserialize(from);
-    read.map(|named| named.0).map_err(|e| {
-        let (path, what) = (e.path().to_string(), e.inner().to_string());
-        // It ends with `?` where there is no key yet.
-        match path.trim_end_matches(['.', '?']) {
-            "" => what,
-            path => format!("{path}: {}", what.trim_end()),
-        }
-    })
+    // A path ends with `?` where there is no key yet.
+    read.map(|named| named.0).map_err(|e| told(e.path().to_string().trim_end_matches(['.', '?']), e.inner()))
 }
 
 /// Objects in a list: [`Named`], each.
@@ -55,7 +54,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let names = T::deserialize(Names).err();
-        write!(f, "an object with {}", names.map_or("fields".into(), |names| names.to_string()))
+        write!(f, "an object with the fields {}", names.map_or("fields".into(), |names| names.to_string()))
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> std::result::Result<T, A::Error> {
@@ -90,14 +89,31 @@ impl<'de> Deserializer<'de> for Names {
 
 /// An angle: a number, or text like `40deg`.
 pub fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
-    #[derive(Deserialize)]
-    #[serde(untagged, expecting = "expected an angle: a number of radians, or text like \"40deg\"")]
-    enum Angle {
-        Number(f64),
-        Text(String),
+    struct Angle;
+
+    impl Visitor<'_> for Angle {
+        type Value = f64;
+
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            write!(f, "an angle, a number of radians or a text like \"40deg\"")
+        }
+
+        fn visit_f64<E: serde::de::Error>(self, x: f64) -> std::result::Result<f64, E> {
+            Ok(x)
+        }
+
+        fn visit_i64<E: serde::de::Error>(self, x: i64) -> std::result::Result<f64, E> {
+            Ok(x as f64)
+        }
+
+        fn visit_u64<E: serde::de::Error>(self, x: u64) -> std::result::Result<f64, E> {
+            Ok(x as f64)
+        }
+
+        fn visit_str<E: serde::de::Error>(self, text: &str) -> std::result::Result<f64, E> {
+            parse_angle(text).map_err(E::custom)
+        }
     }
-    match Angle::deserialize(from)? {
-        Angle::Number(x) => Ok(x),
-        Angle::Text(text) => parse_angle(&text).map_err(serde::de::Error::custom),
-    }
+
+    from.deserialize_any(Angle)
 }

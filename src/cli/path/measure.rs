@@ -1,16 +1,19 @@
 //! `path measure`.
 
 use super::{Files, Outcome, figure};
-use crate::cli::output;
+use crate::cli::{numbers, output};
 use serde::Serialize;
 use spiral_atlas::path::{Course, OffsetCurve, Spot, Summary};
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
+use std::io::Write;
 
 /// Tell of paths: points at equal steps of arc length, where the curvature is extreme and where it changes its sign, and offset curves.
 ///
-/// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools and `curve --json` print it; other fields are left out of account.
-/// Pieces of all kinds are read. A `station` is the length from the start of the path, a `parameter` that of the piece.
+/// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools, `join` and `curve --json` print it, or a line
+/// of JSON for each of several, as with --points; lines without a path are told on standard error, and not counted.
+/// Other fields are left out of account. Pieces of all kinds are read. A `station` is the length from the start of the
+/// path, a `parameter` that of the piece.
 ///
 /// The offset of a PH quintic is exact, rational of degree 9: at parameter t it is the Bernstein form `numerator` divided by the form
 /// `weight`. Of other pieces it is given by `points`.
@@ -24,13 +27,13 @@ pub struct Args {
     #[command(flatten)]
     files: Files,
     /// Tell so many points at equal steps of length, both ends included: station (length from the start), x, y, heading (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else.
     #[arg(long, requires = "samples")]
     csv: bool,
     /// Distance of an offset curve, positive to the left.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     offset: Option<f64>,
 }
 
@@ -60,30 +63,23 @@ fn measured(course: &Course, args: &Args) -> Result<Measured> {
     })
 }
 
-/// Rows of samples; a field is empty where the path stands still.
-fn rows(paths: &[Vec<Station>]) -> String {
-    let cell = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
-    let row = |i: usize, s: &Station| {
-        let cells = s.numbers().map(cell).join(",");
-        format!("{i},{cells}\n")
-    };
-    let rows = paths.iter().enumerate().flat_map(|(i, samples)| samples.iter().map(move |s| row(i, s)));
-    std::iter::once(format!("path,{}\n", Station::COLUMNS.join(","))).chain(rows).collect()
-}
-
 pub fn run(args: &Args) -> Result<Outcome> {
     if let Some(d) = args.offset.filter(|d| !d.is_finite()) {
         return Err(Error::Domain(format!("--offset is {d:?}; it must be a finite number")));
     }
     let courses = args.files.courses()?;
-    let blame = |i: usize, e: Error| args.files.blame(Error::Domain(format!("paths[{i}]: {e}")));
-    let figure = || figure::measured(&courses, args.offset);
+    let blame = |place: &str, e: Error| args.files.blame(Error::Domain(format!("{place}: {e}")));
+    let figure = || figure::measured(courses.iter().map(|(_, course)| course), args.offset);
     if let Some(count) = args.samples.filter(|_| args.csv) {
-        let samples = courses.iter().enumerate().map(|(i, course)| course.stations(count as usize).map_err(|e| blame(i, e)));
-        output::print(&rows(&samples.collect::<Result<Vec<_>>>()?))?;
+        let samples = courses.iter().map(|(place, course)| course.stations(count as usize).map_err(|e| blame(place, e)));
+        let samples = samples.collect::<Result<Vec<_>>>()?;
+        output::stream(|out| {
+            writeln!(out, "path,{}", Station::COLUMNS.join(","))?;
+            (0..).zip(&samples).try_for_each(|(i, samples)| output::rows(out, &format!("{i},"), samples, ","))
+        })?;
         return args.files.draw(figure);
     }
-    let paths = courses.iter().enumerate().map(|(i, course)| measured(course, args).map_err(|e| blame(i, e)));
+    let paths = courses.iter().map(|(place, course)| measured(course, args).map_err(|e| blame(place, e)));
     let output = Output { paths: paths.collect::<Result<_>>()? };
     args.files.finish(&output, figure)
 }

@@ -8,24 +8,25 @@ mod least_curvature;
 mod measure;
 mod plan;
 mod separation;
+mod source;
 mod spline;
 
 use super::{Outcome, output};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+pub(super) use source::Source;
 use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::Course;
-use spiral_atlas::transition::Piece;
 use spiral_atlas::{Error, Result};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Plan paths of Pythagorean-hodograph quintics: through ends, through points, of equal length,
 /// among obstacles, and apart from each other.
 ///
 /// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others print has `paths`,
-/// which `separation` and `measure` read; `measure` reads what `curve --json` prints, too. Any unit of length;
-/// angles are radians, or degrees when written like "40deg".
+/// which `separation` and `measure` read, and so they read what `curve --json` and `join` print, also with --points.
+/// Any unit of length; angles are radians, or degrees when written like "40deg".
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
@@ -59,51 +60,6 @@ pub fn run(args: &Args) -> Result<Outcome> {
     }
 }
 
-/// Longest input in bytes: a million pieces have 200 MiB.
-const MAX_INPUT: u64 = 1 << 28;
-
-/// A file of paths.
-#[derive(clap::Args)]
-pub(super) struct Source {
-    /// JSON file, TOML file named .toml, or `-` for JSON from standard input.
-    input: PathBuf,
-}
-
-/// Given as all tools print them; other fields are left out of account.
-#[derive(Deserialize)]
-struct Given {
-    #[serde(deserialize_with = "input::objects")]
-    paths: Vec<GivenPath>,
-}
-
-#[derive(Deserialize)]
-struct GivenPath {
-    #[serde(deserialize_with = "input::objects")]
-    pieces: Vec<Piece>,
-}
-
-impl Source {
-    /// What stands in the input.
-    fn read<T: DeserializeOwned>(&self) -> Result<T> {
-        let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
-        input::parse(&text, output::has_extension(&self.input, "toml")).map_err(|e| self.blame(Error::Domain(e)))
-    }
-
-    /// The paths in the input.
-    pub fn courses(&self) -> Result<Vec<Course>> {
-        let named = |(i, path): (usize, GivenPath)| {
-            Course::new(path.pieces).map_err(|e| self.blame(Error::Domain(format!("paths[{i}]: {e}"))))
-        };
-        self.read::<Given>()?.paths.into_iter().enumerate().map(named).collect()
-    }
-
-    /// An error of what was read here.
-    pub fn blame(&self, error: Error) -> Error {
-        let name = if self.input == Path::new("-") { "standard input".into() } else { self.input.display().to_string() };
-        Error::Domain(format!("{name}: {error}"))
-    }
-}
-
 /// What a tool works on and where it draws.
 #[derive(clap::Args)]
 struct Files {
@@ -121,8 +77,14 @@ impl Files {
         self.source.read()
     }
 
-    /// The paths in the input.
-    fn courses(&self) -> Result<Vec<Course>> {
+    /// The paths in the input, each with its place for messages.
+    fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
+        output::check_figure(self.figure.as_deref())?;
+        self.source.paths()
+    }
+
+    /// The same, ready to be measured.
+    fn courses(&self) -> Result<Vec<(String, Course)>> {
         output::check_figure(self.figure.as_deref())?;
         self.source.courses()
     }

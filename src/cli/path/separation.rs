@@ -2,6 +2,7 @@
 
 use super::input::objects;
 use super::{Files, Outcome, figure};
+use crate::cli::numbers;
 use serde::{Deserialize, Serialize};
 use spiral_atlas::path::{Motion, Separation, Verdict, separations};
 use spiral_atlas::transition::Piece;
@@ -9,8 +10,9 @@ use spiral_atlas::{Error, Result};
 
 /// Prove whether vehicles keep a minimum distance at all times, and tell how near they come.
 ///
-/// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools and `curve --json` print it;
-/// pieces are of all kinds but `involute`, and other fields are left out of account. `verdict` is `kept`, `violated` or
+/// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools, `join` and `curve
+/// --json` print it, or a line of JSON for each of several, as with --points; pieces are of all kinds but `involute`,
+/// and other fields are left out of account. `verdict` is `kept`, `violated` or
 /// `undecided`: within rounding of the minimum.
 ///
 /// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit
@@ -23,14 +25,8 @@ pub struct Args {
     #[command(flatten)]
     files: Files,
     /// The distance to keep.
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     minimum: f64,
-}
-
-#[derive(Deserialize)]
-struct Input {
-    #[serde(deserialize_with = "objects")]
-    paths: Vec<Path>,
 }
 
 #[derive(Deserialize)]
@@ -68,13 +64,13 @@ fn motion(path: Path) -> Result<Motion> {
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
-    let input: Input = args.files.read()?;
+    let paths: Vec<(String, Path)> = args.files.paths()?;
     let blame = |e| args.files.blame(e);
-    if input.paths.len() < 2 {
-        return Err(blame(Error::Domain(format!("`paths` has {} paths; it takes two to be apart", input.paths.len()))));
+    if paths.len() < 2 {
+        return Err(blame(Error::Domain(format!("`paths` has {} paths; it takes two to be apart", paths.len()))));
     }
-    let named = |(i, path): (usize, Path)| motion(path).map_err(|e| blame(Error::Domain(format!("paths[{i}]: {e}"))));
-    let motions = input.paths.into_iter().enumerate().map(named).collect::<Result<Vec<_>>>()?;
+    let named = |(place, path): (String, Path)| motion(path).map_err(|e| blame(Error::Domain(format!("{place}: {e}"))));
+    let motions = paths.into_iter().map(named).collect::<Result<Vec<_>>>()?;
     let found = separations(&motions, args.minimum)?;
     let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);
     let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);

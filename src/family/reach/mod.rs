@@ -11,6 +11,7 @@
 //! - Cases 3 and 4 are unions over angles: a kind of picture (`union`), not flags, because a flag must be a fact about its node.
 
 mod angle;
+mod curve;
 mod exact;
 mod filter;
 mod poly;
@@ -19,6 +20,7 @@ mod shader;
 mod solve;
 mod table;
 
+pub(crate) use curve::{legs, preimage};
 pub use solve::{Datum, Level, Reached, Segment, level_of_shape, solve};
 
 use super::{About, Answer, Chart, Family, Flag, Region, Scalar, Table, Value, coordinates, verdict};
@@ -157,15 +159,19 @@ impl Family for Reach {
     }
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;
-        let reached = solve(self.0, &Datum::from(*coordinates(point)?))?;
-        let solution = |(case, segment): (u32, Segment)| {
-            vec![
-                ("case", Value::Whole(case)),
+        let datum = Datum::from(*coordinates(point)?);
+        let reached = solve(self.0, &datum)?;
+        let solution = |(case, segment): (u8, Segment)| {
+            let length = curve::length(self.0, case, datum.theta, segment.m, segment.q);
+            let values = vec![
+                ("case", Value::Whole(case.into())),
                 ("m", segment.m.into()),
                 ("q", segment.q.into()),
                 ("spiral", (segment.level >= Level::Exact).into()),
                 ("level", Value::Word(segment.level.name())),
-            ]
+            ];
+            // The verdict stands where the length leaves the range of doubles.
+            values.into_iter().chain(length.is_finite().then(|| ("length", length.into()))).collect()
         };
         let cases = [(1, reached.case1), (2, reached.case2)];
         let found = cases.into_iter().filter_map(|(case, segment)| Some((case, segment?)));

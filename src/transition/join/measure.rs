@@ -33,12 +33,17 @@ pub struct Measures {
     pub bending_energy: f64,
 }
 
+/// The curvature of a piece's end, where a rounding of a straight one is 0.
+pub(super) fn without_noise(curvature: f64, limit: f64) -> f64 {
+    if curvature.abs() <= limit * NOISE { 0.0 } else { curvature }
+}
+
 impl Measures {
     pub(super) fn of(pieces: &[Piece], limit: f64) -> Measures {
-        let within = |k: f64| match k.abs() {
-            size if size <= limit * NOISE => 0.0,
-            size if size <= limit * (1.0 + ROUNDING) => k.clamp(-limit, limit),
-            _ => k,
+        let within = |k: f64| match without_noise(k, limit) {
+            0.0 => 0.0,
+            k if k.abs() <= limit * (1.0 + ROUNDING) => k.clamp(-limit, limit),
+            k => k,
         };
         let curvature = |piece: &Piece, t: f64| jet(piece, t).map_or_else(|| piece.at(t).curvature, |jet| jet.curvature());
         let curvatures = pieces.iter().flat_map(|p| p.range().map(|t| within(curvature(p, t))));

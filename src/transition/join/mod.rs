@@ -44,7 +44,7 @@ mod states;
 mod turns;
 
 use crate::curve::vector::{length, scale, sub};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::num::told;
 use best::Best;
 
@@ -62,8 +62,9 @@ const FARTHEST: f64 = 1e12;
 /// join is the best of those tried, not of all.
 ///
 /// # Errors
-/// [`crate::Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a
-/// line or a circle, and where lengths leave the range of doubles. That there is no join is no error.
+/// [`Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a
+/// line or a circle, where the ends are more than 1e12 least radii apart or circles larger than that, and where lengths
+/// leave the range of doubles. That there is no join is no error.
 pub fn join(request: &Request) -> Result<Outcome> {
     request.check()?;
     let limit = request.greatest_curvature;
@@ -75,7 +76,11 @@ pub fn join(request: &Request) -> Result<Outcome> {
     let far = [("the ends are", apart), ("the start radius is", radii(&request.from)), ("the end radius is", radii(&request.to))];
     if let Some((what, far)) = far.into_iter().find(|(_, far)| far.is_nan() || *far > FARTHEST) {
         let apart = if what == "the ends are" { " apart" } else { "" };
-        return Ok(Outcome::None(format!("{what} {} least radii{apart}; joins are sought up to 1e12", told(far))));
+        return Err(Error::Domain(format!(
+            "{what} {} least radii{apart}, where no join is sought: doubles have no digits left for spirals beyond 1e12 least radii (one \
+             over the greatest curvature); check the unit of length",
+            told(far)
+        )));
     }
     let mut best = Best::new(request);
     let none = tried(request, &mut best)?;

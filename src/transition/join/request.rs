@@ -2,7 +2,8 @@
 
 use super::super::Turn;
 use super::super::piece::Piece;
-use super::measure::Measures;
+use super::super::stations::{Station, stations};
+use super::measure::{Measures, without_noise};
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 
@@ -194,6 +195,19 @@ pub struct Join {
 impl Join {
     pub(super) fn new(pieces: Vec<Piece>, limit: f64) -> Join {
         Join { measures: Measures::of(&pieces, limit), pieces }
+    }
+
+    /// `count` points at equal lengths: [`stations`], where the curvature of a straight joint or end is 0 and not a
+    /// rounding of it.
+    ///
+    /// # Errors
+    /// Those of [`stations`].
+    pub fn stations(&self, count: usize) -> Result<Vec<Station>> {
+        let mut all = stations(&self.pieces, count)?;
+        for station in &mut all {
+            station.curvature = without_noise(station.curvature, self.measures.greatest_curvature);
+        }
+        Ok(all)
     }
 }
 

@@ -19,7 +19,7 @@ fn looks_are_read_or_refused() {
     let cases = [
         ("size = [800]", "`size` has 1 numbers; it is a list of two"),
         ("size = [800, 600, 2]", "`size` has 3 numbers"),
-        ("size = [800, 0]", "`size` is 800 x 0 pixels; it must be at least 240 x 180"),
+        ("size = [800, 0]", "`size` is 800 x 0 pixels; both must be above 0"),
         ("size = [100000, 100000]", "100000 x 100000 pixels; the product must be at most 33554432"),
         ("size = [800, -600]", "`size` has [800, -600], but it takes two whole numbers of pixels such as `[800, 600]`"),
         ("size = [800, 600.5]", "`size` has [800, 600.5], but it takes two whole numbers of pixels"),

@@ -1,0 +1,219 @@
+//! Complaints of the readers of JSON and TOML as sentences: where, what must stand there, and what does.
+//!
+//! Serde's messages have few forms and speak of Rust's types; tests hold the sentences to them.
+
+use std::ops::Range;
+
+/// Most characters of a value that are quoted.
+const QUOTED: usize = 60;
+
+/// A complaint of JSON's reader about the value at a path such as `paths[1].start`; an empty path is the whole text.
+pub fn json(path: &str, error: &serde_json::Error) -> String {
+    use serde_json::error::Category;
+    let told = error.to_string();
+    let what = told.rfind(" at line ").map_or(&told[..], |end| &told[..end]);
+    let place = format!("line {}, column {}", error.line(), error.column());
+    let at = if path.is_empty() { String::new() } else { format!(", at {path}") };
+    match error.classify() {
+        _ if what == "trailing characters" && !path.is_empty() => format!("{path} has more values than belong there ({place})"),
+        _ if what == "number out of range" => {
+            let whose = if path.is_empty() { "a number" } else { path };
+            format!("{whose} is beyond the range of doubles, which ends at 1.8e308 ({place})")
+        }
+        Category::Data if error.line() == 0 => value(path, what),
+        Category::Data => format!("{} ({place})", value(path, what)),
+        Category::Eof if error.line() <= 1 && error.column() == 0 => "it is empty, where JSON must stand".into(),
+        Category::Eof => format!("it ends in the middle of its JSON ({place}{at}); is it cut off?"),
+        Category::Syntax | Category::Io => format!("it is not JSON ({place}{at}): {}", syntax(what)),
+    }
+}
+
+/// A complaint of TOML's reader about the text: what the reader says, with the line and column of the bytes that are to
+/// blame.
+pub fn toml(text: &str, at: Option<Range<usize>>, message: &str) -> String {
+    let what = syntax(message);
+    match at.and_then(|at| text.get(..at.start)) {
+        None => format!("it is not TOML: {what}"),
+        Some(before) => {
+            let (line, column) = place(before);
+            format!("it is not TOML (line {line}, column {column}): {what}")
+        }
+    }
+}
+
+/// Line and column of what follows a text.
+pub fn place(before: &str) -> (usize, usize) {
+    (before.matches('\n').count() + 1, before.chars().rev().take_while(|c| *c != '\n').count() + 1)
+}
+
+/// What is wrong with a text that is not of its language.
+pub fn syntax(message: &str) -> &str {
+    match message {
+        "expected ident" => "there is a word that is none of true, false and null",
+        "expected value" => "a value is missing there, or is none",
+        "key must be a string" => "a name must stand in quotation marks",
+        "trailing comma" => "nothing follows after a comma",
+        "trailing characters" => "something follows after its end",
+        "invalid number" => "there is a number that JSON does not know",
+        "invalid escape" => "there is a backslash in a text that JSON does not know",
+        "recursion limit exceeded" | "cannot recurse further; max recursion depth met" => "lists are in each other too deep",
+        "duplicate key" => "a name is given twice",
+        other => other,
+    }
+}
+
+/// A complaint about a value at a path, in serde's words: what must be there, and what is.
+pub fn value(path: &str, message: &str) -> String {
+    let message = message.trim();
+    let whose = if path.is_empty() { "it" } else { path };
+    let expected = |rest: &str| rest.rsplit_once(", expected ").map(|(given, takes)| (given.to_owned(), takes.to_owned()));
+    for form in ["invalid type: ", "invalid value: "] {
+        if let Some((given, takes)) = message.strip_prefix(form).and_then(expected) {
+            return format!("{whose} must be {}; it is {}", must_be(&takes), is(&given));
+        }
+    }
+    if let Some((count, takes)) = message.strip_prefix("invalid length ").and_then(expected) {
+        let s = if count == "1" { "" } else { "s" };
+        return match &takes[..] {
+            "fewer elements in array" => format!("{whose} has more values than belong there: {count}"),
+            takes => format!("{whose} must be {}; it has {count} value{s}", must_be(takes)),
+        };
+    }
+    let quoted = |form: &str| message.strip_prefix(form)?.split_once('`');
+    let within = |name: &str| match path.strip_suffix(name).map(|path| path.trim_end_matches('.')) {
+        Some("") | None => String::new(),
+        Some(path) => format!("{path} "),
+    };
+    if let Some((name, rest)) = quoted("unknown field `") {
+        let name = cut(name);
+        let known = rest.trim_start_matches(", expected ").trim_start_matches("one of ");
+        let inside = within(&name);
+        let inside = if inside.is_empty() { String::new() } else { format!(" in {}", inside.trim_end()) };
+        return format!("there is no field `{name}`{inside}; known are {known}");
+    }
+    if let Some((name, rest)) = quoted("unknown variant `") {
+        let known = rest.trim_start_matches(", expected ");
+        return format!("{whose} must be {known}; it is `{}`", cut(name));
+    }
+    if let Some((name, _)) = quoted("missing field `") {
+        return if path.is_empty() {
+            format!("the field `{name}` is missing")
+        } else {
+            format!("{path} lacks the field `{name}`")
+        };
+    }
+    if let Some((name, _)) = quoted("duplicate field `") {
+        return format!("the field `{}` is given twice; keep one", cut(name));
+    }
+    if path.is_empty() { message.to_owned() } else { format!("{path}: {message}") }
+}
+
+/// What serde expects.
+fn must_be(takes: &str) -> String {
+    if let Some(count) = takes.strip_prefix("an array of length ") {
+        return if count == "2" { "a pair of numbers [x, y]".into() } else { format!("a list of {count} values") };
+    }
+    match takes {
+        "f64" | "f32" => "a number",
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more",
+        "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number",
+        "a boolean" => "true or false",
+        "a sequence" => "a list",
+        "a string" | "string" => "a text in quotation marks",
+        "a map" | "map" | "string or map" => "an object",
+        other if other.starts_with("struct ") || other.starts_with("enum ") => "an object",
+        other => other,
+    }
+    .into()
+}
+
+/// What serde found.
+fn is(given: &str) -> String {
+    let (kind, value) = given.split_once(' ').unwrap_or((given, ""));
+    let bare = || value.rsplit(' ').next().unwrap_or_default().trim_matches('`');
+    match kind {
+        "string" => format!("the text {}", cut(value)),
+        "integer" | "boolean" | "floating" => format!("`{}`", bare()),
+        "null" | "unit" | "Option" => "null".into(),
+        "map" => "an object".into(),
+        "sequence" => "a list".into(),
+        _ => cut(given),
+    }
+}
+
+/// A text, shortened where it is long.
+fn cut(text: &str) -> String {
+    if text.chars().count() <= QUOTED { text.to_owned() } else { text.chars().take(QUOTED).chain(['…']).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+    use serde::de::DeserializeOwned;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code, reason = "read alone")]
+    struct Input {
+        start: [f64; 2],
+        count: Option<u32>,
+        kind: Option<Kind>,
+        closed: Option<bool>,
+        name: Option<String>,
+        list: Option<Vec<f64>>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    enum Kind {
+        Line,
+        Arc,
+    }
+
+    fn read<T: DeserializeOwned + std::fmt::Debug>(text: &str) -> String {
+        json("", &serde_json::from_str::<T>(text).unwrap_err())
+    }
+
+    #[test]
+    fn what_serde_says_becomes_a_sentence() {
+        let long = format!("{{\"start\": \"{}\"}}", "x".repeat(1000));
+        for (text, told) in [
+            (r#"{"start": "a"}"#, "it must be a pair of numbers [x, y]; it is the text \"a\" (line 1, column 13)"),
+            (r#"{"start": "a, expected b"}"#, "it is the text \"a, expected b\" ("),
+            (r#"{"start": [1]}"#, "must be a pair of numbers [x, y]; it has 1 value ("),
+            (r#"{"start": [1, null]}"#, "must be a number; it is null ("),
+            (r#"{"start": [1, 1e999]}"#, "a number is beyond the range of doubles"),
+            (r#"{"start": [1, 2"#, "it ends in the middle of its JSON (line 1, column 15); is it cut off?"),
+            (r#"{"start": [1, tru]}"#, "it is not JSON (line 1, column 18): there is a word that is none of"),
+            (r#"{"count": -1}"#, "must be a whole number, 0 or more; it is `-1` ("),
+            (r#"{"count": 1.5}"#, "must be a whole number, 0 or more; it is `1.5` ("),
+            (r#"{"closed": 1}"#, "must be true or false; it is `1` ("),
+            (r#"{"closed": {}}"#, "must be true or false; it is an object ("),
+            (r#"{"name": true}"#, "must be a text in quotation marks; it is `true` ("),
+            (r#"{"list": 1}"#, "must be a list; it is `1` ("),
+            (r#"{"kind": "ark"}"#, "must be `line` or `arc`; it is `ark` ("),
+            (r#"{"stat": 1}"#, "there is no field `stat`; known are `start`, `count`, `kind`, `closed`, `name`, `list` ("),
+            (r#"{"closed": true, "closed": true}"#, "the field `closed` is given twice; keep one ("),
+            ("{}", "the field `start` is missing (line 1, column 2)"),
+            ("[]", "it must be an object; it is a list ("),
+            ("", "it is empty, where JSON must stand"),
+            ("\n \n", "it ends in the middle of its JSON (line 3, column 0)"),
+            (&long, "it is the text \"xxxxx"),
+        ] {
+            let said = if text == "[]" { read::<std::collections::BTreeMap<String, f64>>(text) } else { read::<Input>(text) };
+            assert!(said.contains(told) && said.len() < 200, "{text}: {said}");
+        }
+    }
+
+    #[test]
+    fn paths_are_named() {
+        assert_eq!(value("a.b", "unknown field `b`, expected one of `c`, `d`"), "there is no field `b` in a; known are `c`, `d`");
+        assert_eq!(value("a[0]", "missing field `b`"), "a[0] lacks the field `b`");
+        assert_eq!(value("a", "something else"), "a: something else");
+        assert_eq!(
+            toml("a = 1\nb = ", Some(10..10), "duplicate key"),
+            "it is not TOML (line 2, column 5): a name is given twice"
+        );
+    }
+}
