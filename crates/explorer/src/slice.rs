@@ -21,10 +21,10 @@ pub struct Wanted {
     family: String,
     phi0: f64,
     phi1: f64,
-    /// Range of κ0, with equal steps.
-    kappa0: [f64; 2],
-    /// Range of κ1, above 0, with equal ratios.
-    kappa1: [f64; 2],
+    /// A place (κ0, κ1) that must be seen.
+    at: [f64; 2],
+    /// Ranges of κ0, with equal steps, and of κ1, above 0, with equal ratios. Left out: where the region is.
+    ranges: Option<[[f64; 2]; 2]>,
     width: usize,
     height: usize,
 }
@@ -41,6 +41,7 @@ pub struct Slice {
     family: &'static dyn Family,
     chart: usize,
     angles: [f64; 2],
+    ranges: [[f64; 2]; 2],
     /// Edges of the pixels.
     edges: [Vec<f64>; 2],
     /// Their middles.
@@ -54,13 +55,18 @@ impl Slice {
     /// # Errors
     /// [`Error::Domain`] for an unknown family, ranges that are none, or angles outside the family's domain.
     pub fn new(wanted: Wanted) -> Result<Slice> {
-        let Wanted { family, phi0, phi1, kappa0, kappa1, width, height } = wanted;
+        let Wanted { family, phi0, phi1, at, ranges, width, height } = wanted;
         let family = family::by_name(&family).ok_or_else(|| Error::Domain(format!("no family is named `{family}`")))?;
         let chart = family.charts().iter().position(|chart: &Chart| chart.axes == AXES);
         let chart = chart.ok_or_else(|| Error::Domain(format!("`{}` has no axes kappa0 and kappa1", family.name())))?;
         if ![width, height].iter().all(|n| (2..=MOST).contains(n)) {
             return Err(Error::Domain(format!("the slice is {width} x {height} pixels; each side must be 2 to {MOST}")));
         }
+        let ranges = match ranges {
+            Some(ranges) => ranges,
+            None => seen(family, [phi0, phi1], at)?,
+        };
+        let [kappa0, kappa1] = ranges;
         // Twice as fine: edges and middles in turn.
         let fine = |[lo, hi]: [f64; 2], count: usize, log: bool| {
             let count = 2 * count + 1;
@@ -78,14 +84,15 @@ impl Slice {
         let tiles = corners(width).flat_map(|x| corners(height).map(move |y| Tile { x, y, side: FIRST })).collect();
         let edges = [every_other(&x, 0), every_other(&y, 0)];
         let flags = vec![0; width * height];
-        Ok(Slice { family, chart, angles: [phi0, phi1], edges, grid, tiles, flags, proved: 0 })
+        Ok(Slice { family, chart, angles: [phi0, phi1], ranges, edges, grid, tiles, flags, proved: 0 })
     }
 
     /// The names and the order of what is drawn.
     pub fn about(&self) -> Value {
         let bit = |name: &&str| self.family.flags().iter().position(|flag| flag.name == *name);
         let flags: Vec<Value> = self.family.flags().iter().map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc })).collect();
-        json!({ "flags": flags, "nested": self.family.nested().iter().filter_map(bit).collect::<Vec<_>>() })
+        let nested: Vec<usize> = self.family.nested().iter().filter_map(bit).collect();
+        json!({ "family": self.family.name(), "ranges": self.ranges, "flags": flags, "nested": nested })
     }
 
     /// The flags of each pixel, column by column, from below.
@@ -165,4 +172,44 @@ fn decided(table: &dyn Table, node: usize, code: Code) -> u8 {
         return code.flags();
     }
     table.exact(node as u64).map_or(0, |(code, _)| code.flags())
+}
+
+/// Columns and rows of the sketch that tells where a region is, and the heights above sin φ1 that it spans.
+const SKETCH: [usize; 2] = [20, 56];
+const HEIGHTS: [f64; 2] = [1e-3, 1e5];
+
+/// Ranges of κ0 and κ1 in which the family's region and a place are seen.
+fn seen(family: &'static dyn Family, [phi0, phi1]: [f64; 2], at: [f64; 2]) -> Result<[[f64; 2]; 2]> {
+    let (flat, sharp) = (phi0.sin().max(0.05), phi1.sin().max(0.05));
+    let wide = [[-0.5 * flat, 1.06 * flat], [0.7 * sharp, 30.0 * sharp]];
+    let [mut x, mut y] = if family.nested()[0] == "EXISTS" { wide } else { region(family, [phi0, phi1], [flat, sharp])?.unwrap_or(wide) };
+    let margin = 0.06 * (x[1] - x[0]);
+    x = [x[0].min(at[0] - margin), x[1].max(at[0] + margin)];
+    // Below a thousandth of the rest, no logarithmic axis shows it.
+    y = [y[0].min(0.8 * at[1]).max(1e-4), y[1].max(1.25 * at[1])];
+    Ok([x, y])
+}
+
+/// Where the family's answer is yes, with some room around.
+fn region(family: &'static dyn Family, angles: [f64; 2], [flat, sharp]: [f64; 2]) -> Result<Option<[[f64; 2]; 2]>> {
+    let [columns, rows] = SKETCH;
+    let step = (HEIGHTS[1] / HEIGHTS[0]).ln() / (rows - 1) as f64;
+    let across: Vec<f64> = (0..columns).map(|i| flat * (i as f64 + 0.5) / columns as f64).collect();
+    let up: Vec<f64> = (0..rows).map(|i| sharp + HEIGHTS[0] * (step * i as f64).exp()).collect();
+    let values = [vec![angles[0]], vec![angles[1]], across.clone(), up.clone()];
+    let axis = |(name, values): (&&str, Vec<f64>)| Axis::new(name, Spacing::Values(values));
+    let grid = Grid::new(AXES.iter().zip(values).map(axis).collect::<Result<_>>()?)?;
+    let table = family.table(&grid)?;
+    let mut codes = vec![Code::UNDECIDED; columns * rows];
+    table.filter(0, &mut codes);
+    let yes = |node: &usize| codes[*node] != Code::UNDECIDED && family.holds(codes[*node]);
+    let hits: Vec<[usize; 2]> = (0..codes.len()).filter(yes).map(|node| [node / rows, node % rows]).collect();
+    let range = |axis: usize| Some([hits.iter().map(|hit| hit[axis]).min()?, hits.iter().map(|hit| hit[axis]).max()?]);
+    let (Some([left, right]), Some([low, high])) = (range(0), range(1)) else { return Ok(None) };
+    let room = 0.2 * (across[right] - across[left]) + flat / columns as f64;
+    let x = [(across[left] - room).max(0.0), (across[right] + room).min(1.06 * flat)];
+    // A region without an upper end is shown as far as it begins.
+    let high = if high + 1 == rows { (low + rows / 3).min(high) } else { high };
+    let room = (up[high] / up[low]).powf(0.15).max(1.05);
+    Ok(Some([x, [up[low.saturating_sub(1)] / room, up[(high + 1).min(rows - 1)] * room]]))
 }
