@@ -6,7 +6,7 @@ use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::path::Course;
 use spiral_atlas::transition::join::{self, Outcome as Joined, join};
 use spiral_atlas::transition::{
-    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Outcome, PhOutcome, Piece, Placement, Turn, involute_between, nearest,
+    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Outcome, PhOutcome, Piece, Placement, Turn, Why, involute_between, nearest,
     ph_spiral, polyline, spiral, why_no_spiral,
 };
 use spiral_atlas::{Error, Result};
@@ -113,7 +113,8 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
         Kind::Cubic => {
             let answer = spiral(ends)?;
             let piece = answer.chosen().map(|s| (s.piece(), json!({ "margin": s.margin, "f0": s.f0, "f1": s.f1 })));
-            let why = if let Outcome::Why(why) = &answer.outcome { Some((why.sentence("cubic spiral"), json!(why))) } else { None };
+            let why =
+                if let Outcome::Why(why) = &answer.outcome { Some((why.sentence("cubic spiral"), json!(why))) } else { None };
             // What has these ends and is no spiral is drawn, too.
             let others = answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points.p }));
             told(piece, why, others.collect())
@@ -122,7 +123,11 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let answer = ph_spiral(ends)?;
             let facts = |s: &transition::PhSolution| json!({ "margin": s.margin, "a": s.a, "b": s.b, "energy": s.energy });
             let piece = answer.chosen().map(|s| (Piece::PhQuintic(s.curve), facts(s)));
-            let why = if let PhOutcome::Why(why) = &answer.outcome { Some((why.sentence("PH quintic spiral"), json!(why))) } else { None };
+            let why = if let PhOutcome::Why(why) = &answer.outcome {
+                Some((why.sentence("PH quintic spiral"), json!(why)))
+            } else {
+                None
+            };
             let others = answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points }));
             told(piece, why, others.collect())
         }
@@ -130,7 +135,8 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let (found, frame) = involute_between(ends, [0, 0])?;
             let Some((curve, between)) = found.curve().zip(InvoluteBetween::of(ends, &found, &frame)) else {
                 let text = why_no_spiral(ends, &found).unwrap_or_default();
-                return told(None, Some((text, json!({ "condition": "no-spiral-of-any-kind", "none": NoSpiral::of(ends)? }))), Vec::new());
+                let why = NoSpiral::of(ends)?.map(Why::NoSpiralOfAnyKind);
+                return told(None, Some((text, json!(why))), Vec::new());
             };
             let [x, y] = frame.half_chord;
             let unit = x.hypot(y);

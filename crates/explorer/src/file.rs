@@ -63,8 +63,11 @@ impl File {
         };
         let known = family::by_name(&about.family);
         let label = |name: &str| known.and_then(|f| f.flags().iter().find(|flag| flag.name == name)).map(|flag| flag.label);
-        let flags: Vec<Value> =
-            about.flags.iter().map(|f| json!({ "name": f.name, "doc": f.doc, "label": label(&f.name).unwrap_or(&f.name) })).collect();
+        let flags: Vec<Value> = about
+            .flags
+            .iter()
+            .map(|f| json!({ "name": f.name, "doc": f.doc, "label": label(&f.name).unwrap_or(&f.name) }))
+            .collect();
         let bit = |name: &&str| about.flags.iter().position(|flag| flag.name == *name);
         let nested: Vec<usize> = known.map_or(Vec::new(), |family| family.nested().iter().filter_map(bit).collect());
         json!({

@@ -90,7 +90,8 @@ impl Slice {
     /// The names and the order of what is drawn.
     pub fn about(&self) -> Value {
         let bit = |name: &&str| self.family.flags().iter().position(|flag| flag.name == *name);
-        let flags: Vec<Value> = self.family.flags().iter().map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc })).collect();
+        let flags: Vec<Value> =
+            self.family.flags().iter().map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc })).collect();
         let nested: Vec<usize> = self.family.nested().iter().filter_map(bit).collect();
         json!({ "family": self.family.name(), "ranges": self.ranges, "flags": flags, "nested": nested })
     }
@@ -182,7 +183,8 @@ const HEIGHTS: [f64; 2] = [1e-3, 1e5];
 fn seen(family: &'static dyn Family, [phi0, phi1]: [f64; 2], at: [f64; 2]) -> Result<[[f64; 2]; 2]> {
     let (flat, sharp) = (phi0.sin().max(0.05), phi1.sin().max(0.05));
     let wide = [[-0.5 * flat, 1.06 * flat], [0.7 * sharp, 30.0 * sharp]];
-    let [mut x, mut y] = if family.nested()[0] == "EXISTS" { wide } else { region(family, [phi0, phi1], [flat, sharp])?.unwrap_or(wide) };
+    let [mut x, mut y] =
+        if family.nested()[0] == "EXISTS" { wide } else { region(family, [phi0, phi1], [flat, sharp])?.unwrap_or(wide) };
     let margin = 0.06 * (x[1] - x[0]);
     x = [x[0].min(at[0] - margin), x[1].max(at[0] + margin)];
     // Below a thousandth of the rest, no logarithmic axis shows it.

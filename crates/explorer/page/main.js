@@ -1,0 +1,487 @@
+// The page: its state, and who is told when that changes.
+
+import { Asker } from "./asker.js";
+import { byId, html } from "./dom.js";
+import { Files } from "./file.js";
+import { drawGraph } from "./graph.js";
+import { circleHandles, endHandles } from "./handles.js";
+import { readAngle, readCurvature, readLength, readRadius, show, showAngle, UNITS } from "./numbers.js";
+import { onScheme } from "./paint.js";
+import { Plane } from "./plane.js";
+import { Region } from "./slice.js";
+import { decode, encode, fresh, inUnit, KINDS, preset, PRESETS } from "./state.js";
+import { command, cpp, drawing, json, pieces, png, python, save } from "./take.js";
+import { reason, verdicts } from "./verdict.js";
+
+/** Milliseconds of rest before what costs more is asked, and before the link is written. */
+const REST = 120;
+
+let state = fresh();
+let answer;
+let joined;
+let advice;
+let resting;
+let plane;
+let region;
+let files;
+let curves;
+let helper;
+
+/** What tests look at. */
+const seen = { times: [], state: () => state, answer: () => answer, joined: () => joined, advice: () => advice, ask: (question) => curves.ask(question) };
+globalThis.explorer = seen;
+
+function notice(text) {
+  byId("notice").textContent = text;
+  byId("notice").hidden = !text;
+}
+
+function broken(text) {
+  byId("loading").hidden = false;
+  byId("loading").textContent = `The explorer cannot run here: ${text}`;
+}
+
+// ---- from the state to questions, and from answers to the page
+
+function changed(time = performance.now()) {
+  seen.busy = true;
+  if (state.mode === "ends") {
+    curves.newest("curves", { question: { ask: "curves", ends: state.ends, kinds: KINDS } }, (found) => {
+      answer = found;
+      advice = undefined;
+      showEnds();
+      seen.times.push(performance.now() - time);
+    });
+  } else if (state.mode === "join") {
+    const { from, to, radius, pieces, family, objective } = state.join;
+    const end = ({ kind, ...rest }) => ({ [kind]: rest });
+    const question = { ask: "join", from: end(from), to: end(to), greatest_curvature: 1 / radius, family, objective, most_pieces: pieces };
+    curves.newest("join", { question }, (found) => {
+      joined = found;
+      showJoin();
+      seen.times.push(performance.now() - time);
+    });
+  }
+  showNumbers();
+  clearTimeout(resting);
+  resting = setTimeout(rested, REST);
+}
+
+/** When nothing has changed for a while. */
+function rested() {
+  history.replaceState(null, "", `#${encode(state)}`);
+  if (state.mode === "ends" && answer && !answer.error && !answer.curves[state.kind].spiral) {
+    const asked = JSON.stringify([state.ends, state.kind]);
+    helper.newest("advice", { question: { ask: "advice", ends: state.ends, kind: state.kind } }, (found) => {
+      if (asked !== JSON.stringify([state.ends, state.kind]) || found.error) return;
+      advice = found;
+      showReason();
+    });
+  }
+  seen.busy = false;
+}
+
+function showEnds() {
+  if (!answer || state.mode !== "ends") return;
+  if (answer.error) {
+    plane.draw({ circles: [], curves: [] });
+    drawGraph(byId("graph"), [], undefined, () => {});
+    byId("reason").replaceChildren(html("p", { class: "head no" }, "Refused"), html("p", {}, answer.error));
+    verdicts(undefined, state, choices);
+    return;
+  }
+  const shown = state.shown.filter((kind) => answer.curves[kind].spiral);
+  const drawn = shown.map((kind) => {
+    const { samples, control_points } = answer.curves[kind];
+    return { kind, samples, points: samples.map((s) => [s[1], s[2]]), control: control_points };
+  });
+  const active = drawn.find((curve) => curve.kind === state.kind);
+  const others = (!answer.curves[state.kind].spiral && answer.curves[state.kind].others) || [];
+  plane.draw({ circles: answer.circles, curves: drawn, active, wavers: others.map((o) => bezier(o.control_points)), comb: state.comb });
+  drawGraph(byId("graph"), drawn, active, (point) => plane.mark(point));
+  verdicts(answer, state, choices);
+  showReason();
+  region.show(answer, state.kind);
+}
+
+function showReason() {
+  if (answer && !answer.error) reason(byId("reason"), answer, state, advice, (ends) => update(() => (state.ends = pick(ends))));
+}
+
+/** Points of a Bézier curve. */
+function bezier(control) {
+  return Array.from({ length: 81 }, (_, i) => {
+    let points = control;
+    while (points.length > 1) points = points.slice(1).map((p, j) => [0, 1].map((c) => points[j][c] + (p[c] - points[j][c]) * (i / 80)));
+    return points[0];
+  });
+}
+
+const pick = ({ start, end, start_direction, end_direction, start_curvature, end_curvature }) => ({ start, end, start_direction, end_direction, start_curvature, end_curvature });
+
+const choices = {
+  chosen: (kind) =>
+    update(() => {
+      state.kind = kind;
+      if (!state.shown.includes(kind)) state.shown.push(kind);
+    }),
+  toggled: (kind) => update(() => (state.shown = state.shown.includes(kind) ? state.shown.filter((k) => k !== kind) : [...state.shown, kind])),
+};
+
+function showJoin() {
+  if (!joined || state.mode !== "join") return;
+  const { path, samples } = joined;
+  const unit = state.unit;
+  if (path) {
+    const parts = path.pieces.map((piece, i) => ({ kind: piece.kind, points: samples[i].map((s) => [s[1], s[2]]) }));
+    const all = samples.flat();
+    const active = { kind: "join", samples: all, points: all.map((s) => [s[1], s[2]]), parts, joints: parts.slice(1).map((part) => part.points[0]) };
+    plane.draw({ circles: joined.circles, curves: [active], active, comb: state.comb });
+    drawGraph(byId("graph"), [active], active, (point) => plane.mark(point));
+    const kinds = path.pieces.map((piece) => ({ line: "line", arc: "arc" })[piece.kind] ?? "spiral");
+    byId("join-reason").replaceChildren(
+      html("p", { class: "head yes" }, `${path.pieces.length === 1 ? "One piece" : `${path.pieces.length} pieces`}, ${show(path.length, 6)} ${unit}`),
+      html("p", {}, `${kinds.join(", ")}; least radius ${show(1 / path.greatest_curvature, 5)} ${unit}.`),
+      html("p", { class: "small" }, `Greatest |dκ/ds| ${show(Math.max(...path.rate_range.map(Math.abs)), 4)}/${unit}², bending energy ${show(path.bending_energy, 4)}/${unit}. Each spiral is proved.`),
+    );
+  } else {
+    plane.draw({ circles: joined.circles ?? [], curves: [] });
+    drawGraph(byId("graph"), [], undefined, () => {});
+    byId("join-reason").replaceChildren(html("p", { class: "head no" }, joined.error ? "Refused" : "No join found"), html("p", {}, joined.error ?? `${joined.reason}.`));
+  }
+}
+
+// ---- from the user to the state
+
+/** Changes the state as a whole, and the page with it. */
+function update(change) {
+  change();
+  setUp();
+  changed();
+}
+
+function setUp() {
+  document.querySelector("main").dataset.mode = state.mode;
+  document.querySelector(`[name=mode][value=${state.mode}]`).checked = true;
+  byId("unit").value = state.unit;
+  byId("comb").checked = state.comb;
+  const unit = () => state.unit;
+  if (state.mode === "ends") {
+    const end = (name) => ({
+      get: () => ({ point: state.ends[name], direction: state.ends[`${name}_direction`], curvature: state.ends[`${name}_curvature`] }),
+      set: ({ point, direction, curvature }) => {
+        const e = state.ends;
+        state.ends = {
+          ...e,
+          [name]: point ?? e[name],
+          [`${name}_direction`]: direction ?? e[`${name}_direction`],
+          [`${name}_curvature`]: curvature ?? e[`${name}_curvature`],
+        };
+      },
+    });
+    plane.handles([...endHandles("start", end("start"), { bends: true, back: true, unit }), ...endHandles("end", end("end"), { bends: true, back: false, unit })]);
+  } else if (state.mode === "join") {
+    plane.handles(
+      ["from", "to"].flatMap((which) => {
+        const end = { get: () => state.join[which], set: (parts) => (state.join = { ...state.join, [which]: { ...state.join[which], ...parts } }) };
+        const { kind } = state.join[which];
+        return kind === "circle" ? circleHandles(which, end) : endHandles(which, end, { bends: kind === "state", back: which === "from", unit });
+      }),
+    );
+    byId("join-family").value = state.join.family;
+    byId("join-objective").value = state.join.objective;
+  }
+  buildNumbers();
+}
+
+/** The points that should be seen. */
+function extent() {
+  if (state.mode === "ends") {
+    const { ends } = state;
+    const points = [ends.start, ends.end];
+    for (const kind of state.shown) points.push(...(answer?.curves?.[kind]?.samples ?? []).map((s) => [s[1], s[2]]));
+    return points;
+  }
+  const { from, to } = state.join;
+  const of = (end) => (end.kind === "circle" ? [-1, 1].flatMap((s) => [[end.centre[0] + s * end.radius, end.centre[1]], [end.centre[0], end.centre[1] + s * end.radius]]) : [end.point]);
+  return [...of(from), ...of(to), ...(joined?.samples ?? []).flat().map((s) => [s[1], s[2]])];
+}
+
+function fit() {
+  plane.fit(extent());
+  if (state.mode === "join") showJoin();
+  else showEnds();
+  plane.place();
+}
+
+// ---- numbers that are typed
+
+let fields = [];
+
+function field(label, get, read, set, format) {
+  const input = html("input", { inputmode: "decimal", autocomplete: "off", spellcheck: "false", "aria-label": label });
+  const entry = { input, get, format };
+  const take = () => {
+    if (input.value === entry.shown) return;
+    try {
+      const value = read(input.value);
+      if (Math.abs(value) > 1e15) throw new Error("that is more than 1e15");
+      input.setCustomValidity("");
+      notice("");
+      update(() => set(value));
+    } catch (error) {
+      input.setCustomValidity(error.message);
+      notice(`${label}: ${error.message}`);
+      input.setAttribute("aria-invalid", "true");
+    }
+  };
+  input.addEventListener("change", take);
+  input.addEventListener("focus", () => input.select());
+  fields.push(entry);
+  return input;
+}
+
+function buildNumbers() {
+  const held = document.activeElement?.getAttribute?.("aria-label");
+  fields = [];
+  const unit = state.unit;
+  const length = (text) => readLength(text, state.unit);
+  const curvature = (text) => readCurvature(text, state.unit);
+  const radius = (text) => readRadius(text, state.unit);
+  const columns =
+    state.mode === "ends"
+      ? ["start", "end"].map((name) => ({
+          name,
+          point: state.ends[name],
+          get: (part) => (part === "point" ? state.ends[name] : state.ends[`${name}_${part}`]),
+          set: (part, value) => (state.ends = { ...state.ends, [part === "point" ? name : `${name}_${part}`]: value }),
+          parts: ["point", "direction", "curvature"],
+        }))
+      : ["from", "to"].map((which) => ({
+          name: which === "from" ? "start" : "end",
+          get: (part) => state.join[which][part],
+          set: (part, value) => (state.join = { ...state.join, [which]: { ...state.join[which], [part]: value } }),
+          parts: { state: ["point", "direction", "curvature"], line: ["point", "direction"], circle: ["centre", "radius", "turn"] }[state.join[which].kind],
+        }));
+  const rows = [
+    ["x", (c, part) => field(`${c.name} x`, () => c.get(part)[0], length, (v) => c.set(part, [v, c.get(part)[1]]), (v) => show(v, 8)), ["point", "centre"], unit],
+    ["y", (c, part) => field(`${c.name} y`, () => c.get(part)[1], length, (v) => c.set(part, [c.get(part)[0], v]), (v) => show(v, 8)), ["point", "centre"], unit],
+    ["direction", (c, part) => field(`${c.name} direction`, () => c.get(part), readAngle, (v) => c.set(part, v), (v) => showAngle(v, 7)), ["direction"], ""],
+    ["curvature", (c, part) => field(`${c.name} curvature`, () => c.get(part), curvature, (v) => c.set(part, v), (v) => show(v, 7)), ["curvature"], `1/${unit}`],
+    ["radius", (c, part) => field(`${c.name} radius`, () => 1 / c.get(part), radius, (v) => c.set(part, v), (v) => show(Math.abs(v) === Infinity ? Infinity : v, 7)), ["curvature"], unit],
+    [
+      "radius",
+      (c, part) =>
+        field(`${c.name} radius`, () => c.get(part), (text) => {
+          const value = length(text);
+          if (!(value > 0)) throw new Error("a radius must be above 0");
+          return value;
+        }, (v) => c.set(part, v), (v) => show(v, 7)),
+      ["radius"],
+      unit,
+    ],
+    [
+      "turns",
+      (c, part) =>
+        html("select", { "aria-label": `${c.name} turn`, onchange: (event) => update(() => c.set(part, event.target.value)) },
+          ...["left", "right"].map((turn) => html("option", { value: turn, selected: c.get(part) === turn }, turn))),
+      ["turn"],
+      "",
+    ],
+  ];
+  const body = [];
+  for (const [label, make, parts, suffix] of rows) {
+    const cells = columns.map((c) => {
+      const part = c.parts.find((p) => parts.includes(p));
+      return html("td", {}, part ? make(c, part) : "");
+    });
+    if (cells.some((cell) => cell.firstChild)) body.push(html("tr", {}, html("th", { scope: "row" }, label, suffix && html("small", {}, ` ${suffix}`)), ...cells));
+  }
+  const head = html("tr", {}, html("th", {}), ...["start", "end"].map((name) => html("th", { scope: "col", class: name }, name)));
+  byId("numbers").replaceChildren(html("thead", {}, head), html("tbody", {}, ...body));
+  showNumbers();
+  if (held) byId("numbers").querySelector(`[aria-label="${held}"]`)?.focus();
+}
+
+function showNumbers() {
+  for (const entry of fields) {
+    const text = entry.format(entry.get());
+    if (entry.input === document.activeElement && entry.shown === text) continue;
+    entry.shown = text;
+    entry.input.value = text;
+    entry.input.removeAttribute("aria-invalid");
+  }
+  if (document.activeElement !== byId("join-radius")) byId("join-radius").value = `${show(state.join.radius, 7)} ${state.unit}`;
+  byId("join-pieces").value = state.join.pieces;
+}
+
+// ---- what is taken away
+
+const COPIES = { link: () => location.href.split("#")[0] + "#" + encode(state), command: () => command(state), python: () => python(state), cpp: () => cpp(state), json: () => json(state, shownAnswer()) };
+const shownAnswer = () => (state.mode === "join" ? joined : answer);
+
+async function copy(what) {
+  try {
+    if (state.mode === "file") throw new Error("a file is open; choose “Two ends” or “Joins” first");
+    const text = COPIES[what]();
+    seen.copied = text;
+    try {
+      await navigator.clipboard.writeText(text);
+      notice(`Copied: ${text.length > 160 ? `${text.slice(0, 160)}…` : text}`);
+    } catch {
+      // Without the right to write there, the text is shown to be copied by hand.
+      notice(text);
+    }
+  } catch (error) {
+    notice(error.message);
+  }
+}
+
+async function take(what) {
+  try {
+    const sheet = state.mode === "file" ? byId("file-svg") : byId("plane");
+    if (what === "svg") save("spiral.svg", new Blob([drawing(sheet)], { type: "image/svg+xml" }));
+    if (what === "png") save("spiral.png", await png(drawing(sheet)));
+    if (what === "slice") {
+      const canvas = byId(state.mode === "file" ? "file-plane" : "slice");
+      canvas.toBlob((blob) => blob && save("region.png", blob), "image/png");
+    }
+    if (what === "json") save("spiral.json", new Blob([json(state, shownAnswer())], { type: "application/json" }));
+    if (what === "xodr") {
+      const found = pieces(state, shownAnswer());
+      if (!found) throw new Error("There is no curve to make a road of.");
+      if (state.unit !== "m") throw new Error("Roads are in metres: choose the unit m.");
+      const road = await curves.ask({ ask: "road", pieces: found });
+      if (road.error) throw new Error(road.error);
+      save("road.xodr", new Blob([road.text], { type: "application/xml" }));
+    }
+  } catch (error) {
+    notice(error.message);
+  }
+}
+
+// ---- listening
+
+function listen() {
+  for (const input of document.querySelectorAll("[name=mode]")) {
+    input.addEventListener("change", () => {
+      notice("");
+      update(() => (state.mode = input.value));
+      if (state.mode !== "file") waitAndFit();
+      else files.resize();
+    });
+  }
+  byId("unit").append(...Object.keys(UNITS).map((unit) => html("option", {}, unit)));
+  byId("unit").addEventListener("change", (event) => {
+    const factor = UNITS[state.unit] / UNITS[event.target.value];
+    update(() => (state = inUnit(state, event.target.value)));
+    plane.view = { x: plane.view.x * factor, y: plane.view.y * factor, scale: plane.view.scale / factor };
+    plane.draw();
+  });
+  byId("comb").addEventListener("change", (event) => update(() => (state.comb = event.target.checked)));
+  byId("fit").addEventListener("click", fit);
+  byId("reset").addEventListener("click", () => {
+    const { mode } = state;
+    notice("");
+    update(() => (state = { ...fresh(), mode }));
+    if (mode !== "file") waitAndFit();
+  });
+  for (const [menu, name, act] of [["copy", "copy", copy], ["save", "save", take]]) {
+    byId(menu).addEventListener("click", (event) => {
+      const what = event.target.dataset?.[name];
+      if (!what) return;
+      byId(menu).open = false;
+      act(what);
+    });
+  }
+  addEventListener("pointerdown", (event) => {
+    for (const menu of document.querySelectorAll("details.menu[open]")) if (!menu.contains(event.target)) menu.open = false;
+  });
+  addEventListener("keydown", (event) => {
+    if (event.key === "Escape") for (const menu of document.querySelectorAll("details.menu[open]")) menu.open = false;
+    if (event.key === "f" && !event.ctrlKey && !event.metaKey && !event.target.closest("input, select")) fit();
+  });
+  byId("presets").append(...Object.keys(PRESETS).map((name) => html("button", { onclick: () => (update(() => (state.join = { ...preset(name), family: state.join.family, objective: state.join.objective })), waitAndFit()) }, name)));
+  byId("join-family").addEventListener("change", (event) => update(() => (state.join.family = event.target.value)));
+  byId("join-objective").addEventListener("change", (event) => update(() => (state.join.objective = event.target.value)));
+  byId("join-pieces").addEventListener("change", (event) => {
+    const value = Number(event.target.value);
+    if (Number.isInteger(value) && value >= 1 && value <= 11) update(() => (state.join.pieces = value));
+    else notice("The pieces at most are a whole number from 1 to 11.");
+  });
+  byId("join-radius").addEventListener("change", (event) => {
+    try {
+      const value = readLength(event.target.value, state.unit);
+      if (!(value > 0)) throw new Error("it must be above 0");
+      notice("");
+      update(() => (state.join.radius = value));
+    } catch (error) {
+      notice(`Least radius: ${error.message}.`);
+    }
+  });
+  addEventListener("hashchange", () => {
+    open(location.hash);
+    waitAndFit();
+  });
+  new ResizeObserver(() => {
+    if (state.mode === "file") files.resize();
+    else if (state.mode === "join") showJoin();
+    else showEnds();
+  }).observe(byId("plane"));
+  onScheme(() => {
+    region.paint();
+    files.paint();
+  });
+}
+
+/** Fits the view once the answer is there. */
+async function waitAndFit() {
+  const before = shownAnswer();
+  for (let i = 0; i < 100 && (!shownAnswer() || shownAnswer() === before); i++) await new Promise((resolve) => setTimeout(resolve, 10));
+  if (state.mode !== "file") fit();
+}
+
+/** Takes over the state of a link. */
+function open(hash) {
+  const { state: read, wrong } = decode(hash);
+  notice(wrong.length ? `The link has parts that cannot be read: ${[...new Set(wrong)].slice(0, 5).join(", ")}. They are as in a fresh page.` : "");
+  update(() => (state = read));
+}
+
+async function start() {
+  listenSoon();
+  const response = await fetch(new URL("core.wasm", import.meta.url));
+  if (!response.ok) throw new Error(`core.wasm: ${response.status} ${response.statusText}`);
+  const module = await WebAssembly.compile(await response.arrayBuffer());
+  // One worker answers while one dragging waits; the other one has time for regions and advice.
+  curves = new Asker(module, broken);
+  helper = new Asker(module, broken);
+  await Promise.all([curves.ready, helper.ready]);
+  plane = new Plane(byId("plane"), { changed, released: rested });
+  region = new Region(helper, ([start, end], time) => {
+    state.ends = { ...state.ends, start_curvature: start, end_curvature: end };
+    plane.place();
+    changed(time);
+  }, rested);
+  files = new Files(helper, {
+    opened: () => {
+      notice("");
+      update(() => (state.mode = "file"));
+    },
+    failed: notice,
+  });
+  listen();
+  plane.fit(extent());
+  open(location.hash);
+  await waitAndFit();
+  byId("loading").hidden = true;
+  seen.region = region;
+  document.documentElement.dataset.ready = "yes";
+}
+
+/** A module error before the start would leave “Loading…” there for ever. */
+function listenSoon() {
+  addEventListener("unhandledrejection", (event) => broken(event.reason?.message ?? String(event.reason)));
+}
+
+start().catch((error) => broken(error.message));
