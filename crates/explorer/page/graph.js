@@ -26,7 +26,7 @@ export function drawGraph(element, curves, active, marked) {
   const x = (s) => LEFT + (s / longest) * (w - LEFT - RIGHT);
   const y = (k) => h - BOTTOM - ((k - low) / (high - low)) * (h - TOP - BOTTOM);
   const parts = [];
-  for (const k of ticks(low, high, 3)) {
+  for (const k of ticks(low, high, 5)) {
     parts.push(svg("path", { class: k === 0 ? "zero" : "line", d: `M${LEFT} ${y(k)}H${w - RIGHT}` }));
     parts.push(svg("text", { x: LEFT - 8, y: y(k) + 4, "text-anchor": "end" }, show(k, 4)));
   }

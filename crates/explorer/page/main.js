@@ -2,16 +2,17 @@
 
 import { Asker } from "./asker.js";
 import { byId, html } from "./dom.js";
+import { buildNumbers, showNumbers } from "./fields.js";
 import { Files } from "./file.js";
 import { drawGraph } from "./graph.js";
 import { circleHandles, endHandles } from "./handles.js";
-import { readAngle, readCurvature, readLength, readRadius, show, showAngle, UNITS } from "./numbers.js";
+import { listenToMenus } from "./menus.js";
+import { readLength, show, UNITS } from "./numbers.js";
 import { onScheme } from "./paint.js";
 import { Plane } from "./plane.js";
 import { Region } from "./slice.js";
 import { decode, encode, fresh, inUnit, KINDS, preset, PRESETS } from "./state.js";
-import { command, cpp, drawing, json, pieces, png, python, save } from "./take.js";
-import { reason, verdicts } from "./verdict.js";
+import { joinTold, reason, verdicts } from "./verdict.js";
 
 /** Milliseconds of rest before what costs more is asked, and before the link is written. */
 const REST = 120;
@@ -117,6 +118,8 @@ function bezier(control) {
   });
 }
 
+const shownAnswer = () => (state.mode === "join" ? joined : answer);
+
 const pick = ({ start, end, start_direction, end_direction, start_curvature, end_curvature }) => ({ start, end, start_direction, end_direction, start_curvature, end_curvature });
 
 const choices = {
@@ -131,24 +134,17 @@ const choices = {
 function showJoin() {
   if (!joined || state.mode !== "join") return;
   const { path, samples } = joined;
-  const unit = state.unit;
   if (path) {
     const parts = path.pieces.map((piece, i) => ({ kind: piece.kind, points: samples[i].map((s) => [s[1], s[2]]) }));
     const all = samples.flat();
     const active = { kind: "join", samples: all, points: all.map((s) => [s[1], s[2]]), parts, joints: parts.slice(1).map((part) => part.points[0]) };
     plane.draw({ circles: joined.circles, curves: [active], active, comb: state.comb });
     drawGraph(byId("graph"), [active], active, (point) => plane.mark(point));
-    const kinds = path.pieces.map((piece) => ({ line: "line", arc: "arc" })[piece.kind] ?? "spiral");
-    byId("join-reason").replaceChildren(
-      html("p", { class: "head yes" }, `${path.pieces.length === 1 ? "One piece" : `${path.pieces.length} pieces`}, ${show(path.length, 6)} ${unit}`),
-      html("p", {}, `${kinds.join(", ")}; least radius ${show(1 / path.greatest_curvature, 5)} ${unit}.`),
-      html("p", { class: "small" }, `Greatest |dκ/ds| ${show(Math.max(...path.rate_range.map(Math.abs)), 4)}/${unit}², bending energy ${show(path.bending_energy, 4)}/${unit}. Each spiral is proved.`),
-    );
   } else {
     plane.draw({ circles: joined.circles ?? [], curves: [] });
     drawGraph(byId("graph"), [], undefined, () => {});
-    byId("join-reason").replaceChildren(html("p", { class: "head no" }, joined.error ? "Refused" : "No join found"), html("p", {}, joined.error ?? `${joined.reason}.`));
   }
+  joinTold(byId("join-reason"), joined, state.unit);
 }
 
 // ---- from the user to the state
@@ -191,7 +187,7 @@ function setUp() {
     byId("join-family").value = state.join.family;
     byId("join-objective").value = state.join.objective;
   }
-  buildNumbers();
+  buildNumbers({ state: () => state, update, notice });
 }
 
 /** The points that should be seen. */
@@ -212,152 +208,6 @@ function fit() {
   if (state.mode === "join") showJoin();
   else showEnds();
   plane.place();
-}
-
-// ---- numbers that are typed
-
-let fields = [];
-
-function field(label, get, read, set, format) {
-  const input = html("input", { inputmode: "decimal", autocomplete: "off", spellcheck: "false", "aria-label": label });
-  const entry = { input, get, format };
-  const take = () => {
-    if (input.value === entry.shown) return;
-    try {
-      const value = read(input.value);
-      if (Math.abs(value) > 1e15) throw new Error("that is more than 1e15");
-      input.setCustomValidity("");
-      notice("");
-      update(() => set(value));
-    } catch (error) {
-      input.setCustomValidity(error.message);
-      notice(`${label}: ${error.message}`);
-      input.setAttribute("aria-invalid", "true");
-    }
-  };
-  input.addEventListener("change", take);
-  input.addEventListener("focus", () => input.select());
-  fields.push(entry);
-  return input;
-}
-
-function buildNumbers() {
-  const held = document.activeElement?.getAttribute?.("aria-label");
-  fields = [];
-  const unit = state.unit;
-  const length = (text) => readLength(text, state.unit);
-  const curvature = (text) => readCurvature(text, state.unit);
-  const radius = (text) => readRadius(text, state.unit);
-  const columns =
-    state.mode === "ends"
-      ? ["start", "end"].map((name) => ({
-          name,
-          point: state.ends[name],
-          get: (part) => (part === "point" ? state.ends[name] : state.ends[`${name}_${part}`]),
-          set: (part, value) => (state.ends = { ...state.ends, [part === "point" ? name : `${name}_${part}`]: value }),
-          parts: ["point", "direction", "curvature"],
-        }))
-      : ["from", "to"].map((which) => ({
-          name: which === "from" ? "start" : "end",
-          get: (part) => state.join[which][part],
-          set: (part, value) => (state.join = { ...state.join, [which]: { ...state.join[which], [part]: value } }),
-          parts: { state: ["point", "direction", "curvature"], line: ["point", "direction"], circle: ["centre", "radius", "turn"] }[state.join[which].kind],
-        }));
-  const rows = [
-    ["x", (c, part) => field(`${c.name} x`, () => c.get(part)[0], length, (v) => c.set(part, [v, c.get(part)[1]]), (v) => show(v, 8)), ["point", "centre"], unit],
-    ["y", (c, part) => field(`${c.name} y`, () => c.get(part)[1], length, (v) => c.set(part, [c.get(part)[0], v]), (v) => show(v, 8)), ["point", "centre"], unit],
-    ["direction", (c, part) => field(`${c.name} direction`, () => c.get(part), readAngle, (v) => c.set(part, v), (v) => showAngle(v, 7)), ["direction"], ""],
-    ["curvature", (c, part) => field(`${c.name} curvature`, () => c.get(part), curvature, (v) => c.set(part, v), (v) => show(v, 7)), ["curvature"], `1/${unit}`],
-    ["radius", (c, part) => field(`${c.name} radius`, () => 1 / c.get(part), radius, (v) => c.set(part, v), (v) => show(Math.abs(v) === Infinity ? Infinity : v, 7)), ["curvature"], unit],
-    [
-      "radius",
-      (c, part) =>
-        field(`${c.name} radius`, () => c.get(part), (text) => {
-          const value = length(text);
-          if (!(value > 0)) throw new Error("a radius must be above 0");
-          return value;
-        }, (v) => c.set(part, v), (v) => show(v, 7)),
-      ["radius"],
-      unit,
-    ],
-    [
-      "turns",
-      (c, part) =>
-        html("select", { "aria-label": `${c.name} turn`, onchange: (event) => update(() => c.set(part, event.target.value)) },
-          ...["left", "right"].map((turn) => html("option", { value: turn, selected: c.get(part) === turn }, turn))),
-      ["turn"],
-      "",
-    ],
-  ];
-  const body = [];
-  for (const [label, make, parts, suffix] of rows) {
-    const cells = columns.map((c) => {
-      const part = c.parts.find((p) => parts.includes(p));
-      return html("td", {}, part ? make(c, part) : "");
-    });
-    if (cells.some((cell) => cell.firstChild)) body.push(html("tr", {}, html("th", { scope: "row" }, label, suffix && html("small", {}, ` ${suffix}`)), ...cells));
-  }
-  const head = html("tr", {}, html("th", {}), ...["start", "end"].map((name) => html("th", { scope: "col", class: name }, name)));
-  byId("numbers").replaceChildren(html("thead", {}, head), html("tbody", {}, ...body));
-  showNumbers();
-  if (held) byId("numbers").querySelector(`[aria-label="${held}"]`)?.focus();
-}
-
-function showNumbers() {
-  for (const entry of fields) {
-    const text = entry.format(entry.get());
-    if (entry.input === document.activeElement && entry.shown === text) continue;
-    entry.shown = text;
-    entry.input.value = text;
-    entry.input.removeAttribute("aria-invalid");
-  }
-  if (document.activeElement !== byId("join-radius")) byId("join-radius").value = `${show(state.join.radius, 7)} ${state.unit}`;
-  byId("join-pieces").value = state.join.pieces;
-}
-
-// ---- what is taken away
-
-const COPIES = { link: () => location.href.split("#")[0] + "#" + encode(state), command: () => command(state), python: () => python(state), cpp: () => cpp(state), json: () => json(state, shownAnswer()) };
-const shownAnswer = () => (state.mode === "join" ? joined : answer);
-
-async function copy(what) {
-  try {
-    if (state.mode === "file") throw new Error("a file is open; choose “Two ends” or “Joins” first");
-    const text = COPIES[what]();
-    seen.copied = text;
-    try {
-      await navigator.clipboard.writeText(text);
-      notice(`Copied: ${text.length > 160 ? `${text.slice(0, 160)}…` : text}`);
-    } catch {
-      // Without the right to write there, the text is shown to be copied by hand.
-      notice(text);
-    }
-  } catch (error) {
-    notice(error.message);
-  }
-}
-
-async function take(what) {
-  try {
-    const sheet = state.mode === "file" ? byId("file-svg") : byId("plane");
-    if (what === "svg") save("spiral.svg", new Blob([drawing(sheet)], { type: "image/svg+xml" }));
-    if (what === "png") save("spiral.png", await png(drawing(sheet)));
-    if (what === "slice") {
-      const canvas = byId(state.mode === "file" ? "file-plane" : "slice");
-      canvas.toBlob((blob) => blob && save("region.png", blob), "image/png");
-    }
-    if (what === "json") save("spiral.json", new Blob([json(state, shownAnswer())], { type: "application/json" }));
-    if (what === "xodr") {
-      const found = pieces(state, shownAnswer());
-      if (!found) throw new Error("There is no curve to make a road of.");
-      if (state.unit !== "m") throw new Error("Roads are in metres: choose the unit m.");
-      const road = await curves.ask({ ask: "road", pieces: found });
-      if (road.error) throw new Error(road.error);
-      save("road.xodr", new Blob([road.text], { type: "application/xml" }));
-    }
-  } catch (error) {
-    notice(error.message);
-  }
 }
 
 // ---- listening
@@ -386,19 +236,8 @@ function listen() {
     update(() => (state = { ...fresh(), mode }));
     if (mode !== "file") waitAndFit();
   });
-  for (const [menu, name, act] of [["copy", "copy", copy], ["save", "save", take]]) {
-    byId(menu).addEventListener("click", (event) => {
-      const what = event.target.dataset?.[name];
-      if (!what) return;
-      byId(menu).open = false;
-      act(what);
-    });
-  }
-  addEventListener("pointerdown", (event) => {
-    for (const menu of document.querySelectorAll("details.menu[open]")) if (!menu.contains(event.target)) menu.open = false;
-  });
+  listenToMenus(() => ({ state, answer: shownAnswer(), notice, ask: seen.ask, copied: (text) => (seen.copied = text) }));
   addEventListener("keydown", (event) => {
-    if (event.key === "Escape") for (const menu of document.querySelectorAll("details.menu[open]")) menu.open = false;
     if (event.key === "f" && !event.ctrlKey && !event.metaKey && !event.target.closest("input, select")) fit();
   });
   byId("presets").append(...Object.keys(PRESETS).map((name) => html("button", { onclick: () => (update(() => (state.join = { ...preset(name), family: state.join.family, objective: state.join.objective })), waitAndFit()) }, name)));

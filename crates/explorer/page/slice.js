@@ -102,7 +102,7 @@ export class Region {
     paint(this.#canvas, width, height, rank, ramp(nested.length), within);
     const share = Math.round((1000 * proved) / (width * height)) / 10;
     byId("slice-note").textContent = done
-      ? `${width} × ${height}, ${share} % proved between pixels too`
+      ? `${width} × ${height}, ${share} % in proved boxes`
       : "refining…";
     byId("slice-title").textContent = { cubic: "Cubic spirals", "ph-quintic": "PH quintic spirals", "any-spiral": "Spirals of any kind" }[family];
     const colors = ramp(nested.length);

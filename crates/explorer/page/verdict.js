@@ -53,8 +53,9 @@ export function verdicts(answer, state, { chosen, toggled }) {
   }
 }
 
-function swatch(kind) {
-  return svg("svg", { class: `swatch line ${kind}`, viewBox: "0 0 22 8" }, svg("path", { d: "M1 4H21" }));
+/** The line of a kind of curve. */
+export function swatch(kind) {
+  return svg("svg", { class: `swatch stroke ${kind}`, viewBox: "0 0 22 8" }, svg("path", { d: "M1 4H21" }));
 }
 
 /** Why the chosen curve is as it is. `take` gets ends that would do. */
@@ -77,7 +78,7 @@ export function reason(element, answer, state, advice, take) {
   const why = advice?.why ?? curve.why ?? {};
   const head = HEADS[why.cause ?? why.condition] ?? "No such curve";
   const parts = [html("p", { class: "head no" }, head)];
-  const list = [...needs(why, answer), ...remedies(advice?.why, answer, unit, take)];
+  const list = [...needs(why), ...remedies(advice?.why, answer, unit, take)];
   if (list.length) parts.push(html("ul", { class: "needs" }, ...list));
   const told = measure(why);
   if (told) parts.push(html("p", {}, told));
@@ -96,6 +97,30 @@ export function reason(element, answer, state, advice, take) {
   element.replaceChildren(...parts);
 }
 
+/** A join in words, and its pieces. */
+export function joinTold(element, joined, unit) {
+  const { path, samples } = joined;
+  if (!path) {
+    const head = joined.error ? "Refused" : "No join found";
+    element.replaceChildren(html("p", { class: "head no" }, head), html("p", {}, joined.error ?? `${joined.reason}.`));
+    return;
+  }
+  const count = path.pieces.length;
+  const rate = Math.max(...path.rate_range.map(Math.abs));
+  const rows = path.pieces.map((piece, i) => {
+    const [first, last] = [samples[i][0][4], samples[i].at(-1)[4]].map((k) => show(k, 4));
+    const bend = piece.kind === "line" ? "straight" : piece.kind === "arc" ? `${first}/${unit}` : `${first} → ${last}/${unit}`;
+    const name = { line: "line", arc: "arc" }[piece.kind] ?? `${NAMES[piece.kind].replace(/^[A-Z][a-z]/, (a) => a.toLowerCase())} spiral`;
+    return html("tr", {}, html("td", {}, swatch(piece.kind), name), html("td", {}, `${show(piece.length, 5)} ${unit}`), html("td", {}, bend));
+  });
+  element.replaceChildren(
+    html("p", { class: "head yes" }, `${count === 1 ? "One piece" : `${count} pieces`}, ${show(path.length, 6)} ${unit}`),
+    html("p", {}, `Least radius ${show(1 / path.greatest_curvature, 5)} ${unit}. Each spiral is proved.`),
+    html("p", { class: "small" }, `Greatest |dκ/ds| ${show(rate, 4)}/${unit}², bending energy ${show(path.bending_energy, 4)}/${unit}.`),
+    html("table", { class: "pieces" }, ...rows),
+  );
+}
+
 /** The normalised numbers, beside the user's. */
 function normalised(answer, { facts }) {
   const { phi0, phi1, kappa0, kappa1 } = answer.datum;
@@ -104,7 +129,7 @@ function normalised(answer, { facts }) {
 }
 
 /** What the curvatures must pass, and by how much they miss it. */
-function needs(why, answer) {
+function needs(why) {
   const unit = byId("unit").value;
   return (why.needs ?? []).map((need) => {
     const bound = need.above ?? need.below;
@@ -114,7 +139,7 @@ function needs(why, answer) {
     return html(
       "li",
       {},
-      `${need.which} curvature ${show(need.curvature, 5)} must be ${word} ${show(bound, 6)}/${unit}: off by ${show(off, 3)}${joined}`,
+      `${need.which} curvature must be ${word} ${show(bound, 5)}/${unit}${joined}: off by ${show(off, 2)}`,
     );
   });
 }
@@ -126,8 +151,8 @@ function remedies(why, answer, unit, take) {
     return html(
       "li",
       {},
-      html("button", { class: "plain", onclick: () => take(ends) }, `${remedy.which} curvature ${show(remedy.instead, 6)}/${unit}`),
-      ` would do, all else the same: off by ${show(Math.abs(remedy.instead - remedy.curvature), 3)}`,
+      html("button", { class: "plain", onclick: () => take(ends) }, `${remedy.which} curvature ${show(remedy.instead, 5)}/${unit}`),
+      ` would do: off by ${show(Math.abs(remedy.instead - remedy.curvature), 2)}`,
     );
   });
 }
