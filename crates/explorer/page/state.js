@@ -22,7 +22,7 @@ export const PRESETS = {
   "Line to circle": { from: line(0, 0, 0), to: circle(160, 66, 60, "left"), radius: 60, pieces: 1 },
   S: { from: circle(0, 0, 30, "left"), to: circle(110, 20, 40, "right"), radius: 30, pieces: 3 },
   C: { from: circle(0, 0, 30, "left"), to: circle(110, 20, 40, "left"), radius: 30, pieces: 3 },
-  U: { from: line(0, 0, 0), to: line(0, 180, 180), radius: 70, pieces: 3 },
+  U: { from: line(0, 0, 0), to: line(60, 180, 165), radius: 60, pieces: 3 },
 };
 
 function preset(name) {
