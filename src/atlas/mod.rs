@@ -34,8 +34,8 @@ mod write;
 
 pub use about::{About, FORMAT_VERSION, Kind, Named, Packed};
 pub use header::MAX_HEADER;
-pub(crate) use map::{Map, map_bytes, map_path};
 use map::{MEMORY, map_file};
+pub(crate) use map::{Map, map_bytes, map_path};
 pub use write::{Writer, Written};
 
 use crate::error::{Error, Result};

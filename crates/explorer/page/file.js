@@ -154,6 +154,7 @@ export class Files {
     if (!this.#plane) return;
     const [W, H] = [this.#chart.clientWidth, this.#chart.clientHeight];
     const [w, h] = [W - MARGIN.left - MARGIN.right, H - MARGIN.top - MARGIN.bottom];
+    if (w < 20 || h < 20) return;
     const parts = [svg("rect", { class: "frame", x: MARGIN.left + 0.5, y: MARGIN.top + 0.5, width: w - 1, height: h - 1 })];
     const axes = [this.#plane.x, this.#plane.y].map((i) => this.#about.axes[i]);
     axes.forEach((axis, i) => {

@@ -41,7 +41,7 @@ export function endHandles(which, end, { bends, back, unit }) {
       id: `${which}-point`,
       which,
       shape: "point",
-      label: `${name} point`,
+      label: `handle of the ${name} point`,
       at: (plane) => plane.toScreen(end.get().point),
       value: () => end.get().point.map((x) => show(x)).join(", "),
       move: (world, plane) => end.set({ point: tidyPoint(world, plane) }),
@@ -54,7 +54,7 @@ export function endHandles(which, end, { bends, back, unit }) {
       id: `${which}-direction`,
       which,
       shape: "arrow",
-      label: `${name} direction`,
+      label: `handle of the ${name} direction`,
       from: () => end.get().point,
       angle: () => end.get().direction,
       at: (plane) => {
@@ -75,7 +75,7 @@ export function endHandles(which, end, { bends, back, unit }) {
     id: `${which}-curvature`,
     which,
     shape: "bend",
-    label: `${name} circle`,
+    label: `handle of the ${name} circle`,
     at: (plane) => {
       const { point, direction, curvature } = end.get();
       const [x, y] = plane.toScreen(point);
@@ -108,7 +108,7 @@ export function circleHandles(which, end) {
       id: `${which}-centre`,
       which,
       shape: "point",
-      label: `centre of the ${name} circle`,
+      label: `handle of the ${name} centre`,
       at: (plane) => plane.toScreen(end.get().centre),
       value: () => end.get().centre.map((x) => show(x)).join(", "),
       move: (world, plane) => end.set({ centre: tidyPoint(world, plane) }),
@@ -121,7 +121,7 @@ export function circleHandles(which, end) {
       id: `${which}-radius`,
       which,
       shape: "bend",
-      label: `radius of the ${name} circle`,
+      label: `handle of the ${name} radius`,
       from: () => end.get().centre,
       at: (plane) => {
         const { centre, radius } = end.get();

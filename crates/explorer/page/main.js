@@ -29,7 +29,7 @@ let curves;
 let helper;
 
 /** What tests look at. */
-const seen = { times: [], state: () => state, answer: () => answer, joined: () => joined, advice: () => advice, ask: (question) => curves.ask(question) };
+const seen = { times: [], idle: () => idle(), state: () => state, answer: () => answer, joined: () => joined, advice: () => advice, ask: (question) => curves.ask(question) };
 globalThis.explorer = seen;
 
 function notice(text) {
@@ -46,12 +46,18 @@ function broken(text) {
 
 function changed(time = performance.now()) {
   seen.busy = true;
+  if (answer) answer.whole = false;
   if (state.mode === "ends") {
-    curves.newest("curves", { question: { ask: "curves", ends: state.ends, kinds: KINDS } }, (found) => {
-      answer = found;
+    // The chosen curve first: it is drawn while the others are computed.
+    const { ends, kind } = state;
+    const began = performance.now();
+    curves.newest("curves", { question: { ask: "curves", ends, kinds: [kind] } }, (found) => {
+      answer = found.error ? found : { ...found, curves: { ...answer?.curves, ...found.curves } };
       advice = undefined;
       showEnds();
-      seen.times.push(performance.now() - time);
+      seen.times.push([performance.now() - time, performance.now() - began]);
+      const others = KINDS.filter((other) => other !== kind);
+      if (!found.error) curves.newest("others", { question: { ask: "curves", ends, kinds: others } }, (rest) => showOthers(rest, ends, kind));
     });
   } else if (state.mode === "join") {
     const { from, to, radius, pieces, family, objective } = state.join;
@@ -60,7 +66,6 @@ function changed(time = performance.now()) {
     curves.newest("join", { question }, (found) => {
       joined = found;
       showJoin();
-      seen.times.push(performance.now() - time);
     });
   }
   showNumbers();
@@ -71,7 +76,7 @@ function changed(time = performance.now()) {
 /** When nothing has changed for a while. */
 function rested() {
   history.replaceState(null, "", `#${encode(state)}`);
-  if (state.mode === "ends" && answer && !answer.error && !answer.curves[state.kind].spiral) {
+  if (state.mode === "ends" && answer?.curves?.[state.kind]?.spiral === false) {
     const asked = JSON.stringify([state.ends, state.kind]);
     helper.newest("advice", { question: { ask: "advice", ends: state.ends, kind: state.kind } }, (found) => {
       if (asked !== JSON.stringify([state.ends, state.kind]) || found.error) return;
@@ -80,6 +85,17 @@ function rested() {
     });
   }
   seen.busy = false;
+}
+
+/** Whether all that was asked is shown. */
+const idle = () => !seen.busy && (state.mode !== "ends" || !answer || answer.error || answer.whole);
+
+/** What the other families have, unless the question has changed meanwhile. */
+function showOthers(rest, ends, kind) {
+  if (rest.error || answer.error || state.kind !== kind) return;
+  answer.curves = { ...answer.curves, ...rest.curves };
+  if (ends === state.ends) answer.whole = true;
+  showEnds();
 }
 
 function showEnds() {
@@ -91,7 +107,8 @@ function showEnds() {
     verdicts(undefined, state, choices);
     return;
   }
-  const shown = state.shown.filter((kind) => answer.curves[kind].spiral);
+  if (!answer.curves[state.kind]) return;
+  const shown = state.shown.filter((kind) => answer.curves[kind]?.spiral);
   const drawn = shown.map((kind) => {
     const { samples, control_points } = answer.curves[kind];
     return { kind, samples, points: samples.map((s) => [s[1], s[2]]), control: control_points };
@@ -106,7 +123,7 @@ function showEnds() {
 }
 
 function showReason() {
-  if (answer && !answer.error) reason(byId("reason"), answer, state, advice, (ends) => update(() => (state.ends = pick(ends))));
+  if (answer?.curves?.[state.kind]) reason(byId("reason"), answer, state, advice, (ends) => update(() => (state.ends = pick(ends))));
 }
 
 /** Points of a Bézier curve. */

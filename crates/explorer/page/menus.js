@@ -41,6 +41,7 @@ async function take(what, { state, answer, notice, ask }) {
       if (state.unit !== "m") throw new Error("Roads are in metres: choose the unit m.");
       const road = await ask({ ask: "road", pieces: found });
       if (road.error) throw new Error(road.error);
+      if (road.off > 0) notice(`A PH quintic is fitted by cubics there, no further away than ${road.off.toPrecision(2)} m.`);
       save("road.xodr", new Blob([road.text], { type: "application/xml" }));
     }
   } catch (error) {

@@ -129,6 +129,7 @@ export class Region {
     const { unit, turn, placement } = this.answer;
     const [W, H] = [this.#chart.clientWidth, this.#chart.clientHeight];
     const [w, h] = [W - MARGIN.left - MARGIN.right, H - MARGIN.top - MARGIN.bottom];
+    if (w < 20 || h < 20) return;
     const [[x0, x1], [y0, y1]] = this.#shown.ranges.map((range) => range.map((k) => k / unit));
     const sign = turn === "right" ? -1 : 1;
     const [first, second] = placement.reversed ? ["end", "start"] : ["start", "end"];

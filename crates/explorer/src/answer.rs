@@ -236,6 +236,6 @@ impl Join {
 impl Road {
     pub fn answer(self) -> Result<Value> {
         let (text, fit) = opendrive(&[Course::new(self.pieces)?], &OpenDrive { lane_width: 3.5, tolerance: 0.001 })?;
-        Ok(json!({ "text": text, "fitted": fit.curves, "error": fit.error }))
+        Ok(json!({ "text": text, "off": fit.error }))
     }
 }
