@@ -341,22 +341,26 @@ HOSTILE_LINKS = [
 
 @test
 def hostile_links_do_no_harm(browser):
-    for link in HOSTILE_LINKS:
-        page = Page(browser, link)
+    def look(page, link):
         assert page.page.is_visible("header") and not page.page.is_visible("#loading"), link
         assert page.page.query_selector("#notice script, #notice img, #unit script") is None
         text = page.page.inner_text("main")
         assert "NaN" not in text and "undefined" not in text, (link, text)
+
+    # Some of them at the start, and all of them one after the other in one page.
+    for link in HOSTILE_LINKS[1::5]:
+        page = Page(browser, link)
+        look(page, link)
         page.close()
-    # And one after the other in one page.
     page = Page(browser)
     for link in HOSTILE_LINKS:
         page.page.evaluate("(link) => { location.hash = link }", link)
-        page.page.wait_for_timeout(20)
+        page.page.wait_for_timeout(150)
+        look(page, link)
     page.page.evaluate("location.hash = '#start=0,0,-0.7,0.004&end=200,0,1.4,0.04'")
     page.page.wait_for_timeout(200)
     page.rest()
-    assert page.word("cubic") == "spiral"
+    assert page.word("cubic") == "spiral" and not page.page.is_visible("#notice")
     page.close()
 
 
@@ -420,7 +424,7 @@ def files_are_opened_and_hostile_ones_refused(browser):
             for (const type of ["dragenter", "dragover", "drop"]) dispatchEvent(new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true })); }""",
         list(cells),
     )
-    page.page.wait_for_function("document.getElementById('file-title').textContent === 'cells'")
+    page.page.wait_for_function("() => document.getElementById('file-title').textContent === 'cells'")
     page.page.wait_for_timeout(200)
     page.page.mouse.move(box["x"] + box["width"] * 0.5, box["y"] + box["height"] * 0.5)
     assert "kappa1" in page.page.inner_text("#file-reading")
@@ -449,7 +453,12 @@ def what_is_taken_away_is_the_same(browser):
         assert json.loads(text)["paths"][0]["pieces"] == [piece]
         road = page.saved("xodr").decode()
         (folder / "path.json").write_text(page.saved("json").decode())
-        assert road == run("export", "opendrive", str(folder / "path.json")), kind
+        native = run("export", "opendrive", str(folder / "path.json"))
+        number = r"-?\d[\d.]*(?:e-?\d+)?"
+        assert re.sub(number, "", road) == re.sub(number, "", native), kind
+        # Sines and roots may differ in their last place.
+        pairs = zip(map(float, re.findall(number, road)), map(float, re.findall(number, native)), strict=True)
+        assert all(abs(a - b) <= 1e-10 * max(1, abs(a)) for a, b in pairs), kind
     compile(page.copied("python"), "python", "exec")
     svg = ElementTree.fromstring(page.saved("svg"))
     assert svg.tag.endswith("svg") and "class" not in ElementTree.tostring(svg).decode()
@@ -476,9 +485,14 @@ def joins_are_those_of_the_program(browser):
         native = json.loads(run(*shlex.split(page.copied("command"))[1:]))
         assert [p["kind"] for p in path["pieces"]] == [p["kind"] for p in native["pieces"]], name
         assert abs(path["length"] - native["length"]) < 1e-9 * native["length"], name
+    page.page.click("#presets button:text-is('Two states')")
+    page.page.wait_for_timeout(150)
+    page.rest()
     before = page.tell("joined()")["path"]["length"]
     page.drag("to-point", -30, 20)
     assert page.tell("joined()")["path"]["length"] != before
+    page.page.click("#presets button:text-is('Line to circle')")
+    page.page.wait_for_timeout(150)
     page.page.fill("#join-radius", "9000")
     page.page.press("#join-radius", "Enter")
     page.rest()
@@ -501,8 +515,8 @@ def both_schemes_and_sizes(browser):
 
 def picture(browser):
     page = Page(browser, "#start=0,0,-0.7,0.004&end=200,0,1.4,0.05", device_scale_factor=1)
-    page.page.wait_for_function("document.getElementById('slice-note').textContent.includes('proved')")
-    page.page.screenshot(path="docs/figures/explorer.png")
+    page.page.wait_for_function("() => document.getElementById('slice-note').textContent.includes('proved')")
+    page.page.screenshot(path="docs/explorer.png")
     page.close()
 
 
