@@ -132,22 +132,26 @@ export class Files {
       fills = ramp(nested.length);
       for (let i = 0; i < rank.length; i++) rank[i] = nested.reduce((rank, bit, n) => ((inside[i] >> bit) & 1 ? n + 1 : rank), 0);
     }
-    const flipped = new Uint8Array(rank.length);
-    for (let y = 0; y < height; y++) flipped.set(rank.subarray(y * width, (y + 1) * width), (height - 1 - y) * width);
-    // Few nodes are painted large, so that edges between regions stay thin.
-    const factor = Math.max(1, Math.floor(800 / Math.max(width, height)));
-    const large = new Uint8Array(flipped.length * factor * factor);
-    for (let y = 0, to = 0; y < height * factor; y++) {
-      for (let x = 0; x < width * factor; x++, to++) large[to] = flipped[Math.floor(y / factor) * width + Math.floor(x / factor)];
+    // As many pixels as the screen has there, so that edges between regions are thin and whole.
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const [w, h] = [
+      Math.max(16, Math.round((this.#chart.clientWidth - MARGIN.left - MARGIN.right) * ratio)),
+      Math.max(16, Math.round((this.#chart.clientHeight - MARGIN.top - MARGIN.bottom) * ratio)),
+    ];
+    const shown = new Uint8Array(w * h);
+    for (let y = 0, to = 0; y < h; y++) {
+      const row = (height - 1 - Math.floor((y * height) / h)) * width;
+      for (let x = 0; x < w; x++, to++) shown[to] = rank[row + Math.floor((x * width) / w)];
     }
-    paint(byId("file-plane"), width * factor, height * factor, large, fills);
+    paint(byId("file-plane"), w, h, shown, fills);
     const swatch = (color) => svg("svg", { class: "swatch", viewBox: "0 0 14 14" }, svg("rect", { width: 14, height: 14, rx: 3, fill: css(color) }));
     byId("file-legend").replaceChildren(...labels.map((label, i) => html("li", {}, swatch(fills[i]), label)));
     this.#axes();
   }
 
+  /** After the chart has another size. */
   resize() {
-    this.#axes();
+    this.paint();
   }
 
   #axes() {
