@@ -12,13 +12,16 @@ function filled(element, attributes, children) {
   return element;
 }
 
-export const html = (name, attributes = {}, ...children) => filled(document.createElement(name), attributes, children);
-export const svg = (name, attributes = {}, ...children) => filled(document.createElementNS(SVG, name), attributes, children);
+export const html = (name, attributes = {}, ...children) =>
+  filled(document.createElement(name), attributes, children);
+export const svg = (name, attributes = {}, ...children) =>
+  filled(document.createElementNS(SVG, name), attributes, children);
 export const byId = (id) => document.getElementById(id);
 
 /** A path through points of the screen. */
 export function pathOf(points) {
   let text = "";
-  for (let i = 0; i < points.length; i++) text += `${i ? "L" : "M"}${points[i][0].toFixed(2)} ${points[i][1].toFixed(2)}`;
+  for (let i = 0; i < points.length; i++)
+    text += `${i ? "L" : "M"}${points[i][0].toFixed(2)} ${points[i][1].toFixed(2)}`;
   return text;
 }

@@ -40,7 +40,9 @@ export class Files {
 
   async open(file) {
     if (file.size > MOST) {
-      this.failed(`${file.name} has ${Math.round(file.size / 2 ** 20)} MiB; the browser opens atlases of up to 1024 MiB`);
+      this.failed(
+        `${file.name} has ${Math.round(file.size / 2 ** 20)} MiB; the browser opens atlases of up to 1024 MiB`,
+      );
       return;
     }
     try {
@@ -64,18 +66,59 @@ export class Files {
     byId("drop").hidden = true;
     byId("browser").hidden = false;
     byId("file-title").textContent = about.name;
-    byId("file-note").textContent = `${about.title ?? about.family}; ${about.kind}, ${about.axes.map((a) => a.values.length - (about.kind === "cells")).join(" × ")}. All bytes are checked.`;
+    byId("file-note").textContent =
+      `${about.title ?? about.family}; ${about.kind}, ${about.axes.map((a) => a.values.length - (about.kind === "cells")).join(" × ")}. All bytes are checked.`;
     const names = about.axes.map((axis) => axis.name);
     const last = names.length - 1;
     const choice = (label, chosen, options) =>
-      html("label", {}, label, html("select", { "data-axis": label, onchange: () => this.#ask() }, ...options.map((name, i) => html("option", { value: i, selected: i === chosen }, name))));
+      html(
+        "label",
+        {},
+        label,
+        html(
+          "select",
+          { "data-axis": label, onchange: () => this.#ask() },
+          ...options.map((name, i) => html("option", { value: i, selected: i === chosen }, name)),
+        ),
+      );
     const sliders = about.axes.map((axis, i) => {
       const count = axis.values.length - (about.kind === "cells");
-      const input = html("input", { type: "range", min: 0, max: count - 1, value: count >> 1, "data-at": i, "aria-label": axis.name, oninput: () => this.#ask() });
-      return html("label", { class: "slider", "data-slider": i }, html("span", {}, axis.name), input, html("output", {}));
+      const input = html("input", {
+        type: "range",
+        min: 0,
+        max: count - 1,
+        value: count >> 1,
+        "data-at": i,
+        "aria-label": axis.name,
+        oninput: () => this.#ask(),
+      });
+      return html(
+        "label",
+        { class: "slider", "data-slider": i },
+        html("span", {}, axis.name),
+        input,
+        html("output", {}),
+      );
     });
-    const flags = about.kind === "cells" ? [choice("flag", Math.max(0, about.flags.findIndex((f) => f.name === "SPIRAL")), about.flags.map((f) => f.name))] : [];
-    byId("file-axes").replaceChildren(choice("across", last - 1, names), choice("up", last, names), ...flags, ...sliders);
+    const flags =
+      about.kind === "cells"
+        ? [
+            choice(
+              "flag",
+              Math.max(
+                0,
+                about.flags.findIndex((f) => f.name === "SPIRAL"),
+              ),
+              about.flags.map((f) => f.name),
+            ),
+          ]
+        : [];
+    byId("file-axes").replaceChildren(
+      choice("across", last - 1, names),
+      choice("up", last, names),
+      ...flags,
+      ...sliders,
+    );
     this.#ask();
   }
 
@@ -130,7 +173,8 @@ export class Files {
       const nested = about.nested.length ? about.nested : about.flags.map((_, i) => i).slice(0, 4);
       labels = nested.map((bit) => about.flags[bit].label);
       fills = ramp(nested.length);
-      for (let i = 0; i < rank.length; i++) rank[i] = nested.reduce((rank, bit, n) => ((inside[i] >> bit) & 1 ? n + 1 : rank), 0);
+      for (let i = 0; i < rank.length; i++)
+        rank[i] = nested.reduce((rank, bit, n) => ((inside[i] >> bit) & 1 ? n + 1 : rank), 0);
     }
     // As many pixels as the screen has there, so that edges between regions are thin and whole.
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
@@ -144,7 +188,12 @@ export class Files {
       for (let x = 0; x < w; x++, to++) shown[to] = rank[row + Math.floor((x * width) / w)];
     }
     paint(byId("file-plane"), w, h, shown, fills);
-    const swatch = (color) => svg("svg", { class: "swatch", viewBox: "0 0 14 14" }, svg("rect", { width: 14, height: 14, rx: 3, fill: css(color) }));
+    const swatch = (color) =>
+      svg(
+        "svg",
+        { class: "swatch", viewBox: "0 0 14 14" },
+        svg("rect", { width: 14, height: 14, rx: 3, fill: css(color) }),
+      );
     byId("file-legend").replaceChildren(...labels.map((label, i) => html("li", {}, swatch(fills[i]), label)));
     this.#axes();
   }
@@ -159,7 +208,9 @@ export class Files {
     const [W, H] = [this.#chart.clientWidth, this.#chart.clientHeight];
     const [w, h] = [W - MARGIN.left - MARGIN.right, H - MARGIN.top - MARGIN.bottom];
     if (w < 20 || h < 20) return;
-    const parts = [svg("rect", { class: "frame", x: MARGIN.left + 0.5, y: MARGIN.top + 0.5, width: w - 1, height: h - 1 })];
+    const parts = [
+      svg("rect", { class: "frame", x: MARGIN.left + 0.5, y: MARGIN.top + 0.5, width: w - 1, height: h - 1 }),
+    ];
     const axes = [this.#plane.x, this.#plane.y].map((i) => this.#about.axes[i]);
     axes.forEach((axis, i) => {
       const angle = ANGLES.includes(axis.name);
@@ -170,15 +221,29 @@ export class Files {
         const text = show(v, 4) + (angle ? "°" : "");
         if (i === 0) {
           const x = MARGIN.left + at(v) * w;
-          parts.push(svg("path", { class: "tick", d: `M${x} ${MARGIN.top + h}v4` }), svg("text", { x, y: MARGIN.top + h + 18, "text-anchor": "middle" }, text));
+          parts.push(
+            svg("path", { class: "tick", d: `M${x} ${MARGIN.top + h}v4` }),
+            svg("text", { x, y: MARGIN.top + h + 18, "text-anchor": "middle" }, text),
+          );
         } else {
           const y = MARGIN.top + (1 - at(v)) * h;
-          parts.push(svg("path", { class: "tick", d: `M${MARGIN.left} ${y}h-4` }), svg("text", { x: MARGIN.left - 8, y: y + 4, "text-anchor": "end" }, text));
+          parts.push(
+            svg("path", { class: "tick", d: `M${MARGIN.left} ${y}h-4` }),
+            svg("text", { x: MARGIN.left - 8, y: y + 4, "text-anchor": "end" }, text),
+          );
         }
       }
     });
-    parts.push(svg("text", { class: "label", x: MARGIN.left + w / 2, y: H - 6, "text-anchor": "middle" }, axes[0].name));
-    parts.push(svg("text", { class: "label", transform: `translate(13 ${MARGIN.top + h / 2}) rotate(-90)`, "text-anchor": "middle" }, axes[1].name));
+    parts.push(
+      svg("text", { class: "label", x: MARGIN.left + w / 2, y: H - 6, "text-anchor": "middle" }, axes[0].name),
+    );
+    parts.push(
+      svg(
+        "text",
+        { class: "label", transform: `translate(13 ${MARGIN.top + h / 2}) rotate(-90)`, "text-anchor": "middle" },
+        axes[1].name,
+      ),
+    );
     this.#svg.replaceChildren(...parts);
   }
 
@@ -187,14 +252,22 @@ export class Files {
     if (!this.#plane) return;
     const { width, height, inside, outside, x, y } = this.#plane;
     const box = this.#chart.getBoundingClientRect();
-    const i = Math.floor(((event.clientX - box.left - MARGIN.left) / (box.width - MARGIN.left - MARGIN.right)) * width);
-    const j = Math.floor((1 - (event.clientY - box.top - MARGIN.top) / (box.height - MARGIN.top - MARGIN.bottom)) * height);
+    const i = Math.floor(
+      ((event.clientX - box.left - MARGIN.left) / (box.width - MARGIN.left - MARGIN.right)) * width,
+    );
+    const j = Math.floor(
+      (1 - (event.clientY - box.top - MARGIN.top) / (box.height - MARGIN.top - MARGIN.bottom)) * height,
+    );
     if (i < 0 || j < 0 || i >= width || j >= height) return;
     const about = this.#about;
     const at = j * width + i;
     const holds = about.flags.filter((_, bit) => (inside[at] >> bit) & 1).map((flag) => flag.name);
-    const open = about.kind === "cells" ? about.flags.filter((_, bit) => !(((inside[at] | outside[at]) >> bit) & 1)).map((flag) => flag.name) : [];
+    const open =
+      about.kind === "cells"
+        ? about.flags.filter((_, bit) => !(((inside[at] | outside[at]) >> bit) & 1)).map((flag) => flag.name)
+        : [];
     const place = `${about.axes[x].name} ${this.#value(about.axes[x], i)}, ${about.axes[y].name} ${this.#value(about.axes[y], j)}`;
-    byId("file-reading").textContent = `${place}: ${holds.join(", ") || "no flag"}${open.length ? `; MIXED: ${open.join(", ")}` : ""}`;
+    byId("file-reading").textContent =
+      `${place}: ${holds.join(", ") || "no flag"}${open.length ? `; MIXED: ${open.join(", ")}` : ""}`;
   }
 }

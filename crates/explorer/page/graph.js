@@ -15,7 +15,9 @@ export function drawGraph(element, curves, active, marked) {
   const all = curves.map((c) => c.samples.filter((s) => Number.isFinite(s[4]) && s[4] !== null));
   const longest = Math.max(...all.map((s) => s.at(-1)?.[0] ?? 0), 0);
   if (!(longest > 0)) {
-    element.replaceChildren(svg("text", { class: "empty", x: w / 2, y: h / 2, "text-anchor": "middle" }, "no curve, no curvature"));
+    element.replaceChildren(
+      svg("text", { class: "empty", x: w / 2, y: h / 2, "text-anchor": "middle" }, "no curve, no curvature"),
+    );
     element.onpointermove = element.onpointerleave = null;
     return;
   }
@@ -30,12 +32,20 @@ export function drawGraph(element, curves, active, marked) {
     parts.push(svg("path", { class: k === 0 ? "zero" : "line", d: `M${LEFT} ${y(k)}H${w - RIGHT}` }));
     parts.push(svg("text", { x: LEFT - 8, y: y(k) + 4, "text-anchor": "end" }, show(k, 4)));
   }
-  for (const s of ticks(0, longest, 6)) parts.push(svg("text", { x: x(s), y: h - 9, "text-anchor": "middle" }, show(s, 4)));
+  for (const s of ticks(0, longest, 6))
+    parts.push(svg("text", { x: x(s), y: h - 9, "text-anchor": "middle" }, show(s, 4)));
   const place = (s) => [x(s[0]), y(s[4])];
   curves.forEach((curve, i) => {
-    if (curve !== active) parts.push(svg("path", { class: `curve other ${curve.kind}`, d: pathOf(all[i].map(place)) }));
+    if (curve !== active)
+      parts.push(svg("path", { class: `curve other ${curve.kind}`, d: pathOf(all[i].map(place)) }));
   });
-  if (active) parts.push(svg("path", { class: `curve ${active.kind}`, d: pathOf(active.samples.filter((s) => Number.isFinite(s[4]) && s[4] !== null).map(place)) }));
+  if (active)
+    parts.push(
+      svg("path", {
+        class: `curve ${active.kind}`,
+        d: pathOf(active.samples.filter((s) => Number.isFinite(s[4]) && s[4] !== null).map(place)),
+      }),
+    );
   parts.push(svg("text", { class: "label", x: LEFT + 6, y: TOP + 2 }, `κ in 1/${unit}, against length in ${unit}`));
   const reading = svg("text", { class: "label reading", x: w - RIGHT, y: TOP + 2, "text-anchor": "end" });
   const dot = svg("circle", { class: "dot", r: 4, visibility: "hidden" });
@@ -43,7 +53,9 @@ export function drawGraph(element, curves, active, marked) {
   element.onpointermove = (event) => {
     if (!active) return;
     const s = ((event.clientX - element.getBoundingClientRect().left - LEFT) / (w - LEFT - RIGHT)) * longest;
-    const nearest = active.samples.reduce((best, sample) => (Math.abs(sample[0] - s) < Math.abs(best[0] - s) ? sample : best));
+    const nearest = active.samples.reduce((best, sample) =>
+      Math.abs(sample[0] - s) < Math.abs(best[0] - s) ? sample : best,
+    );
     dot.setAttribute("visibility", "visible");
     dot.setAttribute("cx", x(nearest[0]));
     dot.setAttribute("cy", y(nearest[4]));

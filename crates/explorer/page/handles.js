@@ -34,7 +34,7 @@ function tidyAngle(radians) {
  *
  * `end` has functions get() and set({ point, direction, curvature }).
  */
-export function endHandles(which, end, { bends, back, unit }) {
+function endHandles(which, end, { bends, back, unit }) {
   const name = NAMES[which];
   const handles = [
     {
@@ -43,7 +43,11 @@ export function endHandles(which, end, { bends, back, unit }) {
       shape: "point",
       label: `handle of the ${name} point`,
       at: (plane) => plane.toScreen(end.get().point),
-      value: () => end.get().point.map((x) => show(x)).join(", "),
+      value: () =>
+        end
+          .get()
+          .point.map((x) => show(x))
+          .join(", "),
       move: (world, plane) => end.set({ point: tidyPoint(world, plane) }),
       nudge: (x, y, plane) => {
         const step = 10 ** Math.floor(Math.log10(4 / plane.view.scale));
@@ -101,7 +105,7 @@ export function endHandles(which, end, { bends, back, unit }) {
 }
 
 /** Handles of a circle: its centre and its radius. */
-export function circleHandles(which, end) {
+function circleHandles(which, end) {
   const name = NAMES[which];
   return [
     {
@@ -110,7 +114,11 @@ export function circleHandles(which, end) {
       shape: "point",
       label: `handle of the ${name} centre`,
       at: (plane) => plane.toScreen(end.get().centre),
-      value: () => end.get().centre.map((x) => show(x)).join(", "),
+      value: () =>
+        end
+          .get()
+          .centre.map((x) => show(x))
+          .join(", "),
       move: (world, plane) => end.set({ centre: tidyPoint(world, plane) }),
       nudge: (x, y, plane) => {
         const step = 10 ** Math.floor(Math.log10(4 / plane.view.scale));
@@ -135,4 +143,43 @@ export function circleHandles(which, end) {
       nudge: (x, y) => end.set({ radius: tidy(end.get().radius * 1.02 ** (y || x)) }),
     },
   ];
+}
+
+/** All handles of a state, which `state` gives. */
+export function allHandles(state) {
+  const { mode, join } = state();
+  const unit = () => state().unit;
+  if (mode === "join") {
+    return ["from", "to"].flatMap((which) => {
+      const end = {
+        get: () => state().join[which],
+        set: (parts) => {
+          const { join } = state();
+          state().join = { ...join, [which]: { ...join[which], ...parts } };
+        },
+      };
+      const { kind } = join[which];
+      if (kind === "circle") return circleHandles(which, end);
+      return endHandles(which, end, { bends: kind === "state", back: which === "from", unit });
+    });
+  }
+  return ["start", "end"].flatMap((name) => {
+    const [direction, curvature] = [`${name}_direction`, `${name}_curvature`];
+    const end = {
+      get: () => {
+        const { ends } = state();
+        return { point: ends[name], direction: ends[direction], curvature: ends[curvature] };
+      },
+      set: (parts) => {
+        const e = state().ends;
+        state().ends = {
+          ...e,
+          [name]: parts.point ?? e[name],
+          [direction]: parts.direction ?? e[direction],
+          [curvature]: parts.curvature ?? e[curvature],
+        };
+      },
+    };
+    return endHandles(name, end, { bends: true, back: name === "start", unit });
+  });
 }

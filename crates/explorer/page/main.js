@@ -5,13 +5,13 @@ import { byId, html } from "./dom.js";
 import { buildNumbers, showNumbers } from "./fields.js";
 import { Files } from "./file.js";
 import { drawGraph } from "./graph.js";
-import { circleHandles, endHandles } from "./handles.js";
+import { allHandles } from "./handles.js";
 import { listenToMenus } from "./menus.js";
 import { readLength, show, UNITS } from "./numbers.js";
 import { onScheme } from "./paint.js";
 import { Plane } from "./plane.js";
 import { Region } from "./slice.js";
-import { decode, encode, fresh, inUnit, KINDS, preset, PRESETS } from "./state.js";
+import { decode, encode, extent, fresh, inUnit, KINDS, preset, PRESETS } from "./state.js";
 import { joinTold, reason, verdicts } from "./verdict.js";
 
 /** Milliseconds of rest before what costs more is asked, and before the link is written. */
@@ -29,7 +29,15 @@ let curves;
 let helper;
 
 /** What tests look at. */
-const seen = { times: [], idle: () => idle(), state: () => state, answer: () => answer, joined: () => joined, advice: () => advice, ask: (question) => curves.ask(question) };
+const seen = {
+  times: [],
+  idle: () => idle(),
+  state: () => state,
+  answer: () => answer,
+  joined: () => joined,
+  advice: () => advice,
+  ask: (question) => curves.ask(question),
+};
 globalThis.explorer = seen;
 
 function notice(text) {
@@ -57,12 +65,23 @@ function changed(time = performance.now()) {
       showEnds();
       seen.times.push([performance.now() - time, performance.now() - began]);
       const others = KINDS.filter((other) => other !== kind);
-      if (!found.error) curves.newest("others", { question: { ask: "curves", ends, kinds: others } }, (rest) => showOthers(rest, ends, kind));
+      if (!found.error)
+        curves.newest("others", { question: { ask: "curves", ends, kinds: others } }, (rest) =>
+          showOthers(rest, ends, kind),
+        );
     });
   } else if (state.mode === "join") {
     const { from, to, radius, pieces, family, objective } = state.join;
     const end = ({ kind, ...rest }) => ({ [kind]: rest });
-    const question = { ask: "join", from: end(from), to: end(to), greatest_curvature: 1 / radius, family, objective, most_pieces: pieces };
+    const question = {
+      ask: "join",
+      from: end(from),
+      to: end(to),
+      greatest_curvature: 1 / radius,
+      family,
+      objective,
+      most_pieces: pieces,
+    };
     curves.newest("join", { question }, (found) => {
       joined = found;
       showJoin();
@@ -115,7 +134,13 @@ function showEnds() {
   });
   const active = drawn.find((curve) => curve.kind === state.kind);
   const others = (!answer.curves[state.kind].spiral && answer.curves[state.kind].others) || [];
-  plane.draw({ circles: answer.circles, curves: drawn, active, wavers: others.map((o) => bezier(o.control_points)), comb: state.comb });
+  plane.draw({
+    circles: answer.circles,
+    curves: drawn,
+    active,
+    wavers: others.map((o) => bezier(o.control_points)),
+    comb: state.comb,
+  });
   drawGraph(byId("graph"), drawn, active, (point) => plane.mark(point));
   verdicts(answer, state, choices);
   showReason();
@@ -123,21 +148,30 @@ function showEnds() {
 }
 
 function showReason() {
-  if (answer?.curves?.[state.kind]) reason(byId("reason"), answer, state, advice, (ends) => update(() => (state.ends = pick(ends))));
+  if (answer?.curves?.[state.kind])
+    reason(byId("reason"), answer, state, advice, (ends) => update(() => (state.ends = pick(ends))));
 }
 
 /** Points of a Bézier curve. */
 function bezier(control) {
   return Array.from({ length: 81 }, (_, i) => {
     let points = control;
-    while (points.length > 1) points = points.slice(1).map((p, j) => [0, 1].map((c) => points[j][c] + (p[c] - points[j][c]) * (i / 80)));
+    while (points.length > 1)
+      points = points.slice(1).map((p, j) => [0, 1].map((c) => points[j][c] + (p[c] - points[j][c]) * (i / 80)));
     return points[0];
   });
 }
 
 const shownAnswer = () => (state.mode === "join" ? joined : answer);
 
-const pick = ({ start, end, start_direction, end_direction, start_curvature, end_curvature }) => ({ start, end, start_direction, end_direction, start_curvature, end_curvature });
+const pick = ({ start, end, start_direction, end_direction, start_curvature, end_curvature }) => ({
+  start,
+  end,
+  start_direction,
+  end_direction,
+  start_curvature,
+  end_curvature,
+});
 
 const choices = {
   chosen: (kind) =>
@@ -145,7 +179,11 @@ const choices = {
       state.kind = kind;
       if (!state.shown.includes(kind)) state.shown.push(kind);
     }),
-  toggled: (kind) => update(() => (state.shown = state.shown.includes(kind) ? state.shown.filter((k) => k !== kind) : [...state.shown, kind])),
+  toggled: (kind) =>
+    update(
+      () =>
+        (state.shown = state.shown.includes(kind) ? state.shown.filter((k) => k !== kind) : [...state.shown, kind]),
+    ),
 };
 
 function showJoin() {
@@ -154,7 +192,13 @@ function showJoin() {
   if (path) {
     const parts = path.pieces.map((piece, i) => ({ kind: piece.kind, points: samples[i].map((s) => [s[1], s[2]]) }));
     const all = samples.flat();
-    const active = { kind: "join", samples: all, points: all.map((s) => [s[1], s[2]]), parts, joints: parts.slice(1).map((part) => part.points[0]) };
+    const active = {
+      kind: "join",
+      samples: all,
+      points: all.map((s) => [s[1], s[2]]),
+      parts,
+      joints: parts.slice(1).map((part) => part.points[0]),
+    };
     plane.draw({ circles: joined.circles, curves: [active], active, comb: state.comb });
     drawGraph(byId("graph"), [active], active, (point) => plane.mark(point));
   } else {
@@ -178,50 +222,14 @@ function setUp() {
   document.querySelector(`[name=mode][value=${state.mode}]`).checked = true;
   byId("unit").value = state.unit;
   byId("comb").checked = state.comb;
-  const unit = () => state.unit;
-  if (state.mode === "ends") {
-    const end = (name) => ({
-      get: () => ({ point: state.ends[name], direction: state.ends[`${name}_direction`], curvature: state.ends[`${name}_curvature`] }),
-      set: ({ point, direction, curvature }) => {
-        const e = state.ends;
-        state.ends = {
-          ...e,
-          [name]: point ?? e[name],
-          [`${name}_direction`]: direction ?? e[`${name}_direction`],
-          [`${name}_curvature`]: curvature ?? e[`${name}_curvature`],
-        };
-      },
-    });
-    plane.handles([...endHandles("start", end("start"), { bends: true, back: true, unit }), ...endHandles("end", end("end"), { bends: true, back: false, unit })]);
-  } else if (state.mode === "join") {
-    plane.handles(
-      ["from", "to"].flatMap((which) => {
-        const end = { get: () => state.join[which], set: (parts) => (state.join = { ...state.join, [which]: { ...state.join[which], ...parts } }) };
-        const { kind } = state.join[which];
-        return kind === "circle" ? circleHandles(which, end) : endHandles(which, end, { bends: kind === "state", back: which === "from", unit });
-      }),
-    );
-    byId("join-family").value = state.join.family;
-    byId("join-objective").value = state.join.objective;
-  }
+  plane.handles(allHandles(() => state));
+  byId("join-family").value = state.join.family;
+  byId("join-objective").value = state.join.objective;
   buildNumbers({ state: () => state, update, notice });
 }
 
-/** The points that should be seen. */
-function extent() {
-  if (state.mode === "ends") {
-    const { ends } = state;
-    const points = [ends.start, ends.end];
-    for (const kind of state.shown) points.push(...(answer?.curves?.[kind]?.samples ?? []).map((s) => [s[1], s[2]]));
-    return points;
-  }
-  const { from, to } = state.join;
-  const of = (end) => (end.kind === "circle" ? [-1, 1].flatMap((s) => [[end.centre[0] + s * end.radius, end.centre[1]], [end.centre[0], end.centre[1] + s * end.radius]]) : [end.point]);
-  return [...of(from), ...of(to), ...(joined?.samples ?? []).flat().map((s) => [s[1], s[2]])];
-}
-
 function fit() {
-  plane.fit(extent());
+  plane.fit(extent(state, shownAnswer()));
   if (state.mode === "join") showJoin();
   else showEnds();
   plane.place();
@@ -253,13 +261,36 @@ function listen() {
     update(() => (state = { ...fresh(), mode }));
     if (mode !== "file") waitAndFit();
   });
-  listenToMenus(() => ({ state, answer: shownAnswer(), notice, ask: seen.ask, copied: (text) => (seen.copied = text) }));
+  listenToMenus(() => ({
+    state,
+    answer: shownAnswer(),
+    notice,
+    ask: seen.ask,
+    copied: (text) => (seen.copied = text),
+  }));
   addEventListener("keydown", (event) => {
     if (event.key === "f" && !event.ctrlKey && !event.metaKey && !event.target.closest("input, select")) fit();
   });
-  byId("presets").append(...Object.keys(PRESETS).map((name) => html("button", { onclick: () => (update(() => (state.join = { ...preset(name), family: state.join.family, objective: state.join.objective })), waitAndFit()) }, name)));
+  byId("presets").append(
+    ...Object.keys(PRESETS).map((name) =>
+      html(
+        "button",
+        {
+          onclick: () => (
+            update(
+              () => (state.join = { ...preset(name), family: state.join.family, objective: state.join.objective }),
+            ),
+            waitAndFit()
+          ),
+        },
+        name,
+      ),
+    ),
+  );
   byId("join-family").addEventListener("change", (event) => update(() => (state.join.family = event.target.value)));
-  byId("join-objective").addEventListener("change", (event) => update(() => (state.join.objective = event.target.value)));
+  byId("join-objective").addEventListener("change", (event) =>
+    update(() => (state.join.objective = event.target.value)),
+  );
   byId("join-pieces").addEventListener("change", (event) => {
     const value = Number(event.target.value);
     if (Number.isInteger(value) && value >= 1 && value <= 11) update(() => (state.join.pieces = value));
@@ -293,14 +324,19 @@ function listen() {
 /** Fits the view once the answer is there. */
 async function waitAndFit() {
   const before = shownAnswer();
-  for (let i = 0; i < 100 && (!shownAnswer() || shownAnswer() === before); i++) await new Promise((resolve) => setTimeout(resolve, 10));
+  for (let i = 0; i < 100 && (!shownAnswer() || shownAnswer() === before); i++)
+    await new Promise((resolve) => setTimeout(resolve, 10));
   if (state.mode !== "file") fit();
 }
 
 /** Takes over the state of a link. */
 function open(hash) {
   const { state: read, wrong } = decode(hash);
-  notice(wrong.length ? `The link has parts that cannot be read: ${[...new Set(wrong)].slice(0, 5).join(", ")}. They are as in a fresh page.` : "");
+  notice(
+    wrong.length
+      ? `The link has parts that cannot be read: ${[...new Set(wrong)].slice(0, 5).join(", ")}. They are as in a fresh page.`
+      : "",
+  );
   update(() => (state = read));
 }
 
@@ -314,11 +350,15 @@ async function start() {
   helper = new Asker(module, broken);
   await Promise.all([curves.ready, helper.ready]);
   plane = new Plane(byId("plane"), { changed, released: rested });
-  region = new Region(helper, ([start, end], time) => {
-    state.ends = { ...state.ends, start_curvature: start, end_curvature: end };
-    plane.place();
-    changed(time);
-  }, rested);
+  region = new Region(
+    helper,
+    ([start, end], time) => {
+      state.ends = { ...state.ends, start_curvature: start, end_curvature: end };
+      plane.place();
+      changed(time);
+    },
+    rested,
+  );
   files = new Files(helper, {
     opened: () => {
       notice("");
@@ -327,7 +367,7 @@ async function start() {
     failed: notice,
   });
   listen();
-  plane.fit(extent());
+  plane.fit(extent(state, shownAnswer()));
   open(location.hash);
   await waitAndFit();
   byId("loading").hidden = true;

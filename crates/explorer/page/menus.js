@@ -41,7 +41,8 @@ async function take(what, { state, answer, notice, ask }) {
       if (state.unit !== "m") throw new Error("Roads are in metres: choose the unit m.");
       const road = await ask({ ask: "road", pieces: found });
       if (road.error) throw new Error(road.error);
-      if (road.off > 0) notice(`A PH quintic is fitted by cubics there, no further away than ${road.off.toPrecision(2)} m.`);
+      if (road.off > 0)
+        notice(`A PH quintic is fitted by cubics there, no further away than ${road.off.toPrecision(2)} m.`);
       save("road.xodr", new Blob([road.text], { type: "application/xml" }));
     }
   } catch (error) {
@@ -51,7 +52,10 @@ async function take(what, { state, answer, notice, ask }) {
 
 /** Listens to both menus; `now` gives { state, answer, notice, ask, copied }. */
 export function listenToMenus(now) {
-  for (const [id, act] of [["copy", copy], ["save", take]]) {
+  for (const [id, act] of [
+    ["copy", copy],
+    ["save", take],
+  ]) {
     byId(id).addEventListener("click", (event) => {
       const what = event.target.dataset?.[id];
       if (!what) return;
@@ -59,7 +63,8 @@ export function listenToMenus(now) {
       act(what, now());
     });
   }
-  const close = (but) => document.querySelectorAll("details.menu[open]").forEach((menu) => menu.contains(but) || (menu.open = false));
+  const close = (but) =>
+    document.querySelectorAll("details.menu[open]").forEach((menu) => menu.contains(but) || (menu.open = false));
   addEventListener("pointerdown", (event) => close(event.target));
   addEventListener("keydown", (event) => event.key === "Escape" && close(null));
 }

@@ -17,7 +17,8 @@ function plain(text) {
 function split(text) {
   const match = /^(.*?)\s*([a-z]+)?$/i.exec(text.trim());
   const unit = match[2] && match[2].toLowerCase();
-  if (unit && unit !== "e" && !(unit in UNITS)) throw new Error(`“${match[2]}” is no unit; known are ${Object.keys(UNITS).join(", ")}`);
+  if (unit && unit !== "e" && !(unit in UNITS))
+    throw new Error(`“${match[2]}” is no unit; known are ${Object.keys(UNITS).join(", ")}`);
   return [plain(match[1]), unit];
 }
 
@@ -88,7 +89,8 @@ export function ticks(from, to, count) {
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough);
   const all = [];
-  for (let i = Math.ceil(from / step); i * step <= to + 1e-9 * step; i++) all.push(Number((i * step).toPrecision(12)));
+  for (let i = Math.ceil(from / step); i * step <= to + 1e-9 * step; i++)
+    all.push(Number((i * step).toPrecision(12)));
   return all;
 }
 

@@ -3,8 +3,28 @@
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 /** Paper, and regions from the largest to the innermost: those of the pictures. In the dark, what is paper or grey there is dark. */
-const LIGHT = { paper: [255, 255, 255], ramp: [[226, 226, 226], [242, 188, 60], [38, 137, 152], [54, 26, 92]], edge: [0, 0, 0], line: [210, 32, 32] };
-const DARK = { paper: [24, 27, 31], ramp: [[74, 80, 88], [242, 188, 60], [38, 137, 152], [112, 72, 176]], edge: [16, 18, 21], line: [255, 110, 100] };
+const LIGHT = {
+  paper: [255, 255, 255],
+  ramp: [
+    [226, 226, 226],
+    [242, 188, 60],
+    [38, 137, 152],
+    [54, 26, 92],
+  ],
+  edge: [0, 0, 0],
+  line: [210, 32, 32],
+};
+const DARK = {
+  paper: [24, 27, 31],
+  ramp: [
+    [74, 80, 88],
+    [242, 188, 60],
+    [38, 137, 152],
+    [112, 72, 176],
+  ],
+  edge: [16, 18, 21],
+  line: [255, 110, 100],
+};
 const PICKED = [[], [2], [0, 1], [0, 1, 3], [0, 1, 2, 3]];
 
 export const colours = () => (dark.matches ? DARK : LIGHT);
@@ -19,7 +39,9 @@ export function ramp(count) {
 export const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
 
 function luminance(color) {
-  const [r, g, b] = color.map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
+  const [r, g, b] = color.map((part) =>
+    part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4,
+  );
   return 0.2126 * r + 0.7152 * g + 0.0722 * b;
 }
 

@@ -27,7 +27,8 @@ export class Plane {
     element.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     element.addEventListener("pointerdown", (event) => this.#down(event));
     element.addEventListener("pointermove", (event) => this.#pan(event));
-    for (const name of ["pointerup", "pointercancel"]) element.addEventListener(name, (event) => this.#pointers.delete(event.pointerId));
+    for (const name of ["pointerup", "pointercancel"])
+      element.addEventListener(name, (event) => this.#pointers.delete(event.pointerId));
   }
 
   get size() {
@@ -50,7 +51,10 @@ export class Plane {
     const [xs, ys] = [0, 1].map((i) => points.map((p) => p[i]).filter(Number.isFinite));
     const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
     const extent = Math.max(right - left, high - low, 1e-12);
-    const scale = Math.min((w - 150) / Math.max(right - left, 0.02 * extent), (h - 130) / Math.max(high - low, 0.02 * extent));
+    const scale = Math.min(
+      (w - 150) / Math.max(right - left, 0.02 * extent),
+      (h - 130) / Math.max(high - low, 0.02 * extent),
+    );
     this.view = { x: (left + right) / 2, y: (low + high) / 2, scale: Math.max(scale, 1e-300) };
   }
 
@@ -62,7 +66,8 @@ export class Plane {
     const path = (points, attributes) => svg("path", { d: pathOf(points.map((p) => this.#near(p))), ...attributes });
     const drawn = [];
     for (const points of wavers ?? []) drawn.push(path(points, { class: "waver" }));
-    for (const curve of curves) if (curve !== active) drawn.push(path(curve.points, { class: `curve other ${curve.kind}` }));
+    for (const curve of curves)
+      if (curve !== active) drawn.push(path(curve.points, { class: `curve other ${curve.kind}` }));
     if (active) {
       drawn.push(path(active.points, { class: "casing" }));
       for (const part of active.parts ?? [active]) drawn.push(path(part.points, { class: `curve ${part.kind}` }));
@@ -75,7 +80,10 @@ export class Plane {
     const polygon = active?.control?.map((p) => this.#near(p));
     this.#layers.polygon.replaceChildren(
       ...(polygon
-        ? [svg("path", { d: pathOf(polygon) }), ...polygon.slice(1, -1).map(([x, y]) => svg("rect", { x: x - 3, y: y - 3, width: 6, height: 6 }))]
+        ? [
+            svg("path", { d: pathOf(polygon) }),
+            ...polygon.slice(1, -1).map(([x, y]) => svg("rect", { x: x - 3, y: y - 3, width: 6, height: 6 })),
+          ]
         : []),
     );
     this.#layers.comb.replaceChildren(...(comb && active ? this.#comb(active.samples) : []));
@@ -116,7 +124,8 @@ export class Plane {
         const [x0, y0] = this.toScreen(handle.from());
         arm.setAttribute("d", `M${(x0 - x).toFixed(2)} ${(y0 - y).toFixed(2)}L0 0`);
       }
-      if (handle.angle) element.lastChild.setAttribute("transform", `rotate(${((-handle.angle() * 180) / Math.PI).toFixed(2)})`);
+      if (handle.angle)
+        element.lastChild.setAttribute("transform", `rotate(${((-handle.angle() * 180) / Math.PI).toFixed(2)})`);
     }
   }
 
@@ -129,7 +138,13 @@ export class Plane {
     };
     const element = svg(
       "g",
-      { class: `handle ${handle.shape} ${handle.which}`, tabindex: 0, role: "slider", "aria-label": handle.label, "data-handle": handle.id },
+      {
+        class: `handle ${handle.shape} ${handle.which}`,
+        tabindex: 0,
+        role: "slider",
+        "aria-label": handle.label,
+        "data-handle": handle.id,
+      },
       svg("title", {}, handle.label),
       arm,
       svg("circle", { class: "reach", r: 20 }),
@@ -197,7 +212,12 @@ export class Plane {
     const { point, direction } = end.line;
     const [x, y] = this.toScreen(point);
     const [dx, dy] = [FAR * Math.cos(direction), -FAR * Math.sin(direction)];
-    return svg("path", { d: pathOf([[x - dx, y - dy], [x + dx, y + dy]]) });
+    return svg("path", {
+      d: pathOf([
+        [x - dx, y - dy],
+        [x + dx, y + dy],
+      ]),
+    });
   }
 
   #comb(samples) {
@@ -212,7 +232,10 @@ export class Plane {
     const good = samples.filter((s) => s.every((x) => x !== null && Number.isFinite(x)));
     const thin = Math.max(1, Math.ceil(good.length / 80));
     const teeth = good.filter((_, i) => i % thin === 0).map((s) => pathOf([this.#near([s[1], s[2]]), tip(s)]));
-    return [svg("path", { class: "teeth", d: teeth.join("") }), svg("path", { class: "edge", d: pathOf(good.map(tip)) })];
+    return [
+      svg("path", { class: "teeth", d: teeth.join("") }),
+      svg("path", { class: "edge", d: pathOf(good.map(tip)) }),
+    ];
   }
 
   #grid() {
@@ -223,14 +246,20 @@ export class Plane {
     const power = 10 ** Math.floor(Math.log10(rough));
     const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough);
     let lines = "";
-    for (let i = Math.ceil(left / step); i * step <= right && lines.length < 9000; i++) lines += `M${this.toScreen([i * step, 0])[0].toFixed(1)} 0V${h}`;
-    for (let i = Math.ceil(bottom / step); i * step <= top && lines.length < 9000; i++) lines += `M0 ${this.toScreen([0, i * step])[1].toFixed(1)}H${w}`;
+    for (let i = Math.ceil(left / step); i * step <= right && lines.length < 9000; i++)
+      lines += `M${this.toScreen([i * step, 0])[0].toFixed(1)} 0V${h}`;
+    for (let i = Math.ceil(bottom / step); i * step <= top && lines.length < 9000; i++)
+      lines += `M0 ${this.toScreen([0, i * step])[1].toFixed(1)}H${w}`;
     const unit = byId("unit").value;
     const length = step * this.view.scale;
     this.#layers.grid.replaceChildren(
       svg("path", { d: lines }),
       svg("path", { class: "scale", d: `M${w - 20 - length} ${h - 18}v5h${length}v-5` }),
-      svg("text", { x: w - 20 - length / 2, y: h - 20, "text-anchor": "middle" }, `${Number(step.toPrecision(6))} ${unit}`),
+      svg(
+        "text",
+        { x: w - 20 - length / 2, y: h - 20, "text-anchor": "middle" },
+        `${Number(step.toPrecision(6))} ${unit}`,
+      ),
     );
   }
 

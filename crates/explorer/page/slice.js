@@ -52,7 +52,10 @@ export class Region {
     this.answer = answer;
     this.kind = kind;
     const { phi0, phi1, kappa0, kappa1 } = answer.datum;
-    const [w, h] = [this.#chart.clientWidth - MARGIN.left - MARGIN.right, this.#chart.clientHeight - MARGIN.top - MARGIN.bottom];
+    const [w, h] = [
+      this.#chart.clientWidth - MARGIN.left - MARGIN.right,
+      this.#chart.clientHeight - MARGIN.top - MARGIN.bottom,
+    ];
     if (w < 20 || h < 20) return;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [w, h].map((n) => Math.max(16, Math.min(MOST, Math.round(n * ratio))));
@@ -69,7 +72,8 @@ export class Region {
     const slice = { family: FAMILY[kind], phi0, phi1, at, width, height };
     this.#asker.slice(slice, (answer) => {
       // Where a family has no region at all at such angles, that of all spirals is shown.
-      if (answer.error) this.#asker.slice({ ...slice, family: "any-spiral" }, (other) => this.#told(other, answer.error));
+      if (answer.error)
+        this.#asker.slice({ ...slice, family: "any-spiral" }, (other) => this.#told(other, answer.error));
       else this.#told(answer);
     });
   }
@@ -89,7 +93,9 @@ export class Region {
     if (!this.#shown) return;
     const { width, height, pixels, nested, flags, family, done, proved, instead } = this.#shown;
     const solvable = flags.findIndex((flag) => flag.name === "SOLVABLE");
-    const ranks = new Uint8Array(256).map((_, code) => nested.reduce((rank, bit, i) => ((code >> bit) & 1 ? i + 1 : rank), 0));
+    const ranks = new Uint8Array(256).map((_, code) =>
+      nested.reduce((rank, bit, i) => ((code >> bit) & 1 ? i + 1 : rank), 0),
+    );
     const rank = new Uint8Array(width * height);
     const within = solvable >= 0 && new Uint8Array(width * height);
     for (let x = 0, from = 0; x < width; x++) {
@@ -101,18 +107,34 @@ export class Region {
     }
     paint(this.#canvas, width, height, rank, ramp(nested.length), within);
     const share = Math.round((1000 * proved) / (width * height)) / 10;
-    byId("slice-note").textContent = done
-      ? `${width} × ${height}, ${share} % in proved boxes`
-      : "refining…";
-    byId("slice-title").textContent = { cubic: "Cubic spirals", "ph-quintic": "PH quintic spirals", "any-spiral": "Spirals of any kind" }[family];
+    byId("slice-note").textContent = done ? `${width} × ${height}, ${share} % in proved boxes` : "refining…";
+    byId("slice-title").textContent = {
+      cubic: "Cubic spirals",
+      "ph-quintic": "PH quintic spirals",
+      "any-spiral": "Spirals of any kind",
+    }[family];
     const colors = ramp(nested.length);
-    const swatch = (color) => svg("svg", { class: "swatch", viewBox: "0 0 14 14" }, svg("rect", { width: 14, height: 14, rx: 3, fill: css(color) }));
-    const entries = nested.map((bit, i) => html("li", { title: flags[bit].doc }, swatch(colors[i]), flags[bit].label));
+    const swatch = (color) =>
+      svg(
+        "svg",
+        { class: "swatch", viewBox: "0 0 14 14" },
+        svg("rect", { width: 14, height: 14, rx: 3, fill: css(color) }),
+      );
+    const entries = nested.map((bit, i) =>
+      html("li", { title: flags[bit].doc }, swatch(colors[i]), flags[bit].label),
+    );
     if (within) {
-      const red = svg("svg", { class: "swatch", viewBox: "0 0 14 14" }, svg("path", { d: "M1 2H13M2 12l4-9M7 12l4-9", stroke: css(colours().line), "stroke-width": 2 }));
+      const red = svg(
+        "svg",
+        { class: "swatch", viewBox: "0 0 14 14" },
+        svg("path", { d: "M1 2H13M2 12l4-9M7 12l4-9", stroke: css(colours().line), "stroke-width": 2 }),
+      );
       entries.push(html("li", { title: flags[solvable].doc }, red, flags[solvable].label));
     }
-    if (instead) entries.push(html("li", { class: "small", title: instead }, "no curve of the chosen family has such directions"));
+    if (instead)
+      entries.push(
+        html("li", { class: "small", title: instead }, "no curve of the chosen family has such directions"),
+      );
     byId("legend").replaceChildren(...entries);
     this.#axes();
   }
@@ -133,7 +155,9 @@ export class Region {
     const [[x0, x1], [y0, y1]] = this.#shown.ranges.map((range) => range.map((k) => k / unit));
     const sign = turn === "right" ? -1 : 1;
     const [first, second] = placement.reversed ? ["end", "start"] : ["start", "end"];
-    const parts = [svg("rect", { class: "frame", x: MARGIN.left + 0.5, y: MARGIN.top + 0.5, width: w - 1, height: h - 1 })];
+    const parts = [
+      svg("rect", { class: "frame", x: MARGIN.left + 0.5, y: MARGIN.top + 0.5, width: w - 1, height: h - 1 }),
+    ];
     for (const k of ticks(x0, x1, w < 260 ? 3 : 5)) {
       const x = MARGIN.left + ((k - x0) / (x1 - x0)) * w;
       parts.push(svg("path", { class: "tick", d: `M${x} ${MARGIN.top + h}v4` }));
@@ -145,8 +169,20 @@ export class Region {
       parts.push(svg("text", { x: MARGIN.left - 7, y: y + 4, "text-anchor": "end" }, show(sign * k, 3)));
     }
     const name = byId("unit").value;
-    parts.push(svg("text", { class: "label", x: MARGIN.left + w / 2, y: H - 6, "text-anchor": "middle" }, `${first} curvature, 1/${name}`));
-    parts.push(svg("text", { class: "label", transform: `translate(11 ${MARGIN.top + h / 2}) rotate(-90)`, "text-anchor": "middle" }, `${second} curvature, 1/${name}`));
+    parts.push(
+      svg(
+        "text",
+        { class: "label", x: MARGIN.left + w / 2, y: H - 6, "text-anchor": "middle" },
+        `${first} curvature, 1/${name}`,
+      ),
+    );
+    parts.push(
+      svg(
+        "text",
+        { class: "label", transform: `translate(11 ${MARGIN.top + h / 2}) rotate(-90)`, "text-anchor": "middle" },
+        `${second} curvature, 1/${name}`,
+      ),
+    );
     const [x, y] = this.#place();
     const clamp = (v) => Math.max(0, Math.min(1, v));
     const cursor = svg(
@@ -180,7 +216,10 @@ export class Region {
   #drag(event) {
     const box = this.#chart.getBoundingClientRect();
     const [w, h] = [box.width - MARGIN.left - MARGIN.right, box.height - MARGIN.top - MARGIN.bottom];
-    this.#move([(event.clientX - box.left - MARGIN.left) / w, 1 - (event.clientY - box.top - MARGIN.top) / h], event.timeStamp);
+    this.#move(
+      [(event.clientX - box.left - MARGIN.left) / w, 1 - (event.clientY - box.top - MARGIN.top) / h],
+      event.timeStamp,
+    );
   }
 
   #move([x, y], time) {

@@ -3,7 +3,12 @@
 import { UNITS } from "./numbers.js";
 
 export const KINDS = ["cubic", "ph-quintic", "involute"];
-export const NAMES = { cubic: "Cubic", "ph-quintic": "PH quintic", involute: "Involute", "trig-quintic": "Trigonometric" };
+export const NAMES = {
+  cubic: "Cubic",
+  "ph-quintic": "PH quintic",
+  involute: "Involute",
+  "trig-quintic": "Trigonometric",
+};
 export const FAMILIES = [...KINDS, "trig-quintic"];
 export const OBJECTIVES = ["length", "greatest-curvature", "greatest-rate", "bending-energy"];
 const MODES = ["ends", "join", "file"];
@@ -58,7 +63,12 @@ export function encode(s) {
   const end = (end) =>
     end.kind === "circle"
       ? ["circle", ...end.centre, end.radius, end.turn]
-      : ["state", "line"].includes(end.kind) && [end.kind, ...end.point, end.direction, ...(end.kind === "state" ? [end.curvature] : [])];
+      : ["state", "line"].includes(end.kind) && [
+          end.kind,
+          ...end.point,
+          end.direction,
+          ...(end.kind === "state" ? [end.curvature] : []),
+        ];
   const parts = {
     mode: s.mode,
     unit: s.unit,
@@ -74,7 +84,9 @@ export function encode(s) {
     family: s.join.family,
     objective: s.join.objective,
   };
-  return Object.entries(parts).map(([name, value]) => `${name}=${[value].flat().join(",")}`).join("&");
+  return Object.entries(parts)
+    .map(([name, value]) => `${name}=${[value].flat().join(",")}`)
+    .join("&");
 }
 
 /** The state of a link, and what of it could not be read; that is as in a fresh page. */
@@ -177,4 +189,19 @@ export function inUnit(s, unit) {
     },
     join: { ...s.join, from: end(s.join.from), to: end(s.join.to), radius: length(s.join.radius) },
   };
+}
+
+/** The points that should be seen: the ends, and the curves of an answer. */
+export function extent(s, answer) {
+  const points = (samples) => (samples ?? []).map((sample) => [sample[1], sample[2]]);
+  if (s.mode !== "join") {
+    return [s.ends.start, s.ends.end, ...s.shown.flatMap((kind) => points(answer?.curves?.[kind]?.samples))];
+  }
+  const around = ({ centre: [x, y], radius }) =>
+    [-1, 1].flatMap((d) => [
+      [x + d * radius, y],
+      [x, y + d * radius],
+    ]);
+  const of = (end) => (end.kind === "circle" ? around(end) : [end.point]);
+  return [...of(s.join.from), ...of(s.join.to), ...points(answer?.samples?.flat())];
 }

@@ -8,7 +8,9 @@ export function command(s) {
     const { from, to, radius, pieces, family, objective } = s.join;
     const end = (name, end) => {
       if (end.kind === "circle") return `--${name}-circle=${[...end.centre, end.radius, end.turn].join(",")}`;
-      const state = [...end.point, tellAngle(end.direction), ...(end.kind === "state" ? [end.curvature] : [])].join(",");
+      const state = [...end.point, tellAngle(end.direction), ...(end.kind === "state" ? [end.curvature] : [])].join(
+        ",",
+      );
       return `--${name}${end.kind === "line" ? "-line" : ""}=${state}`;
     };
     return [
@@ -29,7 +31,8 @@ export function command(s) {
 }
 
 function states({ from, to }, program) {
-  if (from.kind !== "state" || to.kind !== "state") throw new Error(`In ${program} joins lead from state to state; the command line has lines and circles, too.`);
+  if (from.kind !== "state" || to.kind !== "state")
+    throw new Error(`In ${program} joins lead from state to state; the command line has lines and circles, too.`);
   return [from, to].map((end) => [...end.point, end.direction, end.curvature].join(", "));
 }
 
@@ -61,7 +64,9 @@ export function cpp(s) {
     return `#include <spiral_atlas.hpp>\n\nconst auto curve = spiral_atlas::join({${from}}, {${to}}, ${1 / s.join.radius}, "${s.join.family}");`;
   }
   const e = s.ends;
-  const [from, to] = ["start", "end"].map((end) => [...e[end], e[`${end}_direction`], e[`${end}_curvature`]].join(", "));
+  const [from, to] = ["start", "end"].map((end) =>
+    [...e[end], e[`${end}_direction`], e[`${end}_curvature`]].join(", "),
+  );
   return `#include <spiral_atlas.hpp>\n\nconst auto curve = spiral_atlas::fit({${from}}, {${to}}, "${s.kind}");`;
 }
 
@@ -74,14 +79,36 @@ export function pieces(s, answer) {
 
 export function json(s, answer) {
   const found = pieces(s, answer);
-  const path = s.mode === "join" ? answer?.path : found && { length: found[0].length, greatest_curvature: answer.curves[s.kind].greatest_curvature, pieces: found };
+  const path =
+    s.mode === "join"
+      ? answer?.path
+      : found && {
+          length: found[0].length,
+          greatest_curvature: answer.curves[s.kind].greatest_curvature,
+          pieces: found,
+        };
   const reason = s.mode === "join" ? answer?.reason : answer?.curves?.[s.kind]?.reason;
   const asked = s.mode === "join" ? s.join : s.ends;
   return JSON.stringify({ asked, ...(path ? { paths: [path] } : { paths: [], reason }) }, null, 2);
 }
 
 /** Attributes that a drawing needs to look the same outside of the page. */
-const LOOK = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap", "stroke-linejoin", "stroke-opacity", "fill-opacity", "opacity", "font-family", "font-size", "font-weight", "visibility", "display"];
+const LOOK = [
+  "fill",
+  "stroke",
+  "stroke-width",
+  "stroke-dasharray",
+  "stroke-linecap",
+  "stroke-linejoin",
+  "stroke-opacity",
+  "fill-opacity",
+  "opacity",
+  "font-family",
+  "font-size",
+  "font-weight",
+  "visibility",
+  "display",
+];
 
 /** A drawing as the text of an SVG file of its own; without the handles. */
 export function drawing(element) {
@@ -105,7 +132,12 @@ export function drawing(element) {
   copy.setAttribute("width", w);
   copy.setAttribute("height", h);
   const paper = document.createElementNS("http://www.w3.org/2000/svg", "rect");
-  for (const [name, value] of Object.entries({ width: w, height: h, fill: getComputedStyle(element).backgroundColor })) paper.setAttribute(name, value);
+  for (const [name, value] of Object.entries({
+    width: w,
+    height: h,
+    fill: getComputedStyle(element).backgroundColor,
+  }))
+    paper.setAttribute(name, value);
   copy.prepend(paper);
   return new XMLSerializer().serializeToString(copy);
 }

@@ -27,13 +27,28 @@ export function verdicts(answer, state, { chosen, toggled }) {
         html(
           "tr",
           { "data-kind": kind },
-          html("td", {}, html("label", {}, html("input", { type: "radio", name: "kind", value: kind, onchange: () => chosen(kind) }), swatch(kind), NAMES[kind])),
+          html(
+            "td",
+            {},
+            html(
+              "label",
+              {},
+              html("input", { type: "radio", name: "kind", value: kind, onchange: () => chosen(kind) }),
+              swatch(kind),
+              NAMES[kind],
+            ),
+          ),
           html("td", { class: "word" }),
           html("td", { class: "length" }),
           html(
             "td",
             {},
-            html("input", { type: "checkbox", "aria-label": `draw the ${NAMES[kind]}`, title: "draw it", onchange: () => toggled(kind) }),
+            html("input", {
+              type: "checkbox",
+              "aria-label": `draw the ${NAMES[kind]}`,
+              title: "draw it",
+              onchange: () => toggled(kind),
+            }),
           ),
         ),
       );
@@ -67,7 +82,8 @@ export function reason(element, answer, state, advice, take) {
     return;
   }
   if (curve.spiral) {
-    const radius = curve.greatest_curvature > 0 ? `, least radius ${show(1 / curve.greatest_curvature, 5)} ${unit}` : "";
+    const radius =
+      curve.greatest_curvature > 0 ? `, least radius ${show(1 / curve.greatest_curvature, 5)} ${unit}` : "";
     element.replaceChildren(
       html("p", { class: "head yes" }, `${NAMES[state.kind]} spiral, proved`),
       html("p", {}, `The curvature is monotone from end to end${radius}.`),
@@ -93,7 +109,14 @@ export function reason(element, answer, state, advice, take) {
     );
   }
   const open = element.querySelector("details")?.open;
-  parts.push(html("details", { open }, html("summary", {}, "In full"), html("p", { class: "small" }, `${advice?.reason || curve.reason}.`)));
+  parts.push(
+    html(
+      "details",
+      { open },
+      html("summary", {}, "In full"),
+      html("p", { class: "small" }, `${advice?.reason || curve.reason}.`),
+    ),
+  );
   element.replaceChildren(...parts);
 }
 
@@ -102,21 +125,41 @@ export function joinTold(element, joined, unit) {
   const { path, samples } = joined;
   if (!path) {
     const head = joined.error ? "Refused" : "No join found";
-    element.replaceChildren(html("p", { class: "head no" }, head), html("p", {}, joined.error ?? `${joined.reason}.`));
+    element.replaceChildren(
+      html("p", { class: "head no" }, head),
+      html("p", {}, joined.error ?? `${joined.reason}.`),
+    );
     return;
   }
   const count = path.pieces.length;
   const rate = Math.max(...path.rate_range.map(Math.abs));
   const rows = path.pieces.map((piece, i) => {
     const [first, last] = [samples[i][0][4], samples[i].at(-1)[4]].map((k) => show(k, 4));
-    const bend = piece.kind === "line" ? "straight" : piece.kind === "arc" ? `${first}/${unit}` : `${first} → ${last}/${unit}`;
-    const name = { line: "line", arc: "arc" }[piece.kind] ?? `${NAMES[piece.kind].replace(/^[A-Z][a-z]/, (a) => a.toLowerCase())} spiral`;
-    return html("tr", {}, html("td", {}, swatch(piece.kind), name), html("td", {}, `${show(piece.length, 5)} ${unit}`), html("td", {}, bend));
+    const bend =
+      piece.kind === "line" ? "straight" : piece.kind === "arc" ? `${first}/${unit}` : `${first} → ${last}/${unit}`;
+    const name =
+      { line: "line", arc: "arc" }[piece.kind] ??
+      `${NAMES[piece.kind].replace(/^[A-Z][a-z]/, (a) => a.toLowerCase())} spiral`;
+    return html(
+      "tr",
+      {},
+      html("td", {}, swatch(piece.kind), name),
+      html("td", {}, `${show(piece.length, 5)} ${unit}`),
+      html("td", {}, bend),
+    );
   });
   element.replaceChildren(
-    html("p", { class: "head yes" }, `${count === 1 ? "One piece" : `${count} pieces`}, ${show(path.length, 6)} ${unit}`),
+    html(
+      "p",
+      { class: "head yes" },
+      `${count === 1 ? "One piece" : `${count} pieces`}, ${show(path.length, 6)} ${unit}`,
+    ),
     html("p", {}, `Least radius ${show(1 / path.greatest_curvature, 5)} ${unit}. Each spiral is proved.`),
-    html("p", { class: "small" }, `Greatest |dκ/ds| ${show(rate, 4)}/${unit}², bending energy ${show(path.bending_energy, 4)}/${unit}.`),
+    html(
+      "p",
+      { class: "small" },
+      `Greatest |dκ/ds| ${show(rate, 4)}/${unit}², bending energy ${show(path.bending_energy, 4)}/${unit}.`,
+    ),
     html("table", { class: "pieces" }, ...rows),
   );
 }
@@ -151,7 +194,11 @@ function remedies(why, answer, unit, take) {
     return html(
       "li",
       {},
-      html("button", { class: "plain", onclick: () => take(ends) }, `${remedy.which} curvature ${show(remedy.instead, 5)}/${unit}`),
+      html(
+        "button",
+        { class: "plain", onclick: () => take(ends) },
+        `${remedy.which} curvature ${show(remedy.instead, 5)}/${unit}`,
+      ),
       ` would do: off by ${show(Math.abs(remedy.instead - remedy.curvature), 2)}`,
     );
   });
@@ -164,11 +211,16 @@ function measure(why) {
     const word = why.rising ? "above 0, because the curvature rises" : "below 0, because the curvature falls";
     return `Against the chord the directions are ${showAngle(why.start_angle, 4)} and ${showAngle(why.end_angle, 4)}. Their sum must be ${word}; it is ${showAngle(sum, 4)}.`;
   }
-  if (why.condition === "not-convex") return `Against the chord they are ${showAngle(why.start_angle, 4)} and ${showAngle(why.end_angle, 4)}; one must be to each side.`;
-  if (why.condition === "turns-too-far") return `They turn by ${showAngle(why.turning, 5)}, which must be below 180°: off by ${showAngle(why.turning - Math.PI, 3)}.`;
-  if (why.condition === "not-monotone") return `Margin ${show(Math.max(...why.roots.map((root) => root.margin)), 3)}; a spiral has one above 0.`;
-  if (why.condition === "no-ph-spiral") return `Margin ${show(Math.max(...why.margins), 3)}; a spiral has one above 0.`;
-  if (why.condition === "no-root") return `The discriminant is ${show(why.discriminant, 3)}, and k is ${show(why.k, 3)}.`;
+  if (why.condition === "not-convex")
+    return `Against the chord they are ${showAngle(why.start_angle, 4)} and ${showAngle(why.end_angle, 4)}; one must be to each side.`;
+  if (why.condition === "turns-too-far")
+    return `They turn by ${showAngle(why.turning, 5)}, which must be below 180°: off by ${showAngle(why.turning - Math.PI, 3)}.`;
+  if (why.condition === "not-monotone")
+    return `Margin ${show(Math.max(...why.roots.map((root) => root.margin)), 3)}; a spiral has one above 0.`;
+  if (why.condition === "no-ph-spiral")
+    return `Margin ${show(Math.max(...why.margins), 3)}; a spiral has one above 0.`;
+  if (why.condition === "no-root")
+    return `The discriminant is ${show(why.discriminant, 3)}, and k is ${show(why.k, 3)}.`;
   return "";
 }
 

@@ -31,7 +31,9 @@ channel.port1.onmessage = () => refine();
 function answer({ id, question, bytes, slice }) {
   if (slice) {
     const about = core.ask({ ask: "slice", ...slice });
-    making = about.error ? undefined : { id, about, width: slice.width, height: slice.height, began: performance.now() };
+    making = about.error
+      ? undefined
+      : { id, about, width: slice.width, height: slice.height, began: performance.now() };
     if (about.error) self.postMessage({ id, answer: about });
     else refine();
     return;
@@ -46,7 +48,15 @@ function refine() {
   let left = 1;
   while (left > 0 && performance.now() < until) left = core.refine(TILES);
   const pixels = core.pixels(width * height);
-  const answer = { ...about, width, height, pixels, done: left === 0, proved: core.proved(), took: performance.now() - began };
+  const answer = {
+    ...about,
+    width,
+    height,
+    pixels,
+    done: left === 0,
+    proved: core.proved(),
+    took: performance.now() - began,
+  };
   self.postMessage({ id, answer }, [pixels.buffer]);
   if (left > 0) channel.port2.postMessage(0);
   else making = undefined;
