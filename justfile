@@ -6,7 +6,7 @@ export NODEVICE_SELECT := "1"
 swiftshader := env("XDG_CACHE_HOME", env("HOME", "") / ".cache") / "spiral-atlas/swiftshader/icd.json"
 
 # Every check and test, as continuous integration runs them
-ci: setup lint test examples python capi ompl opendrive fuzz swiftshader
+ci: setup lint test examples python capi ompl opendrive explorer-test fuzz swiftshader
 
 # Installs what the tests need
 setup:
@@ -17,7 +17,7 @@ lint:
     cargo fmt --all --check
     cargo clippy --locked --release --all-targets -- -D warnings
     cargo clippy --locked --release --no-default-features -- -D warnings
-    cargo clippy --locked --release --package spiral-atlas-python --package spiral-atlas-capi -- -D warnings
+    cargo clippy --locked --release --package spiral-atlas-python --package spiral-atlas-capi --package spiral-atlas-explorer -- -D warnings
     RUSTDOCFLAGS="-D warnings" cargo doc --locked --release --no-deps
 
 # All tests, or those whose name contains a text
@@ -43,6 +43,22 @@ ompl:
 # Roads, judged by the ASAM quality checker and SUMO
 opendrive:
     tests/opendrive
+
+# The explorer for browsers, as a folder of static files
+explorer:
+    crates/explorer/build
+
+# The explorer on this machine, at http://localhost:8000
+explorer-serve: explorer
+    python3 -m http.server --bind 127.0.0.1 --directory target/explorer 8000
+
+# The explorer in Chromium, compared with the program
+explorer-test:
+    tests/explorer
+
+# The picture of the explorer, anew
+explorer-picture:
+    tests/explorer --picture
 
 # The coverage-guided fuzzers of the readers, for some seconds each
 fuzz seconds="15":

@@ -133,8 +133,7 @@ fn sweep(folder: &Path) {
 /// [`Error::Domain`] with both sizes. A file system that does not tell its size is trusted.
 pub fn check_room(folder: &Path, what: &str, needed: u64) -> Result<()> {
     let there = folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.exists());
-    let stats = there.and_then(|there| fs4::statvfs(there).ok()).filter(|stats| stats.total_space() > 0);
-    match stats.map(|stats| stats.available_space()) {
+    match there.and_then(free) {
         Some(free) if free < needed => Err(Error::Domain(format!(
             "{what} would take {} and the disk of {} has {} free; choose another folder, free some room, or ask for fewer nodes or fields",
             size(needed),
@@ -143,6 +142,17 @@ pub fn check_room(folder: &Path, what: &str, needed: u64) -> Result<()> {
         ))),
         _ => Ok(()),
     }
+}
+
+/// Bytes that are free on the disk of a folder, where the system tells.
+#[cfg(not(target_family = "wasm"))]
+fn free(folder: &Path) -> Option<u64> {
+    fs4::statvfs(folder).ok().filter(|stats| stats.total_space() > 0).map(|stats| stats.available_space())
+}
+
+#[cfg(target_family = "wasm")]
+fn free(_: &Path) -> Option<u64> {
+    None
 }
 
 /// Bytes in words: in the largest unit that leaves a number above 1.

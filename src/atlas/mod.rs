@@ -29,11 +29,14 @@
 mod about;
 mod fault;
 pub(crate) mod header;
+mod map;
 pub mod verify;
 mod write;
 
 pub use about::{About, FORMAT_VERSION, Kind, Named, Packed};
 pub use header::MAX_HEADER;
+use map::{MEMORY, map_file};
+pub(crate) use map::{Map, map_bytes, map_path};
 pub use write::{Writer, Written};
 
 use crate::error::{Error, Result};
@@ -42,9 +45,7 @@ use crate::files::Draft;
 use crate::grid::{Grid, Lookup};
 use blake3::Hash;
 use header::{FLAGS, Header, SOLUTIONS};
-use memmap2::{Mmap, MmapMut};
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -90,7 +91,7 @@ pub struct Entry {
 #[derive(Debug)]
 pub struct Atlas {
     path: PathBuf,
-    map: Mmap,
+    map: Map,
     header: Header,
     body: usize,
     flags: Range<usize>,
@@ -128,7 +129,7 @@ impl Atlas {
         Atlas::new(path, map)
     }
 
-    fn new(path: PathBuf, map: Mmap) -> Result<Atlas> {
+    fn new(path: PathBuf, map: Map) -> Result<Atlas> {
         let invalid = |what| Error::Atlas { path: path.clone(), what };
         if cfg!(target_endian = "big") {
             return Err(invalid("its numbers are little-endian, those of this machine are not".into()));
@@ -304,29 +305,11 @@ pub fn kind(path: impl AsRef<Path>) -> Result<Kind> {
     Header::parse(&map).map(|(header, _)| header.about.kind).map_err(|what| Error::Atlas { path: path.to_owned(), what })
 }
 
-/// Maps the file of a path.
-pub(crate) fn map_path(path: &Path) -> Result<Mmap> {
-    // Asked before opening, because opening a pipe would wait for its other end.
-    if !std::fs::metadata(path).map_err(Error::io(path))?.is_file() {
-        let what = "it is not an ordinary file; an atlas is mapped into memory, and needs one".into();
-        return Err(Error::Atlas { path: path.to_owned(), what });
-    }
-    map_file(path, &File::open(path).map_err(Error::io(path))?)
-}
-
-fn map_file(path: &Path, file: &File) -> Result<Mmap> {
-    // SAFETY: the map is read-only and private to the value that holds it, and only ever read as u8, u32, f32 or f64, for which every bit
-    // pattern is valid. That nobody changes the file meanwhile cannot be enforced; the documentation of `Atlas` asks for it.
-    // Should someone do so, no invariant that memory safety rests on is read from the map again after its first check.
-    unsafe { Mmap::map(file) }.map_err(Error::io(path))
-}
-
-/// A copy of bytes as a map of its own, which has the alignment of a mapped file, under a name for messages.
-pub(crate) fn map_bytes(bytes: &[u8]) -> Result<(PathBuf, Mmap)> {
-    let path = PathBuf::from("(memory)");
-    // An empty one is not possible.
-    let mut map = MmapMut::map_anon(bytes.len().max(1)).map_err(Error::io(&path))?;
-    map[..bytes.len()].copy_from_slice(bytes);
-    let map = map.make_read_only().map_err(Error::io(&path))?;
-    Ok((path, map))
+/// [`kind`] of the bytes of a file.
+///
+/// # Errors
+/// [`Error::Atlas`], with the path `(memory)`, when they are no atlas.
+pub fn kind_of(bytes: &[u8]) -> Result<Kind> {
+    let told = |what| Error::Atlas { path: PathBuf::from(MEMORY), what };
+    Header::parse(bytes).map(|(header, _)| header.about.kind).map_err(told)
 }

@@ -4,13 +4,12 @@ use super::build::{Built, shape};
 use super::tree::{Known, Layout, MOST_AXES, Words};
 use super::{Spec, all_flags, region};
 use crate::atlas::header::{Header, ROOTS, TOP, TREES};
-use crate::atlas::{About, Kind, map_bytes, map_path};
+use crate::atlas::{About, Kind, Map, map_bytes, map_path};
 use crate::error::{Error, Result};
 use crate::family::{self, Family};
 use crate::files::write_file;
 use crate::grid::{Grid, Lookup};
 use blake3::Hash;
-use memmap2::Mmap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -62,7 +61,7 @@ pub fn bytes(spec: &Spec, built: &Built) -> Result<Vec<u8>> {
 #[derive(Debug)]
 pub struct Cells {
     path: PathBuf,
-    map: Mmap,
+    map: Map,
     header: Header,
     body: usize,
     shape: Layout,
@@ -94,7 +93,7 @@ impl Cells {
         Cells::new(path, map)
     }
 
-    fn new(path: PathBuf, map: Mmap) -> Result<Cells> {
+    fn new(path: PathBuf, map: Map) -> Result<Cells> {
         let invalid = |what| Error::Atlas { path: path.clone(), what };
         if cfg!(target_endian = "big") {
             return Err(invalid("its numbers are little-endian, those of this machine are not".into()));

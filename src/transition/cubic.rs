@@ -124,7 +124,7 @@ impl Answer {
 }
 
 /// Whether a cubic spiral joins two ends, proved; no where that is not known.
-fn exists(ends: &Ends) -> bool {
+pub(super) fn exists(ends: &Ends) -> bool {
     let solved = Placement::normalise(ends).and_then(|(datum, _)| solve(&datum));
     solved.is_ok_and(|solved| solved.chosen().is_some())
 }

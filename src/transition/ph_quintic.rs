@@ -137,7 +137,7 @@ impl PhSolution {
 }
 
 /// Whether a PH quintic spiral joins two ends, proved; no where that is not known.
-fn exists(ends: &Ends) -> bool {
+pub(super) fn exists(ends: &Ends) -> bool {
     let known = Placement::normalise(ends).and_then(|(datum, _)| flags(&datum));
     known.is_ok_and(|flags| flags & SPIRAL != 0)
 }

@@ -1,0 +1,217 @@
+//! A slice of a region at given angles, made of boxes that are proved as a whole and, at the boundaries, of single pixels.
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use spiral_atlas::family::{self, Chart, Code, Family, Table};
+use spiral_atlas::grid::{Axis, Grid, Spacing};
+use spiral_atlas::{Error, Result};
+use std::collections::VecDeque;
+
+/// Pixels along a side of the first tiles, and of the last: of those every pixel is asked for itself.
+const FIRST: usize = 64;
+const LAST: usize = 8;
+/// Most pixels along a side.
+const MOST: usize = 2048;
+/// The axes of a slice.
+const AXES: [&str; 4] = ["phi0", "phi1", "kappa0", "kappa1"];
+
+/// What is asked for.
+#[derive(Deserialize)]
+pub struct Wanted {
+    family: String,
+    phi0: f64,
+    phi1: f64,
+    /// A place (κ0, κ1) that must be seen.
+    at: [f64; 2],
+    /// Ranges of κ0, with equal steps, and of κ1, above 0, with equal ratios. Left out: where the region is.
+    ranges: Option<[[f64; 2]; 2]>,
+    width: usize,
+    height: usize,
+}
+
+/// A square of pixels, or what is left of one at the border.
+struct Tile {
+    x: usize,
+    y: usize,
+    side: usize,
+}
+
+/// A slice in the making. Pixels are stored column by column, since κ1 is the grid's fastest axis.
+pub struct Slice {
+    family: &'static dyn Family,
+    chart: usize,
+    angles: [f64; 2],
+    ranges: [[f64; 2]; 2],
+    /// Edges of the pixels.
+    edges: [Vec<f64>; 2],
+    /// Their middles.
+    grid: Grid,
+    tiles: VecDeque<Tile>,
+    flags: Vec<u8>,
+    proved: usize,
+}
+
+impl Slice {
+    /// # Errors
+    /// [`Error::Domain`] for an unknown family, ranges that are none, or angles outside the family's domain.
+    pub fn new(wanted: Wanted) -> Result<Slice> {
+        let Wanted { family, phi0, phi1, at, ranges, width, height } = wanted;
+        let family = family::by_name(&family).ok_or_else(|| Error::Domain(format!("no family is named `{family}`")))?;
+        let chart = family.charts().iter().position(|chart: &Chart| chart.axes == AXES);
+        let chart = chart.ok_or_else(|| Error::Domain(format!("`{}` has no axes kappa0 and kappa1", family.name())))?;
+        if ![width, height].iter().all(|n| (2..=MOST).contains(n)) {
+            return Err(Error::Domain(format!("the slice is {width} x {height} pixels; each side must be 2 to {MOST}")));
+        }
+        let ranges = match ranges {
+            Some(ranges) => ranges,
+            None => seen(family, [phi0, phi1], at)?,
+        };
+        let [kappa0, kappa1] = ranges;
+        // Twice as fine: edges and middles in turn.
+        let fine = |[lo, hi]: [f64; 2], count: usize, log: bool| {
+            let count = 2 * count + 1;
+            let spacing = if log { Spacing::Log { lo, hi, count } } else { Spacing::Linear { lo, hi, count } };
+            Axis::new("kappa", spacing).map(|axis| axis.values().to_vec())
+        };
+        let (x, y) = (fine(kappa0, width, false)?, fine(kappa1, height, true)?);
+        let every_other = |values: &[f64], from: usize| values.iter().copied().skip(from).step_by(2).collect::<Vec<f64>>();
+        let axis = |(name, values): (&&str, Vec<f64>)| Axis::new(name, Spacing::Values(values));
+        let middles = [vec![phi0], vec![phi1], every_other(&x, 1), every_other(&y, 1)];
+        let grid = Grid::new(AXES.iter().zip(middles).map(axis).collect::<Result<_>>()?)?;
+        // The angles are checked now rather than later.
+        family.table(&grid)?;
+        let corners = |n: usize| (0..n).step_by(FIRST);
+        let tiles = corners(width).flat_map(|x| corners(height).map(move |y| Tile { x, y, side: FIRST })).collect();
+        let edges = [every_other(&x, 0), every_other(&y, 0)];
+        let flags = vec![0; width * height];
+        Ok(Slice { family, chart, angles: [phi0, phi1], ranges, edges, grid, tiles, flags, proved: 0 })
+    }
+
+    /// The names and the order of what is drawn.
+    pub fn about(&self) -> Value {
+        let bit = |name: &&str| self.family.flags().iter().position(|flag| flag.name == *name);
+        let flags: Vec<Value> =
+            self.family.flags().iter().map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc })).collect();
+        let nested: Vec<usize> = self.family.nested().iter().filter_map(bit).collect();
+        json!({ "family": self.family.name(), "ranges": self.ranges, "flags": flags, "nested": nested })
+    }
+
+    /// The flags of each pixel, column by column, from below.
+    pub fn flags(&self) -> &[u8] {
+        &self.flags
+    }
+
+    /// Pixels all of whose points are proved.
+    pub fn proved(&self) -> usize {
+        self.proved
+    }
+
+    /// Works on so many tiles, and returns how many wait.
+    pub fn refine(&mut self, tiles: usize) -> usize {
+        let grid = self.grid.clone();
+        // The angles were checked before.
+        let Ok(table) = self.family.table(&grid) else { return 0 };
+        for _ in 0..tiles {
+            let Some(tile) = self.tiles.pop_front() else { break };
+            self.work(&tile, &*table);
+        }
+        self.tiles.len()
+    }
+
+    fn work(&mut self, tile: &Tile, table: &dyn Table) {
+        let Tile { x, y, side } = *tile;
+        let [right, top] = [(x + side).min(self.edges[0].len() - 1), (y + side).min(self.edges[1].len() - 1)];
+        let all = (0..self.family.flags().len()).fold(0, |mask, bit| mask | 1 << bit);
+        if let Some(region) = self.family.region() {
+            let [phi0, phi1] = self.angles;
+            let low = [phi0, phi1, self.edges[0][x], self.edges[1][y]];
+            let high = [phi0, phi1, self.edges[0][right], self.edges[1][top]];
+            let facts = region.facts(self.chart, &low, &high, all);
+            if facts.inside | facts.outside == all {
+                self.fill([x, right, y, top], facts.inside);
+                self.proved += (right - x) * (top - y);
+                return;
+            }
+        }
+        let rows = self.edges[1].len() - 1;
+        if side <= LAST {
+            for column in x..right {
+                let start = column * rows + y;
+                let mut codes = [Code::UNDECIDED; LAST];
+                let codes = &mut codes[..top - y];
+                table.filter(start as u64, codes);
+                for (i, code) in codes.iter().enumerate() {
+                    self.flags[start + i] = decided(table, start + i, *code);
+                }
+            }
+            return;
+        }
+        // Until its parts are known, a tile looks like its middle.
+        let middle = (x + right) / 2 * rows + (y + top) / 2;
+        let mut code = [Code::UNDECIDED];
+        table.filter(middle as u64, &mut code);
+        self.fill([x, right, y, top], decided(table, middle, code[0]));
+        let half = side / 2;
+        for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
+            if x < right && y < top {
+                self.tiles.push_back(Tile { x, y, side: half });
+            }
+        }
+    }
+
+    fn fill(&mut self, [left, right, bottom, top]: [usize; 4], flags: u8) {
+        let rows = self.edges[1].len() - 1;
+        for column in left..right {
+            self.flags[column * rows + bottom..column * rows + top].fill(flags);
+        }
+    }
+}
+
+/// The flags of a node: where doubles leave them open, by intervals. At the precision cap there are none.
+fn decided(table: &dyn Table, node: usize, code: Code) -> u8 {
+    if code != Code::UNDECIDED {
+        return code.flags();
+    }
+    table.exact(node as u64).map_or(0, |(code, _)| code.flags())
+}
+
+/// Columns and rows of the sketch that tells where a region is, and the heights above sin φ1 that it spans.
+const SKETCH: [usize; 2] = [20, 56];
+const HEIGHTS: [f64; 2] = [1e-3, 1e5];
+
+/// Ranges of κ0 and κ1 in which the family's region and a place are seen.
+fn seen(family: &'static dyn Family, [phi0, phi1]: [f64; 2], at: [f64; 2]) -> Result<[[f64; 2]; 2]> {
+    let (flat, sharp) = (phi0.sin().max(0.05), phi1.sin().max(0.05));
+    let wide = [[-0.5 * flat, 1.06 * flat], [0.7 * sharp, 30.0 * sharp]];
+    let [mut x, mut y] =
+        if family.nested()[0] == "EXISTS" { wide } else { region(family, [phi0, phi1], [flat, sharp])?.unwrap_or(wide) };
+    let margin = 0.06 * (x[1] - x[0]);
+    x = [x[0].min(at[0] - margin), x[1].max(at[0] + margin)];
+    // Below a thousandth of the rest, no logarithmic axis shows it.
+    y = [y[0].min(0.8 * at[1]).max(1e-4), y[1].max(1.25 * at[1])];
+    Ok([x, y])
+}
+
+/// Where the family's answer is yes, with some room around.
+fn region(family: &'static dyn Family, angles: [f64; 2], [flat, sharp]: [f64; 2]) -> Result<Option<[[f64; 2]; 2]>> {
+    let [columns, rows] = SKETCH;
+    let step = (HEIGHTS[1] / HEIGHTS[0]).ln() / (rows - 1) as f64;
+    let across: Vec<f64> = (0..columns).map(|i| flat * (i as f64 + 0.5) / columns as f64).collect();
+    let up: Vec<f64> = (0..rows).map(|i| sharp + HEIGHTS[0] * (step * i as f64).exp()).collect();
+    let values = [vec![angles[0]], vec![angles[1]], across.clone(), up.clone()];
+    let axis = |(name, values): (&&str, Vec<f64>)| Axis::new(name, Spacing::Values(values));
+    let grid = Grid::new(AXES.iter().zip(values).map(axis).collect::<Result<_>>()?)?;
+    let table = family.table(&grid)?;
+    let mut codes = vec![Code::UNDECIDED; columns * rows];
+    table.filter(0, &mut codes);
+    let yes = |node: &usize| codes[*node] != Code::UNDECIDED && family.holds(codes[*node]);
+    let hits: Vec<[usize; 2]> = (0..codes.len()).filter(yes).map(|node| [node / rows, node % rows]).collect();
+    let range = |axis: usize| Some([hits.iter().map(|hit| hit[axis]).min()?, hits.iter().map(|hit| hit[axis]).max()?]);
+    let (Some([left, right]), Some([low, high])) = (range(0), range(1)) else { return Ok(None) };
+    let room = 0.2 * (across[right] - across[left]) + flat / columns as f64;
+    let x = [(across[left] - room).max(0.0), (across[right] + room).min(1.06 * flat)];
+    // A region without an upper end is shown as far as it begins.
+    let high = if high + 1 == rows { (low + rows / 3).min(high) } else { high };
+    let room = (up[high] / up[low]).powf(0.15).max(1.05);
+    Ok(Some([x, [up[low.saturating_sub(1)] / room, up[(high + 1).min(rows - 1)] * room]]))
+}
