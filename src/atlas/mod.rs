@@ -29,10 +29,12 @@
 mod about;
 mod fault;
 pub(crate) mod header;
+mod outline;
 mod write;
 
 pub use about::{About, FORMAT_VERSION, Kind, Named, Packed};
 pub use header::MAX_HEADER;
+pub use outline::Outline;
 pub use write::{Writer, Written};
 
 use crate::error::{Error, Result};

@@ -1,11 +1,13 @@
 //! Pictures of an atlas: from a plan of its recipe to the plain data that [`crate::plot`] draws.
 
 pub mod cells;
+mod source;
 mod words;
 
+pub use source::{Part, Source, shown};
 pub use words::{angle, grouped, short};
 
-use crate::atlas::Atlas;
+use crate::atlas::About;
 use crate::error::{Error, Result};
 use crate::eval::{Backend, Job, evaluate};
 use crate::family::{self, Family, Flag};
@@ -25,12 +27,12 @@ const HEAD: u32 = 40;
 ///
 /// # Errors
 /// [`Error::Domain`] when the atlas has a single axis.
-pub fn plans(atlas: &Atlas) -> Result<Vec<PicturePlan>> {
-    let recipe = Recipe::parse(atlas.recipe_text()).ok();
-    let planned = recipe.and_then(|r| r.atlases.into_iter().find(|a| a.name == atlas.about().name && a.grid == *atlas.grid()));
+pub fn plans(about: &About, grid: &Grid) -> Result<Vec<PicturePlan>> {
+    let recipe = Recipe::parse(&about.recipe).ok();
+    let planned = recipe.and_then(|r| r.atlases.into_iter().find(|a| a.name == about.name && a.grid == *grid));
     match planned.map(|a| a.pictures) {
         Some(pictures) if !pictures.is_empty() => Ok(pictures),
-        _ => middle_slice(atlas.grid()).map(|plan| vec![plan]),
+        _ => middle_slice(grid).map(|plan| vec![plan]),
     }
 }
 
@@ -66,7 +68,7 @@ pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// Those of [`plot`], and [`Error::Domain`] for a family that this program does not have.
-pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
+pub fn draw(atlas: &dyn Source, plan: &PicturePlan) -> Result<Vec<u8>> {
     match plan.kind {
         PictureKind::Slice | PictureKind::Union | PictureKind::Compare { .. } => {
             plot::slice_png(&slice(atlas, plan)?, sheet(&plan.look, SLICE_SIZE))
@@ -111,7 +113,7 @@ pub fn side_by_side(stem: &str, look: &Look, mut slices: Vec<Slice>) -> Result<V
 ///
 /// # Errors
 /// [`Error::Domain`] for a family that this program does not have.
-pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
+pub fn slice(atlas: &dyn Source, plan: &PicturePlan) -> Result<Slice> {
     let axes = atlas.grid().axes();
     let place = |(axis, nodes): &(usize, Vec<usize>)| match nodes[..] {
         [node] => place(&axes[*axis], node),
@@ -142,7 +144,7 @@ fn heading(plan: &PicturePlan, usual: &str) -> String {
 
 /// Panels over the other axes. Those of one node are told in the heading; of the rest the slower ones make the rows, upwards, and the
 /// faster ones the columns.
-fn multiples(atlas: &Atlas, plan: &PicturePlan) -> Result<Multiples> {
+fn multiples(atlas: &dyn Source, plan: &PicturePlan) -> Result<Multiples> {
     let axes = atlas.grid().axes();
     let (fixed, open): (Vec<_>, Vec<_>) = plan.at.iter().cloned().partition(|(_, nodes)| nodes.len() == 1);
     // As many slow axes make the rows as leave the grid of panels least long.
@@ -185,7 +187,7 @@ fn combinations(axes: &[Chosen]) -> Vec<Vec<Chosen>> {
 }
 
 /// The flags on a plane of the atlas through nodes of the other axes, x fastest; where there are several, what is true at any of them.
-fn plane(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Vec<u8>> {
+fn plane(atlas: &dyn Source, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Vec<u8>> {
     let axes = atlas.grid().axes();
     let [x, y] = [plan.x, plan.y].map(|axis| axes[axis].values().len());
     let mut plane = vec![0; x * y];
@@ -198,16 +200,15 @@ fn plane(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Resul
         }
         for (place, byte) in plane.iter_mut().enumerate() {
             (index[plan.x], index[plan.y]) = (place % x, place / x);
-            let entry = atlas.at(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
-            *byte |= entry.flags;
+            *byte |= atlas.flags(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
         }
     }
     Ok(plane)
 }
 
 /// The regions of a plan on such a plane.
-fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Slice> {
-    let family = of(atlas)?;
+fn panel(atlas: &dyn Source, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Result<Slice> {
+    let family = of(atlas.about())?;
     let (axes, flags, plane) = (atlas.grid().axes(), family.flags(), plane(atlas, plan, at)?);
     let (x, y) = (&axes[plan.x], &axes[plan.y]);
     let region = |(bit, flag): (usize, &Flag)| Region {
@@ -238,21 +239,20 @@ fn panel(atlas: &Atlas, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> Resul
 }
 
 /// Where a scalar is at most each level, on the plane through one node of each other axis: the largest first.
-fn at_most(atlas: &Atlas, plan: &PicturePlan, levels: &Levels, at: &[(usize, Vec<usize>)]) -> Result<Vec<Region>> {
-    let field = atlas.scalar(levels.field);
-    let field = field.ok_or_else(|| Error::Domain(format!("the atlas has no scalar `{}`", levels.field)))?;
-    let grid = atlas.grid();
-    let [x, y] = [plan.x, plan.y].map(|axis| grid.axes()[axis].values().len());
-    let mut index = vec![0; grid.axes().len()];
+fn at_most(atlas: &dyn Source, plan: &PicturePlan, levels: &Levels, at: &[(usize, Vec<usize>)]) -> Result<Vec<Region>> {
+    let axes = atlas.grid().axes();
+    let [x, y] = [plan.x, plan.y].map(|axis| axes[axis].values().len());
+    let mut index = vec![0; axes.len()];
     for (axis, nodes) in at {
         index[*axis] = nodes.first().copied().unwrap_or_default();
     }
     let values = (0..x * y).map(|place| {
         (index[plan.x], index[plan.y]) = (place % x, place / x);
-        let node = grid.axes().iter().zip(&index).fold(0, |flat, (axis, i)| flat * axis.values().len() + i);
-        field.get(node).copied().filter(|value| *value != family::NO_VALUE)
+        let value = atlas.scalar(levels.field, &index);
+        let value = value.ok_or_else(|| Error::Domain(format!("the atlas has no scalar `{}`", levels.field)))?;
+        Ok(Some(value).filter(|value| *value != family::NO_VALUE))
     });
-    let values: Vec<Option<f32>> = values.collect();
+    let values: Vec<Option<f32>> = values.collect::<Result<_>>()?;
     let region = |level: &f64| Region {
         label: format!("{} ≤ {level}", levels.field),
         mask: values.iter().map(|value| value.is_some_and(|value| f64::from(value) <= *level)).collect(),
@@ -261,8 +261,8 @@ fn at_most(atlas: &Atlas, plan: &PicturePlan, levels: &Levels, at: &[(usize, Vec
 }
 
 /// Where any spiral exists, where only this family has one, only the other, and both; the other is evaluated here.
-fn compared(atlas: &Atlas, plan: &PicturePlan, with: &str) -> Result<Vec<Region>> {
-    let (own, other) = (of(atlas)?, family::by_name(with));
+fn compared(atlas: &dyn Source, plan: &PicturePlan, with: &str) -> Result<Vec<Region>> {
+    let (own, other) = (of(atlas.about())?, family::by_name(with));
     let other = other.ok_or_else(|| Error::Domain(format!("this program has no family `{with}`")))?;
     let bit = |family: &dyn Family, name: &str| family.flags().iter().position(|f| f.name == name).unwrap_or_default();
     let (ours, theirs) = (plane(atlas, plan, &plan.at)?, evaluated(other, atlas, plan)?);
@@ -282,7 +282,7 @@ fn compared(atlas: &Atlas, plan: &PicturePlan, with: &str) -> Result<Vec<Region>
 }
 
 /// The flags of another family at the nodes of a slice, x fastest.
-fn evaluated(family: &'static dyn Family, atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
+fn evaluated(family: &'static dyn Family, atlas: &dyn Source, plan: &PicturePlan) -> Result<Vec<u8>> {
     // The same axes, those that are not drawn at their one node.
     let mut axes = atlas.grid().axes().to_vec();
     for (axis, nodes) in &plan.at {
@@ -304,12 +304,12 @@ fn evaluated(family: &'static dyn Family, atlas: &Atlas, plan: &PicturePlan) -> 
 /// The family of an atlas.
 ///
 /// # Errors
-/// [`Error::Atlas`] for one that this program does not have.
-pub fn of(atlas: &Atlas) -> Result<&'static dyn Family> {
-    family::by_name(atlas.family_name()).ok_or_else(|| {
+/// [`Error::Domain`] for one that this program does not have.
+pub fn of(about: &About) -> Result<&'static dyn Family> {
+    family::by_name(&about.family).ok_or_else(|| {
         let known: Vec<&str> = family::all().iter().map(|f| f.name()).collect();
-        let what = format!("its family is `{}`; this program has `{}`", atlas.family_name(), known.join("`, `"));
-        Error::Atlas { path: atlas.path().to_owned(), what }
+        let (name, family) = (&about.name, &about.family);
+        Error::Domain(format!("the family of the atlas `{name}` is `{family}`; this program has `{}`", known.join("`, `")))
     })
 }
 
@@ -333,7 +333,7 @@ mod tests {
     use super::*;
 
     /// An atlas of `any-spiral` whose outer axes have two and three nodes, and one plan.
-    fn atlas_and_plan(folder: &Path, picture: &str) -> (Atlas, PicturePlan) {
+    fn atlas_and_plan(folder: &Path, picture: &str) -> (crate::atlas::Atlas, PicturePlan) {
         use crate::atlas::{Spec, Writer};
         let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = { values = [1, 2] }";
         let text =
@@ -346,7 +346,7 @@ mod tests {
         let job = Job { family: plan.family, grid: &plan.grid, scalars: &[] };
         evaluate(&job, &Backend::Cpu, 1, &AtomicBool::new(false), |chunk| writer.put(&chunk)).unwrap();
         writer.finish().unwrap();
-        (Atlas::open(&path).unwrap(), plan.pictures[0].clone())
+        (crate::atlas::Atlas::open(&path).unwrap(), plan.pictures[0].clone())
     }
 
     #[test]
@@ -368,6 +368,22 @@ mod tests {
             atlas_and_plan(folder.path(), "kind = \"multiples\"\nx = \"alpha\"\ny = \"beta\"\nat = { k1 = 0, k2 = [1, 2] }");
         let one = PicturePlan { at: vec![(2, vec![0]), (3, vec![1])], ..plan };
         assert_eq!(multiples(&atlas, &one).unwrap().note, "1 panel, 6 nodes, each proved");
+    }
+
+    #[test]
+    fn the_shown_nodes_are_enough() {
+        let folder = tempfile::tempdir().unwrap();
+        for more in ["kind = \"slice\"\nat = { beta = 0.75, k2 = 2 }", "kind = \"union\"\nat = { beta = [0.25, 1.5] }"] {
+            let (atlas, plan) = atlas_and_plan(folder.path(), &format!("x = \"k1\"\ny = \"alpha\"\n{more}"));
+            let (outline, nodes) = (crate::atlas::Outline::of_atlas(&atlas).unwrap(), shown(atlas.grid(), &plan));
+            let index = |node: &Vec<Chosen>| node.iter().map(|(_, i)| i[0]).collect::<Vec<_>>();
+            let picked = combinations(&nodes.iter().cloned().enumerate().collect::<Vec<_>>());
+            let flags: Vec<u8> = picked.iter().map(|node| atlas.at(&index(node)).unwrap().flags).collect();
+            let part = Part::new(&outline, &nodes, &flags, Default::default()).unwrap();
+            assert_eq!(draw(&part, &plan).unwrap(), draw(&atlas, &plan).unwrap());
+            let short = Part::new(&outline, &nodes, &flags[1..], Default::default()).err().unwrap().to_string();
+            assert!(flags.len() < atlas.flags().len() && short.contains("`flags` has"), "{short}");
+        }
     }
 
     #[test]
