@@ -1,0 +1,220 @@
+"""All shards of a store, on Dask."""
+
+import errno
+import logging
+import os
+import time
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+import distributed
+from distributed import Client, LocalCluster, as_completed
+
+from .._core import Outline
+from .layout import lay_out, refuse_others
+from .lock import locked, sweep
+from .shards import Shard, finish, look_at, write_shard
+from .store import Store, absolute
+
+HOPELESS = {errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.EFBIG}
+"""What the system refuses to every worker alike: neither another try nor another shard helps."""
+
+
+class IncompleteError(RuntimeError):
+    """Shards could not be written; the message says which and why. What is written stays, and the next run goes on."""
+
+
+@dataclass
+class Summary:
+    """What a run did."""
+
+    store: Store
+    shards: list[Shard] = field(default_factory=list)
+    workers: int = 0
+    dashboard: str | None = None
+    """Address of the page on which Dask shows the run."""
+    seconds: float = 0.0
+
+    def count(self, state: str) -> int:
+        """Shards in this state."""
+        return sum(shard.state == state for shard in self.shards)
+
+    @property
+    def nodes(self) -> int:
+        """Nodes of all shards that are right."""
+        return sum(shard.nodes for shard in self.shards)
+
+    @property
+    def yes(self) -> dict[str, int]:
+        """Nodes with a proved yes, by flag."""
+        return {name: sum(shard.yes.get(name, 0) for shard in self.shards) for name in self.store.flag_docs}
+
+    @property
+    def undecided_f64(self) -> int:
+        """Nodes that went to intervals, of the shards that this run computed."""
+        return sum(shard.undecided_f64 for shard in self.shards)
+
+
+Progress = Callable[[Summary], object]
+
+
+def generate(
+    recipe: Any,
+    place: str | os.PathLike[str],
+    *,
+    atlas: str | None = None,
+    scheduler: str | None = None,
+    workers: int | None = None,
+    chunks: Sequence[int] | None = None,
+    shards: Sequence[int] | None = None,
+    progress: Progress | None = None,
+) -> Summary:
+    """Makes a store, or completes the one that is there: shards that are there and right are not computed again.
+
+    A script that calls this without a scheduler must guard its main part by ``if __name__ == "__main__":``, because the
+    workers are processes that import it.
+
+    Args:
+        recipe: a dictionary, or the path of a TOML file.
+        place: a folder that all workers share, or a URL that zarr understands.
+        atlas: which atlas of the recipe, where it has several.
+        scheduler: address of a Dask scheduler. Without one, a cluster on this machine lives as long as the run.
+        workers: processes of that cluster; by default as many as there are cores.
+        chunks, shards: nodes along each axis; by default some 2**18 and 2**22 nodes.
+        progress: called after each shard with the summary so far.
+
+    Raises:
+        ValueError: the recipe is wrong; or another atlas is there, and the message says what differs.
+        StoreLockedError: another run works on the store.
+        IncompleteError: shards are missing, and the message says which and why. The next run completes the store.
+    """
+    outline, place = Outline.of_recipe(recipe, atlas), absolute(place)
+    refuse_others(place)
+    with locked(place):
+        sweep(place)
+        summary = Summary(lay_out(outline, place, chunks, shards))
+        _run(summary, write_task, scheduler, workers, progress)
+        finish(summary.store)
+    return summary
+
+
+def check(
+    place: str | os.PathLike[str],
+    *,
+    scheduler: str | None = None,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> Summary:
+    """Reads every shard of a store and compares it with its digest; nothing is written.
+
+    Shards of the summary are `kept` where they are right, or else `missing` or `wrong`. Arguments are those of `generate`.
+    """
+    summary = Summary(Store(place, complete=False))
+    _run(summary, check_task, scheduler, workers, progress)
+    return summary
+
+
+@dataclass(frozen=True)
+class Refused:
+    """What the system refuses to every worker alike."""
+
+    why: str
+
+
+def write_task(place: str, number: int) -> Shard | Refused:
+    """`write_shard` on one thread, since a worker has a process or a thread for each core."""
+    try:
+        return write_shard(place, number, threads=1)
+    except OSError as error:
+        if error.errno not in HOPELESS:
+            raise
+        return Refused(f"{error.strerror} ({error.filename or place})")
+
+
+def check_task(place: str, number: int) -> Shard:
+    """`look_at` for a worker."""
+    return look_at(Store(place, complete=False), number)
+
+
+def _run(
+    summary: Summary,
+    task: Callable[[str, int], Shard | Refused],
+    scheduler: str | None,
+    workers: int | None,
+    progress: Progress | None,
+) -> None:
+    began, store = time.perf_counter(), summary.store
+    failures: dict[int, str] = {}
+    with _client(scheduler, min(workers or len(os.sched_getaffinity(0)), store.shard_count)) as client:
+        summary.workers, summary.dashboard = client.scheduler_info()["total_threads"], client.dashboard_link
+        if progress:
+            progress(summary)
+        count = store.shard_count
+        # Not pure: a shard of an earlier run is another task.
+        futures = client.map(task, [store.path] * count, range(count), pure=False, retries=3)
+        numbers = {future.key: number for number, future in enumerate(futures)}
+        for future, result in as_completed(futures, loop=client.loop, with_results=True, raise_errors=False):
+            number = numbers[future.key]
+            if isinstance(result, Shard):
+                summary.shards.append(result)
+            else:
+                failures[number] = _why(result)
+            if isinstance(result, Refused):
+                client.cancel(futures)
+                break
+            # The result is kept here, so the scheduler may forget it.
+            future.release()
+            summary.seconds = time.perf_counter() - began
+            if progress:
+                progress(summary)
+    if failures:
+        raise IncompleteError(_complaint(summary, failures))
+
+
+def _why(result: Any) -> str:
+    """Why a task has no result."""
+    match result:
+        case Refused(why):
+            return why
+        case distributed.client.FutureCancelledError(reason="scheduler-connection-lost"):
+            return "the scheduler was lost"
+        case (_, distributed.KilledWorker() as error, _):
+            return f"{error.allowed_failures + 1} workers died while they worked at it, perhaps for lack of memory"
+        case (_, BaseException() as error, _) | (BaseException() as error):
+            return f"{type(error).__name__}: {error}"
+        case _:
+            return repr(result)
+
+
+def _complaint(summary: Summary, failures: dict[int, str]) -> str:
+    store, done = summary.store, len(summary.shards)
+    left = store.shard_count - done
+    text = f"{store.path}: {done} of {store.shard_count} shards are done, {left} are not"
+    # Many have the same reason; one of each is told, with its shards.
+    reasons: dict[str, list[int]] = {}
+    for number, why in sorted(failures.items()):
+        reasons.setdefault(why, []).append(number)
+    for why, numbers in list(reasons.items())[:5]:
+        more = ", .." if len(numbers) > 5 else ""
+        text += f"\n  shard {', '.join(map(str, numbers[:5]))}{more}: {why}"
+    return text + "\nThe next run goes on from here"
+
+
+@contextmanager
+def _client(scheduler: str | None, workers: int) -> Iterator[Client]:
+    """A client of a scheduler or, without one, of a cluster that lives as long."""
+    if scheduler is not None:
+        # Its own log tells in other words what the failures tell.
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
+        with Client(scheduler, set_as_default=False) as client:
+            yield client
+        return
+    with warnings.catch_warnings():
+        # The usual port of the dashboard may be taken; it is another one then.
+        warnings.filterwarnings("ignore", "Port .* is already in use")
+        cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, silence_logs=logging.CRITICAL)
+    with cluster, Client(cluster, set_as_default=False) as client:
+        yield client
