@@ -33,9 +33,10 @@ def pictures(
     for picture in store.outline.pictures(None if x is None and y is None else _slice(store, x, y, at or {})):
         # Zarr reads ranges faster than lists of all their members.
         nodes = tuple(_range(chosen) for chosen in picture.nodes)
-        flags = np.ascontiguousarray(store.flags.oindex[nodes]).reshape(-1)
+        with store.decoding():
+            flags = np.ascontiguousarray(store.flags.oindex[nodes]).reshape(-1)
+            scalar = picture.scalar and np.ascontiguousarray(store.scalar(picture.scalar).oindex[nodes]).reshape(-1)
         store.refuse_unwritten(flags)
-        scalar = picture.scalar and np.ascontiguousarray(store.scalar(picture.scalar).oindex[nodes]).reshape(-1)
         yield picture.draw(flags, scalar)
 
 

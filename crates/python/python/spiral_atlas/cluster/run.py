@@ -8,16 +8,16 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
-
-import distributed
-from distributed import Client, LocalCluster, as_completed
+from typing import TYPE_CHECKING, Any
 
 from .._core import Outline
 from .layout import lay_out, refuse_others
 from .lock import locked, sweep
 from .shards import Shard, finish, look_at, write_shard
 from .store import Store, absolute
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 HOPELESS = {errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.EFBIG}
 """What the system refuses to every worker alike: neither another try nor another shard helps."""
@@ -146,6 +146,9 @@ def _run(
     workers: int | None,
     progress: Progress | None,
 ) -> None:
+    # Here, so that jobs of a batch system do not wait for it.
+    from distributed import as_completed
+
     began, store = time.perf_counter(), summary.store
     failures: dict[int, str] = {}
     with _client(scheduler, min(workers or len(os.sched_getaffinity(0)), store.shard_count)) as client:
@@ -176,12 +179,15 @@ def _run(
 
 def _why(result: Any) -> str:
     """Why a task has no result."""
+    from distributed import KilledWorker
+    from distributed.client import FutureCancelledError
+
     match result:
         case Refused(why):
             return why
-        case distributed.client.FutureCancelledError(reason="scheduler-connection-lost"):
+        case FutureCancelledError(reason="scheduler-connection-lost"):
             return "the scheduler was lost"
-        case (_, distributed.KilledWorker() as error, _):
+        case (_, KilledWorker() as error, _):
             return f"{error.allowed_failures + 1} workers died while they worked at it, perhaps for lack of memory"
         case (_, BaseException() as error, _) | (BaseException() as error):
             return f"{type(error).__name__}: {error}"
@@ -204,8 +210,10 @@ def _complaint(summary: Summary, failures: dict[int, str]) -> str:
 
 
 @contextmanager
-def _client(scheduler: str | None, workers: int) -> Iterator[Client]:
+def _client(scheduler: str | None, workers: int) -> "Iterator[Client]":
     """A client of a scheduler or, without one, of a cluster that lives as long."""
+    from distributed import Client, LocalCluster
+
     if scheduler is not None:
         # Its own log tells in other words what the failures tell.
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)

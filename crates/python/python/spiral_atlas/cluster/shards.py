@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import zarr
 from numpy.typing import NDArray
+from zarr.core.sync import sync
 
 from .._core import AtlasError, __version__
 from .store import Store
@@ -69,10 +70,7 @@ def look_at(store: Store, number: int) -> Shard:
         return Shard(number, "missing", 0, {})
     try:
         fields = store.read(box)
-    except Exception as error:
-        # What is cut off or damaged cannot be decoded, whatever the decoder says of it. A refusal of the system is none of the shard's.
-        if isinstance(error, OSError) and error.errno is not None:
-            raise
+    except AtlasError:
         return Shard(number, "wrong", 0, {})
     if not np.array_equal(stored, store.digest_of(fields)):
         return Shard(number, "wrong", 0, {})
@@ -84,11 +82,14 @@ def look_at(store: Store, number: int) -> Shard:
 def put(store: Store, number: int, fields: Mapping[str, NDArray[Any]]) -> None:
     """Writes the fields of a shard and, once they are there, their digests."""
     box = store.box(number)
+    index = tuple(int(i) for i in np.unravel_index(number, store.shard_counts))
     for name, array in store.fields.items():
+        # What is there may be damaged, and zarr would read it to see whether parts of it must be kept.
+        key = f"{name}/{array.metadata.encode_chunk_key(index)}"
+        sync(store.group.store.delete(key))
         # Else zarr compares every chunk with the fill value, which no chunk is made of; that takes as long as to write it.
         array.with_config({"write_empty_chunks": True})[box] = fields[name]
-    index = np.unravel_index(number, store.shard_counts)
-    store.digests[tuple(int(i) for i in index)] = store.digest_of(fields)
+    store.digests[index] = store.digest_of(fields)
 
 
 def finish(store: Store) -> None:

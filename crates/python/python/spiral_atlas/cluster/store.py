@@ -2,7 +2,8 @@
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import cached_property
 from math import ceil, prod
 from pathlib import Path
@@ -110,7 +111,20 @@ class Store:
 
     def read(self, box: tuple[slice, ...]) -> dict[str, NDArray[Any]]:
         """The fields of a box of nodes."""
-        return {name: np.ascontiguousarray(array[box]) for name, array in self.fields.items()}
+        with self.decoding():
+            return {name: np.ascontiguousarray(array[box]) for name, array in self.fields.items()}
+
+    @contextmanager
+    def decoding(self) -> Iterator[None]:
+        """Makes an `AtlasError` of whatever a decoder says of a file that is cut off or damaged."""
+        try:
+            yield
+        except Exception as error:
+            # A refusal of the system is not the file's.
+            if isinstance(error, OSError) and error.errno is not None:
+                raise
+            what = f"{self.path}: a shard is damaged ({error}); `spiral-atlas-cluster check` names it"
+            raise AtlasError(what) from error
 
     def digest_of(self, fields: Mapping[str, NDArray[Any]]) -> NDArray[np.uint8]:
         """BLAKE3 of each field of a shard: little-endian numbers, the last axis fastest."""
@@ -207,7 +221,8 @@ class Store:
         for array in (self.flags, self.solutions):
             values = np.zeros(nodes.shape, np.uint8)
             if inside.any():
-                values[inside] = array.get_coordinate_selection(index)
+                with self.decoding():
+                    values[inside] = array.get_coordinate_selection(index)
             found.append(values)
         flags, solutions = found
         self.refuse_unwritten(flags)
