@@ -57,7 +57,9 @@ def atlas(folder) -> spiral_atlas.Atlas:
 @pytest.fixture(scope="module")
 def place(folder) -> Path:
     place, told = folder / "small.atlas.zarr", []
-    done = generate(folder / "small.toml", place, workers=2, **SHAPES, progress=lambda so_far: told.append(len(so_far.shards)))
+    done = generate(
+        folder / "small.toml", place, workers=2, **SHAPES, progress=lambda so_far: told.append(len(so_far.shards))
+    )
     assert told == list(range(37)) and done.count("written") == done.store.shard_count == 36
     assert done.nodes == 21 * 9 * 18 * 17 and done.dashboard
     return place
@@ -169,7 +171,9 @@ def test_pictures_are_those_of_the_file_and_read_only_what_they_show(place, atla
     subprocess.run([*command, "-o", tmp_path], check=True)
     assert (tmp_path / "small-1.png").read_bytes() == first
     one = tmp_path / "one.png"
-    subprocess.run([*command, "--x", "phi0", "--y", "kappa1", "--at", "phi1=70deg", "--at", "kappa0=0.5", "-o", one], check=True)
+    subprocess.run(
+        [*command, "--x", "phi0", "--y", "kappa1", "--at", "phi1=70deg", "--at", "kappa0=0.5", "-o", one], check=True
+    )
     assert one.read_bytes().startswith(b"\x89PNG") and len(list(tmp_path.iterdir())) == 3
 
 
@@ -177,7 +181,17 @@ def test_a_run_that_has_nothing_to_do_writes_nothing(place, folder):
     before = {path: path.stat().st_mtime_ns for path in place.rglob("*")}
     assert check(place, workers=1).count("kept") == 36
     again = subprocess.run(
-        [sys.executable, "-m", "spiral_atlas.cluster", "generate", folder / "small.toml", place, "--workers", "1", "--json"],
+        [
+            sys.executable,
+            "-m",
+            "spiral_atlas.cluster",
+            "generate",
+            folder / "small.toml",
+            place,
+            "--workers",
+            "1",
+            "--json",
+        ],
         check=True,
         capture_output=True,
     )
@@ -190,7 +204,9 @@ def test_a_run_that_has_nothing_to_do_writes_nothing(place, folder):
 def test_what_is_not_written_is_no_verdict(folder, tmp_path):
     store = create(folder / "small.toml", tmp_path / "part.zarr", **SHAPES)
     assert write_shard(store, 0, threads=1).state == "written" and write_shard(store, 0).state == "kept"
-    assert store.flags[20, 8, 17, 16] == store.solutions[20, 8, 17, 16] == 255 and np.isnan(store.scalar("f0")[20, 8, 17, 16])
+    assert store.flags[20, 8, 17, 16] == store.solutions[20, 8, 17, 16] == 255 and np.isnan(
+        store.scalar("f0")[20, 8, 17, 16]
+    )
     inside = [[axis[0] for axis in store.axes.values()]]
     assert store.lookup(inside)[0].tolist() == [0]
     with pytest.raises(spiral_atlas.AtlasError, match="shard is missing"):
@@ -215,7 +231,10 @@ def test_recipes_of_several_atlases_need_a_name(tmp_path):
     with pytest.raises(ValueError, match="of cells"):
         create(recipe, tmp_path / "x.zarr", atlas="c")
     with pytest.raises(ValueError, match="phi0"):
-        create({"family": "cubic", "atlas": [{"name": "a", "axes": axes | {"phi0": {"values": [4.0]}}}]}, tmp_path / "x.zarr")
+        create(
+            {"family": "cubic", "atlas": [{"name": "a", "axes": axes | {"phi0": {"values": [4.0]}}}]},
+            tmp_path / "x.zarr",
+        )
     assert not list(tmp_path.iterdir())
     assert create(recipe, tmp_path / "x.zarr", atlas="b").metadata["name"] == "b"
 
@@ -227,6 +246,10 @@ def test_shapes_are_whole_chunks_of_about_a_size():
         shapes.check(counts, chunks, shards)
         assert np.prod(chunks) <= shapes.CHUNK_NODES and np.prod(shards) <= shapes.SHARD_NODES
         assert np.prod(shards) * 2 > min(shapes.SHARD_NODES, np.prod(counts))
-    for chunks, shards, words in [((2, 2), (4, 3), "whole chunks"), ((0, 2), (4, 4), "at least 1"), ((2,), (4, 4), "2 sides")]:
+    for chunks, shards, words in [
+        ((2, 2), (4, 3), "whole chunks"),
+        ((0, 2), (4, 4), "at least 1"),
+        ((2,), (4, 4), "2 sides"),
+    ]:
         with pytest.raises(ValueError, match=words):
             shapes.check((9, 9), chunks, shards)

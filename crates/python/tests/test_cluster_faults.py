@@ -133,7 +133,9 @@ def test_a_lost_scheduler_ends_the_run_with_what_is_there(recipe, place, atlas, 
         with started("worker", *options, "--nworkers", 1, "--nthreads", 1, "--no-nanny", command=dask, cwd=tmp_path):
             wait_for(file.exists, "the scheduler's file")
             address = json.loads(file.read_text())["address"]
-            with started("generate", recipe, place, *OPTIONS, "--scheduler", address, stdout=subprocess.PIPE) as process:
+            with started(
+                "generate", recipe, place, *OPTIONS, "--scheduler", address, stdout=subprocess.PIPE
+            ) as process:
                 wait_for(lambda: written(place) > 1, "the first shards")
                 scheduler.kill()
                 _, complaint = process.communicate(timeout=120)
@@ -213,7 +215,11 @@ def test_another_recipe_is_refused_with_what_differs(recipe, place, tmp_path):
     create(recipe, place)
     text = recipe.read_text()
     for old, new, words in [
-        ("[0.2, 1.2]", "[0.2, 1.3]", "axis `phi0` has 16 nodes from 0.2 to 1.2 there and 16 nodes from 0.2 to 1.3 here"),
+        (
+            "[0.2, 1.2]",
+            "[0.2, 1.3]",
+            "axis `phi0` has 16 nodes from 0.2 to 1.2 there and 16 nodes from 0.2 to 1.3 here",
+        ),
         ("ph-quintic", "cubic", "`family` is ph-quintic there and cubic here"),
         ('"slow"', '"fast"', "line 3 of the recipe is 'name = \"slow\"' there and 'name = \"fast\"' here"),
     ]:

@@ -32,7 +32,11 @@ def open(path: _Place) -> "_core.Atlas | Store":
 
 
 def to_zarr(
-    atlas: "_core.Atlas | _Place", store: _Place, *, chunks: Sequence[int] | None = None, shards: Sequence[int] | None = None
+    atlas: "_core.Atlas | _Place",
+    store: _Place,
+    *,
+    chunks: Sequence[int] | None = None,
+    shards: Sequence[int] | None = None,
 ) -> "Store":
     """Writes an atlas into a Zarr store, without loss: `to_safetensors` gives the same bytes back.
 

@@ -53,33 +53,51 @@ def parser() -> argparse.ArgumentParser:
 
     def recipe(added: argparse.ArgumentParser) -> None:
         added.add_argument("recipe", metavar="RECIPE", help="a TOML file")
-        added.add_argument("store", metavar="STORE", help="a folder that all workers share, best named NAME.atlas.zarr, or a URL")
+        added.add_argument(
+            "store", metavar="STORE", help="a folder that all workers share, best named NAME.atlas.zarr, or a URL"
+        )
         added.add_argument("--atlas", metavar="NAME", help="which atlas of the recipe, where it has several")
-        added.add_argument("--chunks", type=sides, metavar="N,N,..", help="nodes of a chunk along each axis [some 2^18 in all]")
-        added.add_argument("--shards", type=sides, metavar="N,N,..", help="nodes of a shard along each axis [some 2^22 in all]")
+        added.add_argument(
+            "--chunks", type=sides, metavar="N,N,..", help="nodes of a chunk along each axis [some 2^18 in all]"
+        )
+        added.add_argument(
+            "--shards", type=sides, metavar="N,N,..", help="nodes of a shard along each axis [some 2^22 in all]"
+        )
 
     def cluster(added: argparse.ArgumentParser) -> None:
         where = added.add_mutually_exclusive_group()
         where.add_argument("--scheduler", metavar="ADDRESS", help="a running Dask scheduler, as tcp://head:8786")
-        where.add_argument("--workers", type=positive, metavar="N", help="processes on this machine [one for each core]")
+        where.add_argument(
+            "--workers", type=positive, metavar="N", help="processes on this machine [one for each core]"
+        )
         added.add_argument("--json", action="store_true", help="print JSON")
 
     added = command("generate", generate, "Make a store, or complete the one that is there.")
     recipe(added)
     cluster(added)
     recipe(command("create", create, "Make a store without shards, and tell their number."))
-    added = command("shard", shard, "Write shards of a store. Needs no Dask: a job of a batch system writes some of them.")
+    added = command(
+        "shard", shard, "Write shards of a store. Needs no Dask: a job of a batch system writes some of them."
+    )
     added.add_argument("store", metavar="STORE")
-    added.add_argument("shards", metavar="I", nargs="+", type=numbers, help="a number from 0 on, or a range such as 0-15")
+    added.add_argument(
+        "shards", metavar="I", nargs="+", type=numbers, help="a number from 0 on, or a range such as 0-15"
+    )
     added = command("check", check, "Read every shard of a store and compare it with its digest.")
     added.add_argument("store", metavar="STORE")
     cluster(added)
-    added = command("render", render, "Draw the pictures of the recipe that a store carries, or a slice; only that is read.")
+    added = command(
+        "render", render, "Draw the pictures of the recipe that a store carries, or a slice; only that is read."
+    )
     added.add_argument("store", metavar="STORE")
     added.add_argument("--x", metavar="AXIS", help="horizontal axis of a slice")
     added.add_argument("--y", metavar="AXIS", help="vertical axis of a slice")
-    added.add_argument("--at", type=pair, action="append", default=[], metavar="AXIS=VALUE", help="where on another axis")
-    added.add_argument("-o", "--out", metavar="DIR|FILE", default="out", help="a folder, or a file.png for one picture [out]")
+    added.add_argument(
+        "--at", type=pair, action="append", default=[], metavar="AXIS=VALUE", help="where on another axis"
+    )
+    added.add_argument(
+        "-o", "--out", metavar="DIR|FILE", default="out", help="a folder, or a file.png for one picture [out]"
+    )
     return whole
 
 
@@ -138,7 +156,9 @@ def check(options: argparse.Namespace) -> int:
 
 
 def create(options: argparse.Namespace) -> int:
-    store = layout.create(options.recipe, options.store, atlas=options.atlas, chunks=options.chunks, shards=options.shards)
+    store = layout.create(
+        options.recipe, options.store, atlas=options.atlas, chunks=options.chunks, shards=options.shards
+    )
     print(f"{options.store}: shards 0 to {store.shard_count - 1} of {' x '.join(map(str, store.shards))} nodes")
     return 0
 
@@ -196,7 +216,9 @@ def told(summary: run.Summary) -> str:
         if bad:
             lines.append(f"  {state}: {ranges(bad)}")
     lines.append("  nodes with a proved yes")
-    lines += [f"    {name:<14} {count:>16,}  {100 * count / max(nodes, 1):6.2f} %" for name, count in summary.yes.items()]
+    lines += [
+        f"    {name:<14} {count:>16,}  {100 * count / max(nodes, 1):6.2f} %" for name, count in summary.yes.items()
+    ]
     if summary.count("written"):
         undecided = summary.undecided_f64
         lines.append(f"  nodes that the f64 step left to intervals: {undecided:,}, all of them decided")

@@ -4,8 +4,10 @@ import os
 from collections.abc import Iterator, Sequence
 from itertools import product
 from math import prod
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._core import Atlas, Outline
 from .._core import open as open_file
@@ -31,7 +33,7 @@ def to_zarr(
     with locked(place):
         sweep(place)
         store = lay_out(Outline.of_atlas(atlas), place, chunks, shards)
-        arrays = {"flags": atlas.flags, "solutions": atlas.solutions}
+        arrays: dict[str, NDArray[Any]] = {"flags": atlas.flags, "solutions": atlas.solutions}
         arrays |= {name: atlas.scalar(name) for name in atlas.scalar_docs}
         for shard in range(store.shard_count):
             fields = {name: np.ascontiguousarray(array[store.box(shard)]) for name, array in arrays.items()}
@@ -58,7 +60,9 @@ def _slabs(store: Store) -> Iterator[tuple[slice, ...]]:
     """Boxes that follow each other in flat order, each of whole chunks where that is within the budget."""
     shape, node = store.shape, 2 + 4 * len(store.scalar_docs)
     # The first axis behind which everything is within the budget; those before it are walked node by node.
-    axis = next(axis for axis in range(len(shape)) if axis + 1 == len(shape) or node * prod(shape[axis + 1 :]) <= BUDGET)
+    axis = next(
+        axis for axis in range(len(shape)) if axis + 1 == len(shape) or node * prod(shape[axis + 1 :]) <= BUDGET
+    )
     step = max(1, BUDGET // (node * prod(shape[axis + 1 :])))
     for whole in (store.shards[axis], store.chunks[axis]):
         if step > whole:

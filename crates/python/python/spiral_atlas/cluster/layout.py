@@ -112,7 +112,7 @@ def _write(outline: Outline, place: str, chunks: tuple[int, ...], shards: tuple[
     group = zarr.open_group(place, mode="a", zarr_format=3)
     for name, values in outline.axes.items():
         unit = {"units": "radian"} if name in outline.angles else {}
-        attributes = {"long_name": name} | unit
+        attributes: dict[str, Any] = {"long_name": name} | unit
         array = group.create_array(
             name, shape=values.shape, dtype="float64", dimension_names=[name], attributes=attributes, overwrite=True
         )

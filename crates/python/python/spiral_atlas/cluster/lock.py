@@ -21,8 +21,8 @@ class StoreLockedError(RuntimeError):
 def locked(place: str, *, shared: bool = False) -> Iterator[None]:
     """Holds the lock of a store: alone, or together with others that share it.
 
-    The system takes the lock back when its holder dies, however that happens. A store that is no folder of a file system
-    has no lock: two runs there write the same shards with the same content, which costs time and harms nothing.
+    The system takes the lock back when its holder dies, however that happens. A store that is no folder of a file
+    system has no lock: two runs there write the same shards with the same content, which costs time and harms nothing.
 
     Raises:
         StoreLockedError: another run holds it.

@@ -5,8 +5,6 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-import numpy as np
-
 from .store import Store
 
 
@@ -34,8 +32,8 @@ def pictures(
         # Zarr reads ranges faster than lists of all their members.
         nodes = tuple(_range(chosen) for chosen in picture.nodes)
         with store.decoding():
-            flags = np.ascontiguousarray(store.flags.oindex[nodes]).reshape(-1)
-            scalar = picture.scalar and np.ascontiguousarray(store.scalar(picture.scalar).oindex[nodes]).reshape(-1)
+            flags = store.flags.oindex[nodes].reshape(-1)
+            scalar = store.scalar(picture.scalar).oindex[nodes].reshape(-1) if picture.scalar else None
         store.refuse_unwritten(flags)
         yield picture.draw(flags, scalar)
 

@@ -110,7 +110,8 @@ def check(
 ) -> Summary:
     """Reads every shard of a store and compares it with its digest; nothing is written.
 
-    Shards of the summary are `kept` where they are right, or else `missing` or `wrong`. Arguments are those of `generate`.
+    Shards of the summary are `kept` where they are right, or else `missing` or `wrong`. Arguments are those of
+    `generate`.
     """
     summary = Summary(Store(place, complete=False))
     _run(summary, check_task, scheduler, workers, progress)

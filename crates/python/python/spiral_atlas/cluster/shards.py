@@ -36,7 +36,7 @@ class Shard:
 def write_shard(store: Store | str | os.PathLike[str], number: int, *, threads: int | None = None) -> Shard:
     """Computes a shard and writes it with its digest, unless it is there and right.
 
-    Any number of processes may write shards of one store at the same time. Two that write the same shard write the same.
+    Any number of processes may write shards of one store at the same time. Two that write one shard write the same.
 
     Args:
         store: a store, or its place.
@@ -52,7 +52,9 @@ def write_shard(store: Store | str | os.PathLike[str], number: int, *, threads: 
     began = time.perf_counter()
     store = store if isinstance(store, Store) else Store(store, mode="r+", complete=False)
     if store.metadata["generator"] != GENERATOR:
-        raise AtlasError(f"{store.path} was made by {store.metadata['generator']}; this is {GENERATOR}, which makes another")
+        raise AtlasError(
+            f"{store.path} was made by {store.metadata['generator']}; this is {GENERATOR}, which makes another"
+        )
     box = store.box(number)
     if (found := look_at(store, number)).state == "kept":
         return found

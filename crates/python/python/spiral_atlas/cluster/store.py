@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from functools import cached_property
 from math import ceil, prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import zarr
@@ -41,7 +41,7 @@ class Store:
     Its arrays are arrays of Zarr: indexing reads the chunks that are needed, and gives NumPy arrays.
     """
 
-    def __init__(self, place: str | os.PathLike[str], *, mode: str = "r", complete: bool = True) -> None:
+    def __init__(self, place: str | os.PathLike[str], *, mode: Literal["r", "r+"] = "r", complete: bool = True) -> None:
         self.path = absolute(place)
         try:
             self.group = zarr.open_group(self.path, mode=mode, zarr_format=3)
@@ -52,7 +52,7 @@ class Store:
             raise AtlasError(f"{self.path}: it is no store of an atlas, or its making was interrupted")
         if complete and not attributes.get("complete"):
             raise AtlasError(f"{self.path}: shards are missing; `spiral-atlas-cluster generate` completes the store")
-        metadata = {key: attributes[key] for key in METADATA if key in attributes}
+        metadata = {key: str(attributes[key]) for key in METADATA if key in attributes}
         try:
             names = [axis["name"] for axis in json.loads(metadata["axes"])]
             axes = {name: np.asarray(self.array(name)[:], dtype=np.float64) for name in names}
@@ -64,6 +64,7 @@ class Store:
         self._check_arrays()
 
     def array(self, name: str) -> Any:
+        """An array of the store."""
         try:
             return zarr.open_array(self.group.store, path=name, mode="r" if self.group.read_only else "r+")
         except (ArrayNotFoundError, FileNotFoundError):
@@ -73,24 +74,25 @@ class Store:
         shape = tuple(len(axis) for axis in self.axes.values())
         kinds = {name: np.dtype(np.uint8 if name in ("flags", "solutions") else np.float32) for name in self.fields}
         for name, array in self.fields.items():
-            if (array.shape, array.dtype, array.shards) != (shape, kinds[name], self.shards) or not array.shards:
+            if (array.shape, array.dtype, array.shards) != (shape, kinds[name], self.shards):
                 raise AtlasError(f"{self.path}: the array `{name}` does not fit the axes and the other arrays")
         if self.digests.shape != (*self.shard_counts, len(self.fields), 32) or self.digests.dtype != np.uint8:
             raise AtlasError(f"{self.path}: the array `{DIGESTS}` does not fit the shards")
 
     @property
     def shape(self) -> tuple[int, ...]:
-        return self.fields["flags"].shape
+        """Nodes along each axis."""
+        return tuple(self.fields["flags"].shape)
 
     @property
     def chunks(self) -> tuple[int, ...]:
         """Nodes of a chunk along each axis: what a lookup reads."""
-        return self.fields["flags"].chunks
+        return tuple(self.fields["flags"].chunks)
 
     @property
     def shards(self) -> tuple[int, ...]:
         """Nodes of a shard along each axis: what a file holds."""
-        return self.fields["flags"].shards
+        return tuple(self.fields["flags"].shards or ())
 
     @property
     def shard_counts(self) -> tuple[int, ...]:
@@ -99,6 +101,7 @@ class Store:
 
     @property
     def shard_count(self) -> int:
+        """Number of shards."""
         return prod(self.shard_counts)
 
     def box(self, shard: int) -> tuple[slice, ...]:
@@ -229,6 +232,7 @@ class Store:
         return nodes, flags, solutions
 
     def refuse_unwritten(self, flags: NDArray[np.uint8]) -> None:
+        """Refuses flags of nodes that no shard has written."""
         if (flags == UNWRITTEN).any():
             raise AtlasError(f"{self.path}: a shard is missing; `spiral-atlas-cluster check` names it")
 
