@@ -201,7 +201,7 @@ def test_jobs_of_a_batch_system_fill_a_store_together(recipe, place, atlas):
     made = run("create", recipe, place, *OPTIONS)
     assert f"shards 0 to {SHARDS - 1}" in made.stdout, made.stderr
     code = "import sys; from spiral_atlas.cluster import cli; cli.main(); assert 'dask' not in sys.modules"
-    jobs = [[sys.executable, "-c", code, "shard", place, some] for some in ("0-30", "31-62", "63")]
+    jobs = [[sys.executable, "-c", code, "shard", place, some] for some in ("0-30", "31-62", "63-90")]
     running = [subprocess.Popen(job) for job in jobs]
     assert [job.wait(timeout=120) for job in running] == [0, 0, 0]
     done = run("generate", recipe, place, "--workers", 1)

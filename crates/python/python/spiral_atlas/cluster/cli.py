@@ -81,7 +81,11 @@ def parser() -> argparse.ArgumentParser:
     )
     added.add_argument("store", metavar="STORE")
     added.add_argument(
-        "shards", metavar="I", nargs="+", type=numbers, help="a number from 0 on, or a range such as 0-15"
+        "shards",
+        metavar="I",
+        nargs="+",
+        type=numbers,
+        help="a number from 0 on, or a range such as 0-15, cut off at the last shard",
     )
     added = command("check", check, "Read every shard of a store and compare it with its digest.")
     added.add_argument("store", metavar="STORE")
@@ -168,9 +172,10 @@ def shard(options: argparse.Namespace) -> int:
     place = Store(options.store, complete=False).path
     with locked(place, shared=True):
         store = Store(place, mode="r+", complete=False)
-        wanted = [number for some in options.shards for number in some]
-        for number in wanted:
-            store.box(number)
+        for some in options.shards:
+            store.box(some[0])
+        # The last job of many may have a range that goes on behind the last shard.
+        wanted = [number for some in options.shards for number in some if number < store.shard_count]
         for number in wanted:
             done = shards.write_shard(store, number)
             print(f"shard {number}: {done.state}, {done.nodes:,} nodes, {done.seconds:.2f} s", flush=True)

@@ -8,7 +8,9 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Literal
+from uuid import uuid4
 
 from .._core import Outline
 from .layout import lay_out, refuse_others
@@ -125,24 +127,30 @@ class Refused:
     why: str
 
 
-def write_task(place: str, number: int) -> Shard | Refused:
+@lru_cache(maxsize=2)
+def _opened(place: str, mode: Literal["r", "r+"], run: str) -> Store:
+    """The store of a run, opened once by each worker; the next run may be one of another store in the same place."""
+    return Store(place, mode=mode, complete=False)
+
+
+def write_task(place: str, run: str, number: int) -> Shard | Refused:
     """`write_shard` on one thread, since a worker has a process or a thread for each core."""
     try:
-        return write_shard(place, number, threads=1)
+        return write_shard(_opened(place, "r+", run), number, threads=1)
     except OSError as error:
         if error.errno not in HOPELESS:
             raise
         return Refused(f"{error.strerror} ({error.filename or place})")
 
 
-def check_task(place: str, number: int) -> Shard:
+def check_task(place: str, run: str, number: int) -> Shard:
     """`look_at` for a worker."""
-    return look_at(Store(place, complete=False), number)
+    return look_at(_opened(place, "r", run), number)
 
 
 def _run(
     summary: Summary,
-    task: Callable[[str, int], Shard | Refused],
+    task: Callable[[str, str, int], Shard | Refused],
     scheduler: str | None,
     workers: int | None,
     progress: Progress | None,
@@ -158,7 +166,7 @@ def _run(
             progress(summary)
         count = store.shard_count
         # Not pure: a shard of an earlier run is another task.
-        futures = client.map(task, [store.path] * count, range(count), pure=False, retries=3)
+        futures = client.map(task, [store.path] * count, [uuid4().hex] * count, range(count), pure=False, retries=3)
         numbers = {future.key: number for number, future in enumerate(futures)}
         for future, result in as_completed(futures, loop=client.loop, with_results=True, raise_errors=False):
             number = numbers[future.key]
