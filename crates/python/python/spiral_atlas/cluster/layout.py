@@ -139,7 +139,8 @@ def _write(outline: Outline, place: str, chunks: tuple[int, ...], shards: tuple[
             chunks=chunks,
             shards=shards,
             fill_value=UNWRITTEN if byte else float("nan"),
-            compressors=ZstdCodec(level=1),
+            # Verdicts are of few kinds and scalars hardly compress, so that more effort gains little.
+            compressors=ZstdCodec(level=-1),
             dimension_names=names,
             attributes=attributes,
             overwrite=True,

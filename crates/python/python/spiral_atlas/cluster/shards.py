@@ -89,7 +89,7 @@ def put(store: Store, number: int, fields: Mapping[str, NDArray[Any]]) -> None:
         # What is there may be damaged, and zarr would read it to see whether parts of it must be kept.
         key = f"{name}/{array.metadata.encode_chunk_key(index)}"
         sync(store.group.store.delete(key))
-        # Else zarr compares every chunk with the fill value, which no chunk is made of; that takes as long as to write it.
+        # Else zarr compares every chunk with the fill value, which none is made of; that takes as long as to write it.
         array.with_config({"write_empty_chunks": True})[box] = fields[name]
     store.digests[index] = store.digest_of(fields)
 
