@@ -128,13 +128,15 @@ def test_a_killed_run_goes_on_where_it_was(recipe, place, atlas):
 def test_a_lost_scheduler_ends_the_run_with_what_is_there(recipe, place, atlas, tmp_path):
     dask = [sys.executable, "-m", "dask"]
     file = tmp_path / "scheduler.json"
+    # How long a lost scheduler is sought; half a minute by default.
+    env = os.environ | {"DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "10s"}
     options = ["--scheduler-file", file, "--no-dashboard"]
     with started("scheduler", *options, "--port", 0, command=dask) as scheduler:
         with started("worker", *options, "--nworkers", 1, "--nthreads", 1, "--no-nanny", command=dask, cwd=tmp_path):
             wait_for(file.exists, "the scheduler's file")
             address = json.loads(file.read_text())["address"]
             with started(
-                "generate", recipe, place, *OPTIONS, "--scheduler", address, stdout=subprocess.PIPE
+                "generate", recipe, place, *OPTIONS, "--scheduler", address, stdout=subprocess.PIPE, env=env
             ) as process:
                 wait_for(lambda: written(place) > 1, "the first shards")
                 scheduler.kill()

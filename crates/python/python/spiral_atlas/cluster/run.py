@@ -19,10 +19,13 @@ from .shards import Shard, finish, look_at, write_shard
 from .store import Store, absolute
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from distributed import Client, Future
 
 HOPELESS = {errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.EFBIG}
 """What the system refuses to every worker alike: neither another try nor another shard helps."""
+
+
+LOST = "the scheduler was lost"
 
 
 class IncompleteError(RuntimeError):
@@ -122,7 +125,7 @@ def check(
 
 @dataclass(frozen=True)
 class Refused:
-    """What the system refuses to every worker alike."""
+    """What is refused to all shards alike, so that the run ends."""
 
     why: str
 
@@ -160,6 +163,7 @@ def _run(
 
     began, store = time.perf_counter(), summary.store
     failures: dict[int, str] = {}
+    hopeless = False
     with _client(scheduler, min(workers or len(os.sched_getaffinity(0)), store.shard_count)) as client:
         summary.workers, summary.dashboard = client.scheduler_info()["total_threads"], client.dashboard_link
         if progress:
@@ -168,40 +172,57 @@ def _run(
         # Not pure: a shard of an earlier run is another task.
         futures = client.map(task, [store.path] * count, [uuid4().hex] * count, range(count), pure=False, retries=3)
         numbers = {future.key: number for number, future in enumerate(futures)}
-        for future, result in as_completed(futures, loop=client.loop, with_results=True, raise_errors=False):
-            number = numbers[future.key]
-            if isinstance(result, Shard):
-                summary.shards.append(result)
-            else:
-                failures[number] = _why(result)
-            if isinstance(result, Refused):
-                client.cancel(futures)
-                break
-            # The result is kept here, so the scheduler may forget it.
-            future.release()
+        # Without results: where the scheduler is lost while it hands one over, Dask would wait for that one for ever.
+        for batch in as_completed(futures, loop=client.loop).batches():
+            for future, result in zip(batch, _results(client, batch), strict=True):
+                if isinstance(result, Shard):
+                    summary.shards.append(result)
+                else:
+                    failures[numbers[future.key]] = _why(result)
+                if isinstance(result, Refused):
+                    hopeless = True
+                # The result is kept here, so the scheduler may forget it.
+                future.release()
             summary.seconds = time.perf_counter() - began
             if progress:
                 progress(summary)
+            if hopeless:
+                client.cancel(futures)
+                break
     if failures:
         raise IncompleteError(_complaint(summary, failures))
 
 
+def _results(client: "Client", done: Sequence["Future"]) -> list[Any]:
+    """What each of some tasks that have ended returned or raised."""
+    finished = [future for future in done if future.status == "finished"]
+    try:
+        values = dict(zip(finished, client.gather(finished), strict=True))
+    except Exception:
+        # Tasks that have finished have results, so it is the scheduler that does not hand them over.
+        return [Refused(LOST)] * len(done)
+    results = []
+    for future in done:
+        try:
+            results.append(values[future] if future in values else future.result())
+        except Exception as error:
+            results.append(error)
+    return results
+
+
 def _why(result: Any) -> str:
     """Why a task has no result."""
-    from distributed import KilledWorker
-    from distributed.client import FutureCancelledError
+    from distributed import CancelledError, KilledWorker
 
     match result:
         case Refused(why):
             return why
-        case FutureCancelledError(reason="scheduler-connection-lost"):
-            return "the scheduler was lost"
-        case (_, KilledWorker() as error, _):
+        case CancelledError():
+            return LOST
+        case KilledWorker() as error:
             return f"{error.allowed_failures + 1} workers died while they worked at it, perhaps for lack of memory"
-        case (_, BaseException() as error, _) | (BaseException() as error):
+        case error:
             return f"{type(error).__name__}: {error}"
-        case _:
-            return repr(result)
 
 
 def _complaint(summary: Summary, failures: dict[int, str]) -> str:
