@@ -32,7 +32,7 @@ MEMORY = {
     f"distributed.nanny.pre-spawn-environ.{name}": str(size)
     for name, size in {"MALLOC_TRIM_THRESHOLD_": 1 << 28, "MALLOC_MMAP_THRESHOLD_": 1 << 25}.items()
 }
-"""Workers keep the memory of a shard for the next. Dask has them give it back each time, which takes a fifth more time."""
+"""Workers keep the memory of a shard for the next. Dask has them give it back each time, which takes a fifth longer."""
 
 
 class IncompleteError(RuntimeError):
