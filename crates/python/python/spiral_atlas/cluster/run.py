@@ -8,7 +8,6 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Literal
 from uuid import uuid4
 
@@ -137,10 +136,16 @@ class Refused:
     why: str
 
 
-@lru_cache(maxsize=2)
+_stores: dict[tuple[str, str], Store] = {}
+
+
 def _opened(place: str, mode: Literal["r", "r+"], run: str) -> Store:
     """The store of a run, opened once by each worker; the next run may be one of another store in the same place."""
-    return Store(place, mode=mode, complete=False)
+    store = _stores.get((place, run))
+    if store is None:
+        _stores.clear()
+        store = _stores[place, run] = Store(place, mode=mode, complete=False)
+    return store
 
 
 def write_task(place: str, run: str, number: int) -> Shard | Refused:
