@@ -111,8 +111,9 @@
 //! | feature | adds |
 //! | --- | --- |
 //! | `gpu` | the evaluator on GPUs, by wgpu |
-//! | `cli` | the program, with `recipe`, `export` and pictures |
+//! | `cli` | the program, with `picture` and `export` |
 //! | `export` | paths as files of other programs: OpenDRIVE |
+//! | `picture` | pictures as PNG files, with `recipe` |
 //! | `recipe` | the reader of recipes alone |
 
 pub mod atlas;
@@ -132,11 +133,11 @@ mod noise;
 #[doc(hidden)]
 pub mod num;
 pub mod path;
-#[cfg(feature = "cli")]
+#[cfg(feature = "picture")]
 pub mod picture;
 #[doc(hidden)]
 pub mod plain;
-#[cfg(feature = "cli")]
+#[cfg(feature = "picture")]
 pub mod plot;
 pub mod question;
 #[cfg(feature = "recipe")]

@@ -30,6 +30,7 @@ mod about;
 mod fault;
 pub(crate) mod header;
 mod map;
+mod outline;
 pub mod verify;
 mod write;
 
@@ -37,6 +38,7 @@ pub use about::{About, FORMAT_VERSION, Kind, Named, Packed};
 pub use header::MAX_HEADER;
 use map::{MEMORY, map_file};
 pub(crate) use map::{Map, map_bytes, map_path};
+pub use outline::Outline;
 pub use write::{Writer, Written};
 
 use crate::error::{Error, Result};

@@ -6,6 +6,7 @@ use super::{Atlas, Spec, fault};
 use crate::error::{Error, Result};
 use crate::eval::Chunk;
 use crate::files::{Draft, check_room, folder};
+use crate::grid::Axis;
 use blake3::{Hash, Hasher};
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -46,8 +47,8 @@ impl Writer {
     /// [`Error::Domain`] when the specification is inconsistent (axes that are no chart of the family, a scalar given twice,
     /// a recipe too long).
     pub fn size(spec: &Spec) -> Result<u64> {
-        let (header, head) = layout(spec)?;
-        Ok(head.len() as u64 + header.body_len() as u64)
+        let header = header_of(spec)?;
+        Ok(header.render().map_err(Error::Domain)?.len() as u64 + header.body_len() as u64)
     }
 
     /// Opens a temporary file in the folder of `path` and lays the atlas out.
@@ -56,18 +57,24 @@ impl Writer {
     /// [`Error::Domain`] when the specification is inconsistent, as for [`Writer::size`], or the disk has no room for the atlas;
     /// [`Error::Io`], naming `path`, when the system refuses.
     pub fn create(path: &Path, spec: &Spec) -> Result<Writer> {
-        let (header, head) = layout(spec)?;
+        Writer::of(path, header_of(spec)?)
+    }
+
+    pub(super) fn of(path: &Path, header: Header) -> Result<Writer> {
+        let head = header.render().map_err(Error::Domain)?;
         let io = || Error::io(path);
         let size = head.len() as u64 + header.body_len() as u64;
-        check_room(folder(path), &format!("the atlas `{}`", spec.name), size)?;
+        check_room(folder(path), &format!("the atlas `{}`", header.about.name), size)?;
         let mut draft = Draft::beside(path).map_err(io())?;
         let body = head.len() as u64;
         draft.file().set_len(size).map_err(io())?;
         let hashers = vec![Hasher::new(); header.tensors.len()];
-        let mut writer = Writer { target: path.to_owned(), draft, header, body, hashers, nodes: spec.grid.len(), next: 0 };
-        for (i, axis) in spec.grid.axes().iter().enumerate() {
-            let bytes: Vec<u8> = axis.values().iter().flat_map(|v| v.to_le_bytes()).collect();
-            writer.append(i, 0, &bytes)?;
+        let nodes = header.grid.len();
+        let axis_bytes = |axis: &Axis| axis.values().iter().flat_map(|v| v.to_le_bytes()).collect();
+        let axes: Vec<Vec<u8>> = header.grid.axes().iter().map(axis_bytes).collect();
+        let mut writer = Writer { target: path.to_owned(), draft, header, body, hashers, nodes, next: 0 };
+        for (i, bytes) in axes.iter().enumerate() {
+            writer.append(i, 0, bytes)?;
         }
         Ok(writer)
     }
@@ -162,11 +169,12 @@ impl Writer {
     }
 }
 
-/// The header of a specification, and its bytes as they stand before any hash is known.
-fn layout(spec: &Spec) -> Result<(Header, Vec<u8>)> {
+/// The header of a specification as it stands before any hash is known.
+pub(super) fn header_of(spec: &Spec) -> Result<Header> {
     let domain = |what| Error::Domain(format!("the atlas `{}`: {what}", spec.name));
     check_name("atlas", spec.name).map_err(Error::Domain)?;
     let header = Header::new(About::of(spec).map_err(domain)?, spec.grid.clone()).map_err(domain)?;
-    let head = header.render().map_err(domain)?;
-    Ok((header, head))
+    // Whether it is short enough.
+    header.render().map_err(domain)?;
+    Ok(header)
 }

@@ -55,7 +55,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Outcome> {
     let atlas = args.atlas.as_ref().map(Opened::checked).transpose()?;
     let of = |atlas: &Opened| match atlas {
-        Opened::Nodes(atlas) => picture::of(atlas),
+        Opened::Nodes(atlas) => picture::of(atlas.about()),
         Opened::Cells(found) => Ok(found.family()),
     };
     let told = atlas.as_ref().map(of).transpose()?;

@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         let opened = Opened::checked(&args.source)?;
         output::make_folder(&args.out)?;
         match &opened {
-            Opened::Nodes(atlas) => draw::one(atlas, &picture::plans(atlas)?, &args.out)?,
+            Opened::Nodes(atlas) => draw::one(atlas, &picture::plans(atlas.about(), atlas.grid())?, &args.out)?,
             Opened::Cells(found) => cells::draw(found, &picture::cells::plans(found)?, &args.out)?,
         }
     };
@@ -67,7 +67,7 @@ fn of_recipe(args: &Args) -> Result<Vec<Product>> {
         let path = output::atlas_path(&args.out, &plan.name);
         let (_, writer) = generate::write_atlas(&recipe, plan, &path, &backend, args.backend.threads(), &stop)?;
         let atlas = writer.open()?;
-        products.extend(draw::one(&atlas, &picture::plans(&atlas)?, &args.out)?);
+        products.extend(draw::one(&atlas, &picture::plans(atlas.about(), atlas.grid())?, &args.out)?);
         atlases.push(atlas);
     }
     products.extend(draw::together(&args.source, &recipe, &atlases, &args.out)?);

@@ -68,7 +68,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         Opened::Nodes(atlas) => atlas,
         Opened::Cells(found) => return cells::verify(&found, args.backend.threads(), args.json),
     };
-    let family = picture::of(&atlas)?;
+    let family = picture::of(atlas.about())?;
     let scalars = verify::scalars(&atlas, family)?;
     let job = Job { family, grid: atlas.grid(), scalars: &scalars };
     let (stored, (backends, no_gpu)) = (verify::stored(&atlas)?, args.backend.all(args.require_adapter)?);

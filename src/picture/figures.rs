@@ -1,7 +1,8 @@
 //! What pictures show, as the plain data that [`crate::plot`] draws: slices and small multiples of a grid.
 
+use super::Source;
 use super::words::{angles, grouped, short};
-use crate::atlas::Atlas;
+use crate::atlas::About;
 use crate::error::{Error, Result};
 use crate::eval::{Backend, Job, evaluate};
 use crate::family::{self, Family, Flag};
@@ -17,14 +18,14 @@ pub(super) struct Subject<'a> {
     pub name: &'a str,
     pub family: &'static dyn Family,
     pub grid: &'a Grid,
-    pub atlas: Option<&'a Atlas>,
+    pub atlas: Option<&'a dyn Source>,
 }
 
 impl<'a> Subject<'a> {
     /// # Errors
-    /// [`Error::Atlas`] for a family that this program does not have.
-    pub fn of(atlas: &'a Atlas) -> Result<Subject<'a>> {
-        Ok(Subject { name: &atlas.about().name, family: family_of(atlas)?, grid: atlas.grid(), atlas: Some(atlas) })
+    /// [`Error::Domain`] for a family that this program does not have.
+    pub fn of(atlas: &'a dyn Source) -> Result<Subject<'a>> {
+        Ok(Subject { name: &atlas.about().name, family: family_of(atlas.about())?, grid: atlas.grid(), atlas: Some(atlas) })
     }
 }
 
@@ -168,8 +169,7 @@ fn plane(subject: &Subject, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> R
         }
         for (place, byte) in plane.iter_mut().enumerate() {
             (index[plan.x], index[plan.y]) = (place % x, place / x);
-            let entry = atlas.at(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
-            *byte |= entry.flags;
+            *byte |= atlas.flags(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
         }
     }
     Ok(plane)
@@ -209,20 +209,20 @@ fn panel(subject: &Subject, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> R
 
 /// Where a scalar is at most each level, on the plane through one node of each other axis: the largest first.
 fn at_most(subject: &Subject, plan: &PicturePlan, levels: &Levels, at: &[(usize, Vec<usize>)]) -> Result<Vec<Region>> {
-    let field = subject.atlas.map_or(Some(&[][..]), |atlas| atlas.scalar(levels.field));
-    let field = field.ok_or_else(|| Error::Domain(format!("the atlas has no scalar `{}`", levels.field)))?;
-    let grid = subject.grid;
-    let [x, y] = [plan.x, plan.y].map(|axis| grid.axes()[axis].values().len());
-    let mut index = vec![0; grid.axes().len()];
+    let axes = subject.grid.axes();
+    let [x, y] = [plan.x, plan.y].map(|axis| axes[axis].values().len());
+    let mut index = vec![0; axes.len()];
     for (axis, nodes) in at {
         index[*axis] = nodes.first().copied().unwrap_or_default();
     }
-    let values = (0..if subject.atlas.is_some() { x * y } else { 0 }).map(|place| {
+    let nodes = subject.atlas.iter().flat_map(|atlas| (0..x * y).map(move |place| (atlas, place)));
+    let values = nodes.map(|(atlas, place)| {
         (index[plan.x], index[plan.y]) = (place % x, place / x);
-        let node = grid.axes().iter().zip(&index).fold(0, |flat, (axis, i)| flat * axis.values().len() + i);
-        field.get(node).copied().filter(|value| *value != family::NO_VALUE)
+        let value = atlas.scalar(levels.field, &index);
+        let value = value.ok_or_else(|| Error::Domain(format!("the atlas has no scalar `{}`", levels.field)))?;
+        Ok(Some(value).filter(|value| *value != family::NO_VALUE))
     });
-    let values: Vec<Option<f32>> = values.collect();
+    let values: Vec<Option<f32>> = values.collect::<Result<_>>()?;
     let region = |level: &f64| Region {
         label: format!("{} ≤ {level}", levels.field),
         mask: values.iter().map(|value| value.is_some_and(|value| f64::from(value) <= *level)).collect(),
@@ -277,12 +277,12 @@ fn evaluated(family: &'static dyn Family, subject: &Subject, plan: &PicturePlan)
 /// The family of an atlas.
 ///
 /// # Errors
-/// [`Error::Atlas`] for one that this program does not have.
-pub fn family_of(atlas: &Atlas) -> Result<&'static dyn Family> {
-    family::by_name(atlas.family_name()).ok_or_else(|| {
+/// [`Error::Domain`] for one that this program does not have.
+pub fn family_of(about: &About) -> Result<&'static dyn Family> {
+    family::by_name(&about.family).ok_or_else(|| {
         let known: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-        let what = format!("its family is `{}`; this program has `{}`", atlas.family_name(), known.join("`, `"));
-        Error::Atlas { path: atlas.path().to_owned(), what }
+        let (name, family) = (&about.name, &about.family);
+        Error::Domain(format!("the family of the atlas `{name}` is `{family}`; this program has `{}`", known.join("`, `")))
     })
 }
 
@@ -314,7 +314,7 @@ mod tests {
     use std::path::Path;
 
     /// An atlas of `any-spiral` whose outer axes have two and three nodes, and one plan.
-    fn atlas_and_plan(folder: &Path, picture: &str) -> (Atlas, PicturePlan) {
+    fn atlas_and_plan(folder: &Path, picture: &str) -> (crate::atlas::Atlas, PicturePlan) {
         use crate::atlas::{Spec, Writer};
         let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = { values = [1, 2] }";
         let text =
@@ -327,7 +327,7 @@ mod tests {
         let job = Job { family: plan.family, grid: &plan.grid, scalars: &[] };
         evaluate(&job, &Backend::Cpu, 1, &AtomicBool::new(false), |chunk| writer.put(&chunk)).unwrap();
         writer.finish().unwrap();
-        (Atlas::open(&path).unwrap(), plan.pictures[0].clone())
+        (crate::atlas::Atlas::open(&path).unwrap(), plan.pictures[0].clone())
     }
 
     /// Names and values with the numbers of their panels.
@@ -377,6 +377,23 @@ mod tests {
             atlas_and_plan(folder.path(), "kind = \"multiples\"\nx = \"alpha\"\ny = \"beta\"\nat = { k1 = 0, k2 = [1, 2] }");
         let one = PicturePlan { at: vec![(2, vec![0]), (3, vec![1])], ..plan };
         assert_eq!(multiples(&Subject::of(&atlas).unwrap(), &one).unwrap().note, "1 panel, 6 nodes, each proved");
+    }
+
+    #[test]
+    fn the_shown_nodes_are_enough() {
+        use super::super::{Part, draw, shown};
+        let folder = tempfile::tempdir().unwrap();
+        for more in ["kind = \"slice\"\nat = { beta = 0.75, k2 = 2 }", "kind = \"union\"\nat = { beta = [0.25, 1.5] }"] {
+            let (atlas, plan) = atlas_and_plan(folder.path(), &format!("x = \"k1\"\ny = \"alpha\"\n{more}"));
+            let (outline, nodes) = (crate::atlas::Outline::of_atlas(&atlas).unwrap(), shown(atlas.grid(), &plan));
+            let index = |node: &Vec<Chosen>| node.iter().map(|(_, i)| i[0]).collect::<Vec<_>>();
+            let picked = combinations(&nodes.iter().cloned().enumerate().collect::<Vec<_>>());
+            let flags: Vec<u8> = picked.iter().map(|node| atlas.at(&index(node)).unwrap().flags).collect();
+            let part = Part::new(&outline, &nodes, &flags, Default::default()).unwrap();
+            assert_eq!(draw(&part, &plan).unwrap(), draw(&atlas, &plan).unwrap());
+            let short = Part::new(&outline, &nodes, &flags[1..], Default::default()).err().unwrap().to_string();
+            assert!(flags.len() < atlas.flags().len() && short.contains("`flags` has"), "{short}");
+        }
     }
 
     #[test]

@@ -2,13 +2,16 @@
 
 pub mod cells;
 mod figures;
+mod source;
 mod words;
 
 pub use figures::family_of as of;
+pub use source::{Part, Source, shown};
 pub use words::{angle, grouped, short};
 
-use crate::atlas::Atlas;
+use crate::atlas::About;
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 use crate::plot::{self, Multiples, Region, Sheet, Slice};
 use crate::recipe::{self, AtlasPlan, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE};
 use figures::{Subject, middle_slice, multiples, sheet};
@@ -24,12 +27,12 @@ const HEAD: u32 = 40;
 ///
 /// # Errors
 /// [`Error::Domain`] when the atlas has a single axis.
-pub fn plans(atlas: &Atlas) -> Result<Vec<PicturePlan>> {
-    let recipe = Recipe::parse(atlas.recipe_text()).ok();
-    let planned = recipe.and_then(|r| r.atlases.into_iter().find(|a| a.name == atlas.about().name && a.grid == *atlas.grid()));
+pub fn plans(about: &About, grid: &Grid) -> Result<Vec<PicturePlan>> {
+    let recipe = Recipe::parse(&about.recipe).ok();
+    let planned = recipe.and_then(|r| r.atlases.into_iter().find(|a| a.name == about.name && a.grid == *grid));
     match planned.map(|a| a.pictures) {
         Some(pictures) if !pictures.is_empty() => Ok(pictures),
-        _ => middle_slice(atlas.grid()).map(|plan| vec![plan]),
+        _ => middle_slice(grid).map(|plan| vec![plan]),
     }
 }
 
@@ -45,7 +48,7 @@ pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// Those of [`plot`], and [`Error::Domain`] for a family that this program does not have.
-pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
+pub fn draw(atlas: &dyn Source, plan: &PicturePlan) -> Result<Vec<u8>> {
     let subject = Subject::of(atlas)?;
     match plan.kind {
         PictureKind::Slice | PictureKind::Union | PictureKind::Compare { .. } => {
@@ -59,7 +62,7 @@ pub fn draw(atlas: &Atlas, plan: &PicturePlan) -> Result<Vec<u8>> {
 ///
 /// # Errors
 /// [`Error::Domain`] for a family that this program does not have.
-pub fn slice(atlas: &Atlas, plan: &PicturePlan) -> Result<Slice> {
+pub fn slice(atlas: &dyn Source, plan: &PicturePlan) -> Result<Slice> {
     figures::slice(&Subject::of(atlas)?, plan)
 }
 

@@ -4,6 +4,7 @@ mod cells;
 #[cfg(feature = "cli")]
 mod crude;
 mod file;
+mod outline;
 #[cfg(feature = "cli")]
 mod panels;
 mod pipeline;

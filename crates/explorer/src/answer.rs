@@ -6,8 +6,8 @@ use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::path::Course;
 use spiral_atlas::transition::join::{self, Outcome as Joined, join};
 use spiral_atlas::transition::{
-    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Outcome, PhOutcome, Piece, Placement, Turn, Why, involute_between, nearest,
-    ph_spiral, polyline, spiral, why_no_spiral,
+    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, involute_between, nearest, ph_spiral,
+    polyline, spiral, why_no_spiral,
 };
 use spiral_atlas::{Error, Result};
 
@@ -113,8 +113,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
         Kind::Cubic => {
             let answer = spiral(ends)?;
             let piece = answer.chosen().map(|s| (s.piece(), json!({ "margin": s.margin, "f0": s.f0, "f1": s.f1 })));
-            let why =
-                if let Outcome::Why(why) = &answer.outcome { Some((why.sentence("cubic spiral"), json!(why))) } else { None };
+            let why = if let Err(why) = &answer.outcome { Some((why.sentence("cubic spiral"), json!(why))) } else { None };
             // What has these ends and is no spiral is drawn, too.
             let others = answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points.p }));
             told(piece, why, others.collect())
@@ -123,11 +122,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let answer = ph_spiral(ends)?;
             let facts = |s: &transition::PhSolution| json!({ "margin": s.margin, "a": s.a, "b": s.b, "energy": s.energy });
             let piece = answer.chosen().map(|s| (Piece::PhQuintic(s.curve), facts(s)));
-            let why = if let PhOutcome::Why(why) = &answer.outcome {
-                Some((why.sentence("PH quintic spiral"), json!(why)))
-            } else {
-                None
-            };
+            let why = if let Err(why) = &answer.outcome { Some((why.sentence("PH quintic spiral"), json!(why))) } else { None };
             let others = answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points }));
             told(piece, why, others.collect())
         }
@@ -190,12 +185,12 @@ impl Advice {
         let ends = self.ends.into();
         let why = match self.kind {
             Kind::Cubic => match spiral(&ends)?.with_remedies()?.outcome {
-                Outcome::Why(why) => Some((why.sentence("cubic spiral"), json!(why))),
-                Outcome::Chosen(_) => None,
+                Err(why) => Some((why.sentence("cubic spiral"), json!(why))),
+                Ok(_) => None,
             },
             Kind::PhQuintic => match ph_spiral(&ends)?.with_remedies()?.outcome {
-                PhOutcome::Why(why) => Some((why.sentence("PH quintic spiral"), json!(why))),
-                PhOutcome::Chosen(_) => None,
+                Err(why) => Some((why.sentence("PH quintic spiral"), json!(why))),
+                Ok(_) => None,
             },
             _ => None,
         };

@@ -57,8 +57,8 @@ impl Slice {
     pub fn new(wanted: Wanted) -> Result<Slice> {
         let Wanted { family, phi0, phi1, at, ranges, width, height } = wanted;
         let family = family::by_name(&family).ok_or_else(|| Error::Domain(format!("no family is named `{family}`")))?;
-        let chart = family.charts().iter().position(|chart: &Chart| chart.axes == AXES);
-        let chart = chart.ok_or_else(|| Error::Domain(format!("`{}` has no axes kappa0 and kappa1", family.name())))?;
+        let chart = family.about().charts.iter().position(|chart: &Chart| chart.axes == AXES);
+        let chart = chart.ok_or_else(|| Error::Domain(format!("`{}` has no axes kappa0 and kappa1", family.about().name)))?;
         if ![width, height].iter().all(|n| (2..=MOST).contains(n)) {
             return Err(Error::Domain(format!("the slice is {width} x {height} pixels; each side must be 2 to {MOST}")));
         }
@@ -89,11 +89,11 @@ impl Slice {
 
     /// The names and the order of what is drawn.
     pub fn about(&self) -> Value {
-        let bit = |name: &&str| self.family.flags().iter().position(|flag| flag.name == *name);
+        let bit = |name: &&str| self.family.about().flags.iter().position(|flag| flag.name == *name);
         let flags: Vec<Value> =
-            self.family.flags().iter().map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc })).collect();
-        let nested: Vec<usize> = self.family.nested().iter().filter_map(bit).collect();
-        json!({ "family": self.family.name(), "ranges": self.ranges, "flags": flags, "nested": nested })
+            self.family.about().flags.iter().map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc })).collect();
+        let nested: Vec<usize> = self.family.about().nested.iter().filter_map(bit).collect();
+        json!({ "family": self.family.about().name, "ranges": self.ranges, "flags": flags, "nested": nested })
     }
 
     /// The flags of each pixel, column by column, from below.
@@ -121,7 +121,7 @@ impl Slice {
     fn work(&mut self, tile: &Tile, table: &dyn Table) {
         let Tile { x, y, side } = *tile;
         let [right, top] = [(x + side).min(self.edges[0].len() - 1), (y + side).min(self.edges[1].len() - 1)];
-        let all = (0..self.family.flags().len()).fold(0, |mask, bit| mask | 1 << bit);
+        let all = (0..self.family.about().flags.len()).fold(0, |mask, bit| mask | 1 << bit);
         if let Some(region) = self.family.region() {
             let [phi0, phi1] = self.angles;
             let low = [phi0, phi1, self.edges[0][x], self.edges[1][y]];
@@ -184,7 +184,7 @@ fn seen(family: &'static dyn Family, [phi0, phi1]: [f64; 2], at: [f64; 2]) -> Re
     let (flat, sharp) = (phi0.sin().max(0.05), phi1.sin().max(0.05));
     let wide = [[-0.5 * flat, 1.06 * flat], [0.7 * sharp, 30.0 * sharp]];
     let [mut x, mut y] =
-        if family.nested()[0] == "EXISTS" { wide } else { region(family, [phi0, phi1], [flat, sharp])?.unwrap_or(wide) };
+        if family.about().nested[0] == "EXISTS" { wide } else { region(family, [phi0, phi1], [flat, sharp])?.unwrap_or(wide) };
     let margin = 0.06 * (x[1] - x[0]);
     x = [x[0].min(at[0] - margin), x[1].max(at[0] + margin)];
     // Below a thousandth of the rest, no logarithmic axis shows it.

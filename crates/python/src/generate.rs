@@ -119,7 +119,8 @@ impl Work<'_> {
     }
 }
 
-fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
+/// A recipe from a dictionary or the path of a TOML file.
+pub fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
     if let Ok(dict) = recipe.cast::<PyDict>() {
         let wrong = |e: &dyn std::fmt::Display| PyValueError::new_err(format!("the recipe: {e}"));
         let table: toml::Table = pythonize::depythonize(dict).map_err(|e| wrong(&e))?;
@@ -131,7 +132,7 @@ fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
 }
 
 /// Works in another thread, so that this one hears Ctrl-C and reports the progress.
-fn watched<T: Send>(
+pub fn watched<T: Send>(
     py: Python<'_>,
     report: impl Fn(u64) -> PyResult<()>,
     work: impl FnOnce(&AtomicBool, &Sender<u64>) -> Result<T> + Send,

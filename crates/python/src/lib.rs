@@ -7,6 +7,9 @@ mod error;
 mod family;
 mod generate;
 mod join;
+mod outline;
+mod picture;
+mod writer;
 
 use pyo3::prelude::*;
 
@@ -21,6 +24,10 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<curve::Curve>()?;
     module.add_class::<curve::Fit>()?;
     module.add_class::<join::Join>()?;
+    module.add_class::<outline::Outline>()?;
+    module.add_class::<picture::Picture>()?;
+    module.add_class::<writer::Writer>()?;
+    module.add_function(wrap_pyfunction!(writer::blake3, module)?)?;
     module.add_function(wrap_pyfunction!(atlas::open, module)?)?;
     module.add_function(wrap_pyfunction!(cells::open_cells, module)?)?;
     module.add_function(wrap_pyfunction!(curve::fit, module)?)?;

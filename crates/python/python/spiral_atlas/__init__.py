@@ -24,11 +24,11 @@ from ._core import (
     fit,
     generate,
     join,
-    open,
     open_cells,
     solve,
     solve_batch,
 )
+from ._stores import open, to_safetensors, to_zarr
 
 __all__ = [
     "NO_VALUE",
@@ -49,4 +49,6 @@ __all__ = [
     "open_cells",
     "solve",
     "solve_batch",
+    "to_safetensors",
+    "to_zarr",
 ]

@@ -9,7 +9,7 @@ import xarray as xr
 from xarray.backends import BackendArray, BackendEntrypoint
 from xarray.core import indexing
 
-from . import NO_VALUE, Atlas, open
+from ._core import NO_VALUE, Atlas, open
 
 SUFFIX = ".atlas.safetensors"
 
