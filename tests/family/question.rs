@@ -5,10 +5,13 @@ use crate::oracle::{in_domain, judge};
 use spiral_atlas::family::{self, verdict};
 use spiral_atlas::question::{Property, boundary, nearest, ranges};
 
+/// Whether a property holds at a point.
+type Holds = Box<dyn Fn(&[f64]) -> bool>;
+
 /// The property of a name, and its verdict at a point as a grid of one node has it.
 struct Asked {
     property: Property,
-    holds: Box<dyn Fn(&[f64]) -> bool>,
+    holds: Holds,
 }
 
 fn asked(family: &str, chart: usize, flag: &str) -> Asked {
