@@ -171,7 +171,11 @@ impl Header {
         for (tensor, hash) in header.tensors.iter().zip(&mut header.hashes) {
             tensor.check(metadata.info(&tensor.name))?;
             let text = map.get(&hash_key(&tensor.name)).ok_or_else(|| format!("it has no hash of `{}`", tensor.name))?;
-            *hash = Hash::from_hex(text).map_err(|e| format!("the hash of `{}` is {text:?}: {e}", tensor.name))?;
+            let wrong = |_| {
+                let shown: String = text.chars().take(64).collect();
+                format!("the hash of `{}` is {shown:?}; it must be 64 hexadecimal digits", tensor.name)
+            };
+            *hash = Hash::from_hex(text).map_err(wrong)?;
         }
         let start = file.len() - body.len();
         if header.render()? != file[..start] {

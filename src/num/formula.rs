@@ -11,6 +11,17 @@ use std::ops::{Add, Mul, Neg, Sub};
 #[derive(Debug, Clone, Copy)]
 pub struct Term<'n, N>(pub &'n N);
 
+/// What can be a letter of a formula: every number.
+pub trait Letter: Number {
+    /// The letter.
+    #[inline(always)]
+    fn term(&self) -> Term<'_, Self> {
+        Term(self)
+    }
+}
+
+impl<N: Number> Letter for N {}
+
 /// What a part of a formula gives.
 #[derive(Debug, Clone, Copy)]
 pub struct Part<N>(pub N);
@@ -49,8 +60,7 @@ macro_rules! formula {
     (@operator [$($done:tt)*]) => { $($done)* };
     (@ $($unknown:tt)*) => { compile_error!("a formula has + - *, parentheses, letters and constants") };
     ($($formula:tt)+) => {{
-        #[allow(unused_imports, reason = "a generic function has the trait by its bound")]
-        use $crate::num::Number as _;
+        use $crate::num::Letter as _;
         (formula!(@operand [] $($formula)+)).0
     }};
 }

@@ -15,7 +15,7 @@ mod ziv;
 
 pub use ball::Ball;
 pub use form::{Form, Quadratic};
-pub(crate) use formula::formula;
+pub(crate) use formula::{Letter, formula};
 pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
 pub use twin::{TWIN_BITS, Twin};

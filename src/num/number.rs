@@ -1,7 +1,6 @@
 //! One notation for the arithmetic that doubles, SIMD lanes and intervals share, so that a formula is written once.
 
 use super::Interval;
-use super::formula::Term;
 use fearless_simd::{Simd, SimdBase};
 
 /// `+ - *` and nothing else: what proofs may use.
@@ -16,12 +15,6 @@ pub trait Number: Clone {
     fn times(&self, constant: f64) -> Self;
     /// Sum with a constant.
     fn plus(&self, constant: f64) -> Self;
-    /// A letter of a formula; see `formula!`.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn term(&self) -> Term<'_, Self> {
-        Term(self)
-    }
 }
 
 impl Number for f64 {
