@@ -1,10 +1,10 @@
 //! How long single answers take, family by family, as a table: median and 99th percentile in microseconds, on one
 //! thread.
 //!
-//! The data are random over the family's usual domain, and as many hard ones lie on a border between two codes, found by
-//! halving the way between two random data. The line `dense` is the f64 step over a dense grid of the usual domain, in
-//! million nodes a second, and how many nodes it leaves to intervals. A low rate there shows vector operations that became
-//! calls. Arguments choose families by a part of their names.
+//! The data are random over the family's usual domain, and as many hard ones lie on a border between two codes, found
+//! by halving the way between two random data. The line `dense` is the f64 step over a dense grid of the usual domain,
+//! in million nodes a second, and how many nodes it leaves to intervals. A low rate there shows vector operations that
+//! became calls. Arguments choose families by a part of their names.
 
 use spiral_atlas::Result;
 use spiral_atlas::family::{Code, Family, all, verdict};

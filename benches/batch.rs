@@ -1,5 +1,5 @@
-//! A million data at once: the verdicts of the cubic, and the nearest nodes of an atlas in memory. `benches/batch.py` times the same
-//! calls from Python, in the same run (`benches/run`).
+//! A million data at once: the verdicts of the cubic, and the nearest nodes of an atlas in memory. `benches/batch.py`
+//! times the same calls from Python, in the same run (`benches/run`).
 
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, evaluate};

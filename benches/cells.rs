@@ -29,7 +29,10 @@ fn main() -> spiral_atlas::Result<()> {
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
     let started = Instant::now();
     let built = build(&spec, threads, &AtomicBool::new(false), &|_| ())?;
-    println!("resolution {resolution}, {mib} MiB: made in {:.1} s with {threads} threads", started.elapsed().as_secs_f64());
+    println!(
+        "resolution {resolution}, {mib} MiB: made in {:.1} s with {threads} threads",
+        started.elapsed().as_secs_f64()
+    );
     let path = std::env::temp_dir().join("spiral-atlas-bench-cells.safetensors");
     write(&path, &spec, &built)?;
     let started = Instant::now();
@@ -49,7 +52,10 @@ fn main() -> spiral_atlas::Result<()> {
     for (what, points) in [("whole box", &points), ("inside the outer bound", &within)] {
         let mut mixed = [0; 5];
         for known in points.iter().filter_map(|p| cells.lookup(p)) {
-            mixed.iter_mut().enumerate().for_each(|(bit, n)| *n += u32::from((known.inside | known.outside) >> bit & 1 == 0));
+            mixed
+                .iter_mut()
+                .enumerate()
+                .for_each(|(bit, n)| *n += u32::from((known.inside | known.outside) >> bit & 1 == 0));
         }
         let shares = mixed
             .iter()

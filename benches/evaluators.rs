@@ -1,4 +1,5 @@
-//! How fast each evaluator is, in one run, as a table; with a peer's results beside (see `benches/run`) also the ratio to it.
+//! How fast each evaluator is, in one run, as a table; with a peer's results beside (see `benches/run`) also the ratio
+//! to it.
 //!
 //! Every line is the best of a few rounds, so that other work on the machine disturbs it little.
 
@@ -142,7 +143,10 @@ fn gpu(grid: &Grid, line: impl Fn(&str, f64)) -> Outcome<()> {
     for adapter in adapters.iter().filter(|a| a.unusable.is_none()) {
         let name = adapter.label();
         let short: String = adapter.name.chars().take(16).collect();
-        line(&format!("whole ladder, gpu: {short} ({})", adapter.kind), run(grid, &[], &Backend::Gpu(Some(name)), 1, 3)?);
+        line(
+            &format!("whole ladder, gpu: {short} ({})", adapter.kind),
+            run(grid, &[], &Backend::Gpu(Some(name)), 1, 3)?,
+        );
     }
     Ok(())
 }
@@ -167,7 +171,8 @@ fn random(limit: u64) -> impl Iterator<Item = u64> {
 /// One datum at a time: the library call behind `query`, and the interval step.
 fn answers(grid: &Grid, codes: &[Code], line: impl Fn(&str, f64, usize)) -> Outcome<()> {
     let table = Cubic.table(grid)?;
-    let kinds: [(&str, u8); 3] = [("any node", 0), ("nodes with some spiral", ANY_SPIRAL), ("nodes with a cubic spiral", SPIRAL)];
+    let kinds: [(&str, u8); 3] =
+        [("any node", 0), ("nodes with some spiral", ANY_SPIRAL), ("nodes with a cubic spiral", SPIRAL)];
     for (name, flag) in kinds {
         let nodes: Vec<u64> =
             random(grid.len()).filter(|node| codes[*node as usize].flags() & flag == flag).take(SAMPLE).collect();
@@ -190,7 +195,8 @@ fn lookups(line: impl Fn(&str, f64, usize)) -> Outcome<()> {
     let folder = tempfile::tempdir()?;
     let grid = grid([11, 13, 12, 14])?;
     let path = folder.path().join("small.safetensors");
-    let mut writer = Writer::create(&path, &Spec { name: "small", family: &Cubic, grid: &grid, scalars: &[], recipe: "" })?;
+    let mut writer =
+        Writer::create(&path, &Spec { name: "small", family: &Cubic, grid: &grid, scalars: &[], recipe: "" })?;
     let job = Job { family: &Cubic, grid: &grid, scalars: &[] };
     evaluate(&job, &Backend::Cpu, 1, &AtomicBool::new(false), |chunk| writer.put(&chunk))?;
     writer.finish()?;
@@ -200,8 +206,9 @@ fn lookups(line: impl Fn(&str, f64, usize)) -> Outcome<()> {
     let at = || each(&indices, |index| atlas.at(&index[..4]));
     line("atlas lookup by index", best(50, at), SAMPLE);
     let mut unit = random(1 << 53).map(|bits| bits as f64 / (1u64 << 53) as f64);
-    let mut between =
-        |axis: &Axis| axis.values()[0] + unit.next().unwrap_or(0.5) * (axis.values()[axis.values().len() - 1] - axis.values()[0]);
+    let mut between = |axis: &Axis| {
+        axis.values()[0] + unit.next().unwrap_or(0.5) * (axis.values()[axis.values().len() - 1] - axis.values()[0])
+    };
     let mut point = |_| -> Outcome<[f64; 4]> {
         let point: Vec<f64> = grid.axes().iter().map(&mut between).collect();
         Ok(point.as_slice().try_into()?)
@@ -235,7 +242,8 @@ fn read_field(path: &Path, nodes: u64) -> Outcome<Vec<u8>> {
     if bytes.len() as u64 == nodes {
         return Ok(bytes);
     }
-    Err(format!("{} has {} bytes, the grid {nodes} nodes: the script's grid is another", path.display(), bytes.len()).into())
+    Err(format!("{} has {} bytes, the grid {nodes} nodes: the script's grid is another", path.display(), bytes.len())
+        .into())
 }
 
 /// Nodes of each flag, and how many the peer has otherwise.
@@ -252,7 +260,8 @@ fn describe(grid: &Grid, codes: &[Code], peer: Option<&Peer>) {
     }
     for count in Cubic.about().counts {
         let sum = codes.iter().map(|c| usize::from(count.of(c.counts()))).sum();
-        let off = |p: &Peer| codes.iter().zip(&p.solutions).filter(|(c, s)| count.of(c.counts()) != count.of(**s)).count();
+        let off =
+            |p: &Peer| codes.iter().zip(&p.solutions).filter(|(c, s)| count.of(c.counts()) != count.of(**s)).count();
         line(count.name, sum, peer.map(off));
     }
 }

@@ -1,7 +1,7 @@
 //! How long a path among obstacles takes to plan, for scenes of growing size, as tables.
 //!
-//! Stars and convex polygons of 3 to 8 vertices on a jittered lattice, from corner to corner; the density is the same for all sizes. Then
-//! scenes that are hard to search: combs, grids and spirals.
+//! Stars and convex polygons of 3 to 8 vertices on a jittered lattice, from corner to corner; the density is the same
+//! for all sizes. Then scenes that are hard to search: combs, grids and spirals.
 
 use spiral_atlas::path::{Scene, plan};
 use std::time::Instant;
@@ -49,7 +49,13 @@ fn comb(teeth: usize) -> Scene {
     let end = teeth as f64;
     let tooth = |i: usize| [[0.2, 0.0], [0.2, 3.0], [0.5, 3.0], [0.5, 0.0]].map(|p| [p[0] + i as f64, p[1]]);
     let ring = [[0.0, -1.0]].into_iter().chain((0..teeth).flat_map(tooth)).chain([[end + 1.0, -1.0]]).collect();
-    Scene { start: [0.85, 0.5], goal: [end - 0.15, 0.5], obstacles: vec![ring], clearance: 0.05, greatest_curvature: 1.0 }
+    Scene {
+        start: [0.85, 0.5],
+        goal: [end - 0.15, 0.5],
+        obstacles: vec![ring],
+        clearance: 0.05,
+        greatest_curvature: 1.0,
+    }
 }
 
 /// Squares, their gaps narrower than themselves.

@@ -6,7 +6,8 @@ use spiral_atlas::transition::Piece;
 
 fn main() -> Result<()> {
     let wall = vec![[4.0, -9.0], [5.0, -9.0], [5.0, 2.0], [4.0, 2.0]];
-    let scene = Scene { start: [0.0, 0.0], goal: [10.0, 0.0], obstacles: vec![wall], clearance: 0.5, greatest_curvature: 1.0 };
+    let scene =
+        Scene { start: [0.0, 0.0], goal: [10.0, 0.0], obstacles: vec![wall], clearance: 0.5, greatest_curvature: 1.0 };
     let path = plan(&scene)?;
     println!("{:?}", path.proof);
 

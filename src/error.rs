@@ -9,7 +9,8 @@ pub enum Error {
     /// An argument, axis, datum or option lies outside its domain.
     #[error("{0}")]
     Domain(String),
-    /// There is no path such as was asked for, or none was found: an answer rather than a mistake. The text is the reason.
+    /// There is no path such as was asked for, or none was found: an answer rather than a mistake. The text is the
+    /// reason.
     #[error("{0}")]
     NoPath(String),
     /// A recipe does not say what it must, or says what it may not.

@@ -14,9 +14,10 @@ pub(crate) const LONGEST_RECIPE: u64 = 1 << 20;
 
 /// A file in the making: gone when dropped, in its place once kept.
 ///
-/// Its writer holds a lock on it, which the system takes back when the writer dies, however that happens. So whoever can lock a draft
-/// knows that nobody writes it any more, on this machine or on another one that shares the folder. (Where a network folder is mounted
-/// without locks between machines, a draft may be lost to another machine; its writer then ends with an error, never with a wrong file.)
+/// Its writer holds a lock on it, which the system takes back when the writer dies, however that happens. So whoever
+/// can lock a draft knows that nobody writes it any more, on this machine or on another one that shares the folder.
+/// (Where a network folder is mounted without locks between machines, a draft may be lost to another machine; its
+/// writer then ends with an error, never with a wrong file.)
 #[derive(Debug)]
 pub(crate) struct Draft {
     target: PathBuf,
@@ -25,15 +26,20 @@ pub(crate) struct Draft {
 
 impl Draft {
     /// Opens a temporary file in the folder of `path`; where `path` is a symbolic link, of the file it leads to.
-    /// Drafts in that folder whose writers are dead are removed first: they may be large, and nothing else would ever remove them.
+    /// Drafts in that folder whose writers are dead are removed first: they may be large, and nothing else would ever
+    /// remove them.
     ///
     /// # Errors
-    /// Those of the system, and one for a target that exists but is no ordinary file: renaming would replace a device or a pipe.
+    /// Those of the system, and one for a target that exists but is no ordinary file: renaming would replace a device
+    /// or a pipe.
     pub fn beside(path: &Path) -> io::Result<Draft> {
         let target = place(path)?;
         let folder = folder(&target);
         if !folder.is_dir() {
-            return Err(io::Error::other(format!("there is no folder `{}`; create it, or choose another", folder.display())));
+            return Err(io::Error::other(format!(
+                "there is no folder `{}`; create it, or choose another",
+                folder.display()
+            )));
         }
         sweep(folder);
         loop {
@@ -104,7 +110,8 @@ pub(crate) fn folder(target: &Path) -> &Path {
     target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Removes the drafts in a folder that nobody writes any more. It is a service, so what fails here is left for the next time.
+/// Removes the drafts in a folder that nobody writes any more. It is a service, so what fails here is left for the next
+/// time.
 fn sweep(folder: &Path) {
     for entry in folder.read_dir().into_iter().flatten().flatten() {
         let name = entry.file_name();
@@ -127,12 +134,14 @@ fn sweep(folder: &Path) {
 /// # Arguments
 /// - `folder`: where the files go; it need not exist yet.
 /// - `what`: the files, for the message.
-/// - `needed`: bytes; nothing that is there now counts as free, because an older file goes only once the new one is whole.
+/// - `needed`: bytes; nothing that is there now counts as free, because an older file goes only once the new one is
+///   whole.
 ///
 /// # Errors
 /// [`Error::Domain`] with both sizes. A file system that does not tell its size is trusted.
 pub fn check_room(folder: &Path, what: &str, needed: u64) -> Result<()> {
-    let there = folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.exists());
+    let there =
+        folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.exists());
     match there.and_then(free) {
         Some(free) if free < needed => Err(Error::Domain(format!(
             "{what} would take {} and the disk of {} has {} free; choose another folder, free some room, or ask for fewer nodes or fields",
@@ -172,7 +181,8 @@ pub fn size(bytes: u64) -> String {
 /// [`Error::Io`] that names the file: it cannot be read, is too long, or is no UTF-8 text.
 pub fn read_text(path: &Path, most: u64) -> Result<String> {
     let read = || {
-        let input: Box<dyn Read> = if path == Path::new("-") { Box::new(io::stdin()) } else { Box::new(File::open(path)?) };
+        let input: Box<dyn Read> =
+            if path == Path::new("-") { Box::new(io::stdin()) } else { Box::new(File::open(path)?) };
         let mut bytes = Vec::new();
         input.take(most + 1).read_to_end(&mut bytes)?;
         if bytes.len() as u64 > most {
@@ -189,8 +199,8 @@ pub fn read_text(path: &Path, most: u64) -> Result<String> {
 /// Writes a file whole or not at all.
 ///
 /// # Errors
-/// [`crate::Error::Io`], naming `path`, when the folder is missing, the disk is full, the target is no ordinary file, and so on;
-/// an older file is then untouched.
+/// [`crate::Error::Io`], naming `path`, when the folder is missing, the disk is full, the target is no ordinary file,
+/// and so on; an older file is then untouched.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
     let write = || {
         let mut draft = Draft::beside(path)?;
@@ -223,7 +233,11 @@ mod tests {
     }
 
     fn drafts(folder: &Path) -> usize {
-        folder.read_dir().unwrap().filter(|e| e.as_ref().unwrap().file_name().to_str().unwrap().ends_with(DRAFT.1)).count()
+        folder
+            .read_dir()
+            .unwrap()
+            .filter(|e| e.as_ref().unwrap().file_name().to_str().unwrap().ends_with(DRAFT.1))
+            .count()
     }
 
     #[test]

@@ -83,8 +83,8 @@
 //! # Ok::<(), spiral_atlas::Error>(())
 //! ```
 //!
-//! **A path** ([`path`]): through points, among obstacles, of equal length, and apart from others, with Pythagorean-hodograph
-//! quintics. Length, clearance and greatest curvature are known or proved.
+//! **A path** ([`path`]): through points, among obstacles, of equal length, and apart from others, with
+//! Pythagorean-hodograph quintics. Length, clearance and greatest curvature are known or proved.
 //!
 //! ```
 //! use spiral_atlas::path::{Scene, plan};
@@ -105,8 +105,8 @@
 //! The folder `examples/` has these as programs, such as `cargo run --release --example two_ends`.
 //!
 //! # Features
-//! Both are on by default. Without them the library builds in seconds, and still solves, evaluates on the processor, plans,
-//! and reads and writes atlases.
+//! Both are on by default. Without them the library builds in seconds, and still solves, evaluates on the processor,
+//! plans, and reads and writes atlases.
 //!
 //! | feature | adds |
 //! | --- | --- |

@@ -24,7 +24,8 @@ fn main() -> std::process::ExitCode {
 /// No other thread may read the environment meanwhile.
 unsafe fn leave_the_display_alone() {
     let given = |name: &&str| std::env::var_os(name).is_some();
-    let silent: [(&[&str], &str); 2] = [(&["NODEVICE_SELECT", "MESA_VK_DEVICE_SELECT"], "1"), (&["EGL_LOG_LEVEL"], "fatal")];
+    let silent: [(&[&str], &str); 2] =
+        [(&["NODEVICE_SELECT", "MESA_VK_DEVICE_SELECT"], "1"), (&["EGL_LOG_LEVEL"], "fatal")];
     for (names, value) in silent {
         if !names.iter().any(given) {
             // SAFETY: as the caller promises.

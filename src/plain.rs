@@ -15,7 +15,9 @@ pub fn json(path: &str, error: &serde_json::Error) -> String {
     let place = format!("line {}, column {}", error.line(), error.column());
     let at = if path.is_empty() { String::new() } else { format!(", at {path}") };
     match error.classify() {
-        _ if what == "trailing characters" && !path.is_empty() => format!("{path} has more values than belong there ({place})"),
+        _ if what == "trailing characters" && !path.is_empty() => {
+            format!("{path} has more values than belong there ({place})")
+        }
         _ if what == "number out of range" => {
             let whose = if path.is_empty() { "a number" } else { path };
             format!("{whose} is beyond the range of doubles, which ends at 1.8e308 ({place})")
@@ -56,7 +58,9 @@ pub fn syntax(message: &str) -> &str {
         "trailing characters" => "something follows after its end",
         "invalid number" => "there is a number that JSON does not know",
         "invalid escape" => "there is a backslash in a text that JSON does not know",
-        "recursion limit exceeded" | "cannot recurse further; max recursion depth met" => "lists are in each other too deep",
+        "recursion limit exceeded" | "cannot recurse further; max recursion depth met" => {
+            "lists are in each other too deep"
+        }
         "duplicate key" => "a name is given twice",
         other => other,
     }
@@ -66,7 +70,8 @@ pub fn syntax(message: &str) -> &str {
 pub fn value(path: &str, message: &str) -> String {
     let message = message.trim();
     let whose = if path.is_empty() { "it" } else { path };
-    let expected = |rest: &str| rest.rsplit_once(", expected ").map(|(given, takes)| (given.to_owned(), takes.to_owned()));
+    let expected =
+        |rest: &str| rest.rsplit_once(", expected ").map(|(given, takes)| (given.to_owned(), takes.to_owned()));
     for form in ["invalid type: ", "invalid value: "] {
         if let Some((given, takes)) = message.strip_prefix(form).and_then(expected) {
             return format!("{whose} must be {}; it is {}", must_be(&takes), is(&given));
@@ -193,7 +198,10 @@ mod tests {
             (r#"{"name": true}"#, "must be a text in quotation marks; it is `true` ("),
             (r#"{"list": 1}"#, "must be a list; it is `1` ("),
             (r#"{"kind": "ark"}"#, "must be `line` or `arc`; it is `ark` ("),
-            (r#"{"stat": 1}"#, "there is no field `stat`; known are `start`, `count`, `kind`, `closed`, `name`, `list` ("),
+            (
+                r#"{"stat": 1}"#,
+                "there is no field `stat`; known are `start`, `count`, `kind`, `closed`, `name`, `list` (",
+            ),
             (r#"{"closed": true, "closed": true}"#, "the field `closed` is given twice; keep one ("),
             ("{}", "the field `start` is missing (line 1, column 2)"),
             ("[]", "it must be an object; it is a list ("),
@@ -201,14 +209,18 @@ mod tests {
             ("\n \n", "it ends in the middle of its JSON (line 3, column 0)"),
             (&long, "it is the text \"xxxxx"),
         ] {
-            let said = if text == "[]" { read::<std::collections::BTreeMap<String, f64>>(text) } else { read::<Input>(text) };
+            let said =
+                if text == "[]" { read::<std::collections::BTreeMap<String, f64>>(text) } else { read::<Input>(text) };
             assert!(said.contains(told) && said.len() < 200, "{text}: {said}");
         }
     }
 
     #[test]
     fn paths_are_named() {
-        assert_eq!(value("a.b", "unknown field `b`, expected one of `c`, `d`"), "there is no field `b` in a; known are `c`, `d`");
+        assert_eq!(
+            value("a.b", "unknown field `b`, expected one of `c`, `d`"),
+            "there is no field `b` in a; known are `c`, `d`"
+        );
         assert_eq!(value("a[0]", "missing field `b`"), "a[0] lacks the field `b`");
         assert_eq!(value("a", "something else"), "a: something else");
         assert_eq!(

@@ -1,4 +1,5 @@
-//! The shared library's own name, which programs that link to it look for: that of its first version that breaks no binary.
+//! The shared library's own name, which programs that link to it look for: that of its first version that breaks no
+//! binary.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

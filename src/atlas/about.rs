@@ -80,7 +80,9 @@ impl Packed {
     }
 
     fn mask(&self) -> u8 {
-        (0..8).filter(|bit| (self.shift..self.shift.saturating_add(self.bits)).contains(bit)).fold(0, |m, bit| m | 1 << bit)
+        (0..8)
+            .filter(|bit| (self.shift..self.shift.saturating_add(self.bits)).contains(bit))
+            .fold(0, |m, bit| m | 1 << bit)
     }
 }
 
@@ -139,15 +141,22 @@ impl About {
         let family = spec.family;
         let chart = family.about().charts.iter().find(|c| c.axes == names).ok_or_else(|| {
             let known: Vec<String> = family.about().charts.iter().map(|c| format!("({})", c.axes.join(", "))).collect();
-            format!("the axes ({}) are no chart of `{}`; take {}", names.join(", "), family.about().name, known.join(" or "))
+            format!(
+                "the axes ({}) are no chart of `{}`; take {}",
+                names.join(", "),
+                family.about().name,
+                known.join(" or ")
+            )
         })?;
         let scalar = |i: &usize| {
             let known = family.about().scalars;
-            let s =
-                known.get(*i).ok_or_else(|| format!("`{}` has {} scalars, no number {i}", family.about().name, known.len()))?;
+            let s = known
+                .get(*i)
+                .ok_or_else(|| format!("`{}` has {} scalars, no number {i}", family.about().name, known.len()))?;
             Ok(Named { name: s.name.into(), doc: s.doc.into() })
         };
-        let count = |c: &crate::family::Count| Packed { name: c.name.into(), doc: c.doc.into(), shift: c.shift, bits: c.bits };
+        let count =
+            |c: &crate::family::Count| Packed { name: c.name.into(), doc: c.doc.into(), shift: c.shift, bits: c.bits };
         Ok(About {
             kind: Kind::Nodes,
             generator: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).into(),

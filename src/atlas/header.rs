@@ -1,9 +1,9 @@
 //! The header of an atlas: what the file says about itself, and where its tensors lie.
 //!
 //! A header has exactly one spelling. The writer renders it from [`About`], the grid and the hashes; the reader takes
-//! those out of the file, renders them again and demands the same bytes. So whatever the reader believes (names, shapes,
-//! offsets, padding, order) is what the writer would have written, and a key that the reader overlooks cannot exist.
-//! The header's own hash is among them, so that damage to the legend or the recipe is seen too.
+//! those out of the file, renders them again and demands the same bytes. So whatever the reader believes (names,
+//! shapes, offsets, padding, order) is what the writer would have written, and a key that the reader overlooks cannot
+//! exist. The header's own hash is among them, so that damage to the legend or the recipe is seen too.
 
 use super::about::{About, Kind, check_name};
 use crate::grid::{Grid, MAX_AXES};
@@ -19,7 +19,8 @@ pub const MAX_HEADER: usize = crate::files::LONGEST_RECIPE as usize;
 pub(super) const FLAGS: &str = "flags";
 /// The tensor of packed counts.
 pub(super) const SOLUTIONS: &str = "solutions";
-/// The tensors of a file of cells: where the trees of each top cell begin, their nodes, and what is known of each top cell.
+/// The tensors of a file of cells: where the trees of each top cell begin, their nodes, and what is known of each top
+/// cell.
 pub(crate) const ROOTS: &str = "roots";
 /// See [`ROOTS`].
 pub(crate) const TREES: &str = "trees";
@@ -48,7 +49,8 @@ pub(crate) struct Header {
 }
 
 impl Header {
-    /// Lays the tensors out, the widest type first, so that each is aligned when the header's end is; hashes are zero as yet.
+    /// Lays the tensors out, the widest type first, so that each is aligned when the header's end is; hashes are zero
+    /// as yet.
     pub fn new(about: About, grid: Grid) -> Result<Header, String> {
         let shape = grid.shape();
         let scalars = about.scalars.iter().map(|s| (s.name.clone(), Dtype::F32, shape.clone()));
@@ -70,7 +72,8 @@ impl Header {
 
     fn with(about: About, grid: Grid, fields: Vec<(String, Dtype, Vec<usize>)>) -> Result<Header, String> {
         about.check()?;
-        let axes = grid.axes().iter().map(|a| (a.name().to_owned(), Dtype::F64, vec![a.values().len()])).collect::<Vec<_>>();
+        let axes =
+            grid.axes().iter().map(|a| (a.name().to_owned(), Dtype::F64, vec![a.values().len()])).collect::<Vec<_>>();
         let mut tensors: Vec<Tensor> = Vec::new();
         let mut start = 0usize;
         for (name, dtype, shape) in axes.into_iter().chain(fields) {
@@ -81,7 +84,8 @@ impl Header {
             }
             let size = shape.iter().try_fold(dtype.bitsize() / 8, |n, s| n.checked_mul(*s));
             let end = size.and_then(|s| start.checked_add(s)).ok_or("the grid is too large for this machine")?;
-            tensors.push(Tensor { name: name.to_owned(), info: TensorInfo { dtype, shape, data_offsets: (start, end) } });
+            tensors
+                .push(Tensor { name: name.to_owned(), info: TensorInfo { dtype, shape, data_offsets: (start, end) } });
             start = end;
         }
         let hashes = vec![ZERO; tensors.len()];
@@ -117,7 +121,9 @@ impl Header {
     fn metadata_with(&self, id: Hash) -> Result<BTreeMap<String, String>, String> {
         let mut map = self.about.to_map(&self.grid)?;
         map.insert("blake3".to_owned(), id.to_hex().to_string());
-        map.extend(self.tensors.iter().zip(&self.hashes).map(|(t, hash)| (hash_key(&t.name), hash.to_hex().to_string())));
+        map.extend(
+            self.tensors.iter().zip(&self.hashes).map(|(t, hash)| (hash_key(&t.name), hash.to_hex().to_string())),
+        );
         Ok(map)
     }
 
@@ -146,8 +152,8 @@ impl Header {
     /// Touches the header and the axes only.
     pub fn parse(file: &[u8]) -> Result<(Header, usize), String> {
         let (text, body) = split(file)?;
-        let metadata: Metadata =
-            serde_json::from_slice(text).map_err(|e| format!("its header is no safetensors header: {}", plain::json("", &e)))?;
+        let metadata: Metadata = serde_json::from_slice(text)
+            .map_err(|e| format!("its header is no safetensors header: {}", plain::json("", &e)))?;
         if metadata.data_len() != body.len() {
             return Err(format!("{} bytes of tensors are announced, {} are there", metadata.data_len(), body.len()));
         }
@@ -170,7 +176,8 @@ impl Header {
         };
         for (tensor, hash) in header.tensors.iter().zip(&mut header.hashes) {
             tensor.check(metadata.info(&tensor.name))?;
-            let text = map.get(&hash_key(&tensor.name)).ok_or_else(|| format!("it has no hash of `{}`", tensor.name))?;
+            let text =
+                map.get(&hash_key(&tensor.name)).ok_or_else(|| format!("it has no hash of `{}`", tensor.name))?;
             let wrong = |_| {
                 let shown: String = text.chars().take(64).collect();
                 format!("the hash of `{}` is {shown:?}; it must be 64 hexadecimal digits", tensor.name)
@@ -179,7 +186,9 @@ impl Header {
         }
         let start = file.len() - body.len();
         if header.render()? != file[..start] {
-            return Err("its header is not spelt as this version spells it: it is damaged, or another program wrote it".into());
+            return Err(
+                "its header is not spelt as this version spells it: it is damaged, or another program wrote it".into(),
+            );
         }
         Ok((header, start))
     }

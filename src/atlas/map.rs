@@ -26,9 +26,10 @@ pub(crate) fn map_path(path: &Path) -> Result<Map> {
 
 #[cfg(not(target_family = "wasm"))]
 pub(super) fn map_file(path: &Path, file: &File) -> Result<Map> {
-    // SAFETY: the map is read-only and private to the value that holds it, and only ever read as u8, u32, f32 or f64, for which every bit
-    // pattern is valid. That nobody changes the file meanwhile cannot be enforced; the documentation of `Atlas` asks for it.
-    // Should someone do so, no invariant that memory safety rests on is read from the map again after its first check.
+    // SAFETY: the map is read-only and private to the value that holds it, and only ever read as u8, u32, f32 or f64,
+    // for which every bit pattern is valid. That nobody changes the file meanwhile cannot be enforced; the
+    // documentation of `Atlas` asks for it. Should someone do so, no invariant that memory safety rests on is read from
+    // the map again after its first check.
     unsafe { memmap2::Mmap::map(file) }.map_err(Error::io(path))
 }
 

@@ -7,8 +7,8 @@
 //! | `flags` | U8 | the grid's |
 //! | `solutions` | U8 | the grid's |
 //!
-//! in this order, without gaps, each aligned to its type; first axis slowest. The metadata maps text to text; structured
-//! values are JSON:
+//! in this order, without gaps, each aligned to its type; first axis slowest. The metadata maps text to text;
+//! structured values are JSON:
 //!
 //! | key | value |
 //! | --- | --- |
@@ -60,7 +60,7 @@ pub struct Spec<'a> {
     pub family: &'static dyn Family,
     /// The nodes.
     pub grid: &'a Grid,
-    /// The scalars to store: indices into [`About::scalars`].
+    /// The scalars to store: indices into [`crate::family::About::scalars`].
     pub scalars: &'a [usize],
     /// The recipe's text.
     pub recipe: &'a str,
@@ -106,8 +106,8 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// Maps a file and checks its header and axes: sizes, types, shapes, order, names, version, finite increasing axes that
-    /// are what their spacing says. The fields' own bytes are left alone; [`Atlas::check_hashes`] reads those.
+    /// Maps a file and checks its header and axes: sizes, types, shapes, order, names, version, finite increasing axes
+    /// that are what their spacing says. The fields' own bytes are left alone; [`Atlas::check_hashes`] reads those.
     ///
     /// # Errors
     /// [`Error::Io`] when the file cannot be opened or mapped, [`Error::Atlas`] when it is not a valid atlas.
@@ -200,7 +200,8 @@ impl Atlas {
         &self.metadata
     }
 
-    /// The hash that stands for the whole atlas, legend and recipe included: atlases of one id are equal, byte for byte.
+    /// The hash that stands for the whole atlas, legend and recipe included: atlases of one id are equal, byte for
+    /// byte.
     ///
     /// True once [`Atlas::check_hashes`] has found the tensors' hashes true.
     pub fn id(&self) -> Hash {
@@ -249,7 +250,8 @@ impl Atlas {
         let bits = fault::bits(FLAGS, self.flags(), about.flag_bits());
         let bits = bits.and_then(|()| fault::bits(SOLUTIONS, self.solutions(), about.count_bits()));
         let mut names = self.scalar_names();
-        let all = bits.and_then(|()| names.try_for_each(|name| fault::finite(name, self.scalar(name).unwrap_or_default())));
+        let all =
+            bits.and_then(|()| names.try_for_each(|name| fault::finite(name, self.scalar(name).unwrap_or_default())));
         all.map_err(|what| self.invalid(what))
     }
 
@@ -264,8 +266,8 @@ impl Atlas {
     /// A verdict holds at its node; how far it holds around the node, an atlas does not know.
     ///
     /// # Returns
-    /// `None` when the point does not belong to the grid: a coordinate is NaN or lies outside an axis by more than half the
-    /// step at that end, or their number is wrong. An axis of a single value accepts that value alone.
+    /// `None` when the point does not belong to the grid: a coordinate is NaN or lies outside an axis by more than half
+    /// the step at that end, or their number is wrong. An axis of a single value accepts that value alone.
     #[inline]
     pub fn nearest(&self, coordinates: &[f64]) -> Option<(u64, Entry)> {
         let flat = self.flat(coordinates, |lookup, x| lookup.nearest(*x))?;
@@ -279,7 +281,10 @@ impl Atlas {
             return None;
         }
         // The product of the counts is the length of a tensor, so this stays below it.
-        self.lookups.iter().zip(arguments).try_fold(0, |flat, (lookup, x)| Some(flat * lookup.count() + index(lookup, x)?))
+        self.lookups
+            .iter()
+            .zip(arguments)
+            .try_fold(0, |flat, (lookup, x)| Some(flat * lookup.count() + index(lookup, x)?))
     }
 
     #[inline]
@@ -304,7 +309,9 @@ impl Atlas {
 pub fn kind(path: impl AsRef<Path>) -> Result<Kind> {
     let path = path.as_ref();
     let map = map_path(path)?;
-    Header::parse(&map).map(|(header, _)| header.about.kind).map_err(|what| Error::Atlas { path: path.to_owned(), what })
+    Header::parse(&map)
+        .map(|(header, _)| header.about.kind)
+        .map_err(|what| Error::Atlas { path: path.to_owned(), what })
 }
 
 /// [`kind`] of the bytes of a file.

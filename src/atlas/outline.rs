@@ -117,8 +117,9 @@ impl Outline {
             .ok_or_else(|| Error::Domain(format!("this program has no family `{}`", about.family)))?;
         let place = |name: &str| family.about().scalars.iter().position(|s| s.name == name);
         let scalar = |s: &super::Named| {
-            place(&s.name)
-                .ok_or_else(|| Error::Domain(format!("this program knows no scalar `{}` of `{}`", s.name, about.family)))
+            place(&s.name).ok_or_else(|| {
+                Error::Domain(format!("this program knows no scalar `{}` of `{}`", s.name, about.family))
+            })
         };
         Ok((family, about.scalars.iter().map(scalar).collect::<Result<_>>()?))
     }
@@ -130,7 +131,8 @@ impl Outline {
             return None;
         }
         let axes = self.lookups.iter().zip(point);
-        axes.into_iter().try_fold(0, |flat, (lookup, x)| Some(flat * lookup.count() as u64 + lookup.nearest(*x)? as u64))
+        axes.into_iter()
+            .try_fold(0, |flat, (lookup, x)| Some(flat * lookup.count() as u64 + lookup.nearest(*x)? as u64))
     }
 
     /// Opens a file for an atlas of this outline, as [`Writer::create`] does.

@@ -44,8 +44,8 @@ impl Writer {
     /// Bytes of the file that a specification makes.
     ///
     /// # Errors
-    /// [`Error::Domain`] when the specification is inconsistent (axes that are no chart of the family, a scalar given twice,
-    /// a recipe too long).
+    /// [`Error::Domain`] when the specification is inconsistent (axes that are no chart of the family, a scalar given
+    /// twice, a recipe too long).
     pub fn size(spec: &Spec) -> Result<u64> {
         let header = header_of(spec)?;
         Ok(header.render().map_err(Error::Domain)?.len() as u64 + header.body_len() as u64)
@@ -54,8 +54,8 @@ impl Writer {
     /// Opens a temporary file in the folder of `path` and lays the atlas out.
     ///
     /// # Errors
-    /// [`Error::Domain`] when the specification is inconsistent, as for [`Writer::size`], or the disk has no room for the atlas;
-    /// [`Error::Io`], naming `path`, when the system refuses.
+    /// [`Error::Domain`] when the specification is inconsistent, as for [`Writer::size`], or the disk has no room for
+    /// the atlas; [`Error::Io`], naming `path`, when the system refuses.
     pub fn create(path: &Path, spec: &Spec) -> Result<Writer> {
         Writer::of(path, header_of(spec)?)
     }
@@ -82,8 +82,9 @@ impl Writer {
     /// Writes the next chunk. Chunks come in flat order, without gaps.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a chunk that does not start where the last one ended, leaves the grid, has fields of different
-    /// lengths or values that no atlas may hold; [`Error::Io`], naming the target, for a full disk or the like.
+    /// [`Error::Domain`] for a chunk that does not start where the last one ended, leaves the grid, has fields of
+    /// different lengths or values that no atlas may hold; [`Error::Io`], naming the target, for a full disk or the
+    /// like.
     pub fn put(&mut self, chunk: &Chunk) -> Result<()> {
         self.check(chunk).map_err(|what| Error::Domain(format!("chunk at node {}: {what}", chunk.start)))?;
         let first = self.header.grid.axes().len();
@@ -115,7 +116,8 @@ impl Writer {
         Ok(Written { bytes, id, hashes })
     }
 
-    /// Fills in the hashes and opens the atlas where it is. It never gets its place, and its file goes when the atlas is dropped.
+    /// Fills in the hashes and opens the atlas where it is. It never gets its place, and its file goes when the atlas
+    /// is dropped.
     ///
     /// # Errors
     /// As of [`Writer::finish`].

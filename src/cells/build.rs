@@ -73,8 +73,10 @@ pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(
         )));
     }
     let open = |flag: u8, known: &Known| (known.inside | known.outside) >> flag & 1 == 0;
-    let mut trees: Vec<Tree> =
-        by_weight(spec.family).iter().map(|flag| Tree { flag: *flag as u8, roots: Vec::new(), levels: Vec::new() }).collect();
+    let mut trees: Vec<Tree> = by_weight(spec.family)
+        .iter()
+        .map(|flag| Tree { flag: *flag as u8, roots: Vec::new(), levels: Vec::new() })
+        .collect();
     let mut divided = 0;
     for size in (0..size).rev() {
         for tree in &mut trees {
@@ -91,7 +93,8 @@ pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(
                     parents.iter().filter(|node| node.divided).flat_map(|node| node.mixed_places(shape)).collect()
                 }
                 None => {
-                    let cells = tops.iter().zip(&known).filter(|(_, known)| open(tree.flag, known)).map(|(place, _)| *place);
+                    let cells =
+                        tops.iter().zip(&known).filter(|(_, known)| open(tree.flag, known)).map(|(place, _)| *place);
                     tree.roots = chosen;
                     cells.zip(&tree.roots).filter(|(_, chosen)| **chosen).map(|(place, _)| place).collect()
                 }
@@ -138,7 +141,9 @@ impl Node {
     /// The places of the MIXED children, in order.
     fn mixed_places(&self, shape: Layout) -> impl Iterator<Item = [u16; MOST_AXES]> {
         let (mixed, place) = (self.mixed(shape), self.place);
-        (0..1 << shape.axes).filter(move |child| mixed >> child & 1 == 1).map(move |child| child_place(&place, child, shape.axes))
+        (0..1 << shape.axes)
+            .filter(move |child| mixed >> child & 1 == 1)
+            .map(move |child| child_place(&place, child, shape.axes))
     }
 }
 

@@ -31,7 +31,8 @@ pub fn differences(cells: &Cells, fresh: &Built) -> (u64, Option<String>) {
     let mut compare = |name: &str, stored: Vec<u32>, fresh: &[u32]| {
         let differ = stored.iter().zip(fresh).enumerate().filter(|(_, (a, b))| a != b);
         let mut count = stored.len().abs_diff(fresh.len()) as u64;
-        let mut first = (count > 0).then(|| format!("`{name}` has {} words, made anew it has {}", stored.len(), fresh.len()));
+        let mut first =
+            (count > 0).then(|| format!("`{name}` has {} words, made anew it has {}", stored.len(), fresh.len()));
         for (i, (a, b)) in differ {
             count += 1;
             first.get_or_insert_with(|| format!("`{name}` at {i} is {a:#010x}, made anew {b:#010x}"));
@@ -81,7 +82,9 @@ pub fn attack(cells: &Cells, rounds: u64, seed: u64, stop: &AtomicBool) -> Resul
             if wrong != 0 {
                 let flag = cells.family().about().flags[wrong.trailing_zeros() as usize].name;
                 let said = if inside & wrong != 0 { "INSIDE" } else { "OUTSIDE" };
-                found.first.get_or_insert_with(|| format!("{}: its cell says {said} of {flag}", grid.describe(i as u64)));
+                found
+                    .first
+                    .get_or_insert_with(|| format!("{}: its cell says {said} of {flag}", grid.describe(i as u64)));
             }
         }
     }

@@ -65,7 +65,8 @@ impl Prover {
 
     /// Halves along the axis that moves most what is open; `None` where that axis has no number between its ends.
     fn halves(&self, bounds: &Bounds, facts: &Facts) -> Option<[Bounds; 2]> {
-        let width = |i: usize| (bounds[1][i] - bounds[0][i]) / (bounds[0][i].abs() + bounds[1][i].abs()).max(f64::MIN_POSITIVE);
+        let width =
+            |i: usize| (bounds[1][i] - bounds[0][i]) / (bounds[0][i].abs() + bounds[1][i].abs()).max(f64::MIN_POSITIVE);
         // The relative width decides ties, and where no pull is known.
         let pull = |i: usize| if facts.pull[i].is_finite() { facts.pull[i] } else { 0.0 } + 1e-6 * width(i);
         let axis = (0..self.axes).max_by(|i, j| pull(*i).total_cmp(&pull(*j)))?;

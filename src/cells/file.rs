@@ -38,7 +38,8 @@ pub fn bytes(spec: &Spec, built: &Built) -> Result<Vec<u8>> {
     if body.len() != header.body_len() {
         return Err(domain("its cells are those of another grid".into()));
     }
-    let hashes = header.tensors.iter().map(|t| blake3::hash(&body[t.info.data_offsets.0..t.info.data_offsets.1])).collect();
+    let hashes =
+        header.tensors.iter().map(|t| blake3::hash(&body[t.info.data_offsets.0..t.info.data_offsets.1])).collect();
     header.hashes = hashes;
     Ok([header.render().map_err(domain)?, body].concat())
 }
@@ -103,7 +104,8 @@ impl Cells {
             return Err(invalid("it holds nodes, not cells; `spiral_atlas::atlas::Atlas` opens it".into()));
         }
         let about = &header.about;
-        let family = family::by_name(&about.family).ok_or_else(|| invalid(format!("no family is named `{}`", about.family)))?;
+        let family =
+            family::by_name(&about.family).ok_or_else(|| invalid(format!("no family is named `{}`", about.family)))?;
         let told = |e: Error| invalid(e.to_string());
         let (_, chart) = region(family, &header.grid).map_err(told)?;
         let shape = shape(&header.grid, family.about().flags.len()).map_err(told)?;
@@ -167,7 +169,11 @@ impl Cells {
             return Ok(known.inside);
         }
         if point.len() != self.shape.axes {
-            return Err(Error::Domain(format!("the datum has {} coordinates; it must have {}", point.len(), self.shape.axes)));
+            return Err(Error::Domain(format!(
+                "the datum has {} coordinates; it must have {}",
+                point.len(),
+                self.shape.axes
+            )));
         }
         Ok(family::verdict(self.family, self.chart, point)?.flags() & wanted)
     }

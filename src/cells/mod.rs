@@ -94,7 +94,12 @@ fn region(family: &'static dyn Family, grid: &Grid) -> crate::Result<(&'static d
     let chart = chart.ok_or_else(|| {
         let able: Vec<String> =
             family.about().charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(", ")).collect();
-        domain(format!("cells of `{}` need the axes {}; given: {}", family.about().name, able.join(" or "), names.join(", ")))
+        domain(format!(
+            "cells of `{}` need the axes {}; given: {}",
+            family.about().name,
+            able.join(" or "),
+            names.join(", ")
+        ))
     })?;
     Ok((region, chart))
 }

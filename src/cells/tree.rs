@@ -103,7 +103,9 @@ impl Words<'_> {
         let mut open = wanted & !(inside | outside);
         // The way down: the number of the child at each level, the finest in the lowest bits.
         let within = self.spread.len().wrapping_sub(1);
-        let way = place.iter().fold(0, |way, i| way << 1 | self.spread.get(*i as usize & within).copied().unwrap_or_default());
+        let way = place
+            .iter()
+            .fold(0, |way, i| way << 1 | self.spread.get(*i as usize & within).copied().unwrap_or_default());
         while open != 0 {
             let flag = open.trailing_zeros();
             open &= open - 1;
@@ -151,7 +153,9 @@ impl Words<'_> {
         }
         for (i, known) in self.top.iter().enumerate() {
             if known[0] & known[1] != 0 || (known[0] | known[1]) & !all != 0 {
-                return Err(format!("`top` says of cell {i} both yes and no, or names a flag that there is not: {known:?}"));
+                return Err(format!(
+                    "`top` says of cell {i} both yes and no, or names a flag that there is not: {known:?}"
+                ));
             }
         }
         let mut next = 1;
@@ -163,7 +167,11 @@ impl Words<'_> {
             match u32::from_le_bytes(*root) as usize {
                 0 => continue,
                 at if at == next && !known && size > 0 => next += Layout::words(size - 1),
-                at => return Err(format!("`roots` has {at} for flag {flag} of top cell {cell}, where 0 or {next} may be")),
+                at => {
+                    return Err(format!(
+                        "`roots` has {at} for flag {flag} of top cell {cell}, where 0 or {next} may be"
+                    ));
+                }
             }
             while size > 0 {
                 size -= 1;

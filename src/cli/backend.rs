@@ -49,8 +49,8 @@ impl BackendArgs {
         }
     }
 
-    /// All backends to verify with: the one asked for, or the CPU and every GPU adapter that can compute. Where no GPU is among
-    /// them, the reason comes with them.
+    /// All backends to verify with: the one asked for, or the CPU and every GPU adapter that can compute. Where no GPU
+    /// is among them, the reason comes with them.
     ///
     /// # Errors
     /// [`Error::Gpu`] when a GPU is asked for, as `required` does, and none fits.

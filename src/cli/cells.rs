@@ -74,7 +74,14 @@ pub fn in_memory(recipe: &Recipe, plan: &AtlasPlan, budget: u64, threads: usize,
 }
 
 /// Makes the file of a plan, its report and its pictures.
-pub fn make(recipe: &Recipe, plan: &AtlasPlan, budget: u64, out: &Path, threads: usize, stop: &AtomicBool) -> Result<Made> {
+pub fn make(
+    recipe: &Recipe,
+    plan: &AtlasPlan,
+    budget: u64,
+    out: &Path,
+    threads: usize,
+    stop: &AtomicBool,
+) -> Result<Made> {
     let spec = spec(recipe, plan, budget);
     let started = Instant::now();
     let built = build(&spec, threads, stop)?;
@@ -82,8 +89,15 @@ pub fn make(recipe: &Recipe, plan: &AtlasPlan, budget: u64, out: &Path, threads:
     cells::write(&path, &spec, &built)?;
     let cells = Cells::open(&path)?;
     let (id, seconds) = (cells.id()?.to_hex().to_string(), started.elapsed().as_secs_f64());
-    let mut made =
-        Made { atlas: plan.name.clone(), id, kind: "cells", resolution: cells.resolution(), threads, seconds, files: Vec::new() };
+    let mut made = Made {
+        atlas: plan.name.clone(),
+        id,
+        kind: "cells",
+        resolution: cells.resolution(),
+        threads,
+        seconds,
+        files: Vec::new(),
+    };
     let beside = output::report_path(out, &plan.name);
     write_file(&beside, (output::to_json(&made)? + "\n").as_bytes())?;
     made.files = vec![Product::of(&path)?, Product::of(&beside)?];
@@ -94,8 +108,9 @@ pub fn make(recipe: &Recipe, plan: &AtlasPlan, budget: u64, out: &Path, threads:
 impl Made {
     pub fn summary(&self) -> String {
         let Made { atlas, resolution, threads, seconds, .. } = self;
-        let text =
-            format!("{atlas}: cells, up to {resolution} an axis\n  by the CPU in {seconds:.2} s, with {threads} threads\n");
+        let text = format!(
+            "{atlas}: cells, up to {resolution} an axis\n  by the CPU in {seconds:.2} s, with {threads} threads\n"
+        );
         text + &self.files.iter().map(Product::line).collect::<String>()
     }
 }
@@ -130,19 +145,26 @@ pub fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
     let stop = super::stop_flag()?;
     let mut faults: Vec<String> = cells.check_hashes().err().map(|e| e.to_string()).into_iter().collect();
     let about = cells.about();
-    let plan = Recipe::parse(&about.recipe).ok().map(|recipe| recipe.atlases.into_iter().find(|plan| plan.name == about.name));
-    let same = |plan: &AtlasPlan| plan.family.about().name == about.family && plan.grid == *cells.grid() && plan.cells.is_some();
+    let plan =
+        Recipe::parse(&about.recipe).ok().map(|recipe| recipe.atlases.into_iter().find(|plan| plan.name == about.name));
+    let same = |plan: &AtlasPlan| {
+        plan.family.about().name == about.family && plan.grid == *cells.grid() && plan.cells.is_some()
+    };
     // A text that is no recipe (of a file made by a program) says nothing; its cells then have no budget but what
     // they took.
     match &plan {
         Some(None) => faults.push(format!("its recipe has no atlas `{}`", about.name)),
-        Some(Some(plan)) if !same(plan) => faults.push("its recipe gives another family or other cells than the file has".into()),
+        Some(Some(plan)) if !same(plan) => {
+            faults.push("its recipe gives another family or other cells than the file has".into())
+        }
         _ => {}
     }
     let budget = plan.flatten().and_then(|plan| plan.cells).unwrap_or(u64::MAX);
     let family = cells.family();
     let flags = family.about().flags.iter().map(|f| (f.name, f.doc));
-    if !about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(flags) || about.conventions != family.about().conventions {
+    if !about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(flags)
+        || about.conventions != family.about().conventions
+    {
         faults.push(format!("its legend is not that of `{}`", family.about().name));
     }
     let attack = cells::attack(cells, ROUNDS, 1, &stop)?;
@@ -175,7 +197,10 @@ impl Verified<'_> {
             (0, _) => format!("  attacked with {points} points: {verdicts} verdicts of cells, all true\n"),
             (_, first) => {
                 let first = first.as_deref().unwrap_or("");
-                format!("  attacked with {points} points: {verdicts} verdicts of cells, {} WRONG\n    {first}\n", grouped(*wrong))
+                format!(
+                    "  attacked with {points} points: {verdicts} verdicts of cells, {} WRONG\n    {first}\n",
+                    grouped(*wrong)
+                )
             }
         };
         text += &match &self.first_difference {

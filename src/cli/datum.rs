@@ -84,15 +84,24 @@ impl Coordinates {
 
 impl Coordinates {
     /// A chart of a family and its coordinates, where some of them, which are 0 here, must not be given.
-    pub fn but(&self, family: &dyn Family, free: &[&str]) -> std::result::Result<(&'static [&'static str], Vec<f64>), String> {
+    pub fn but(
+        &self,
+        family: &dyn Family,
+        free: &[&str],
+    ) -> std::result::Result<(&'static [&'static str], Vec<f64>), String> {
         if let Some(name) = free.iter().find(|name| self.0.iter().any(|(given, _)| given == *name)) {
             return Err(format!("--{name} is given, but it is what varies; leave it out"));
         }
         if let Some(name) = free.iter().find(|name| !family.about().charts.iter().any(|c| c.axes.contains(name))) {
             let known: Vec<String> = family.about().charts.iter().map(|c| c.axes.join(", ")).collect();
-            return Err(format!("`{}` has no coordinate {name:?}; it has {}", family.about().name, known.join(", or ")));
+            return Err(format!(
+                "`{}` has no coordinate {name:?}; it has {}",
+                family.about().name,
+                known.join(", or ")
+            ));
         }
-        let chart = family.about().charts.iter().find(|c| c.axes.iter().filter(|a| free.contains(a)).count() == free.len());
+        let chart =
+            family.about().charts.iter().find(|c| c.axes.iter().filter(|a| free.contains(a)).count() == free.len());
         let mut all = self.clone();
         let axes = chart.iter().flat_map(|c| c.axes.iter());
         all.0.extend(axes.filter(|axis| free.contains(axis)).map(|axis| (*axis, 0.0)));

@@ -29,8 +29,9 @@ enum Format {
 /// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve --json`, `join` and the tools of `path` print
 /// it, or a line of JSON for each of several, as with --points; lines without a path are told on standard error.
 ///
-/// Lines, arcs and cubic curves are exact. PH quintics are fitted by cubics, no further away than the tolerance; how many, how well, and how
-/// much the curvature differs at joints is told on standard error. Involutes and trigonometric curves are refused.
+/// Lines, arcs and cubic curves are exact. PH quintics are fitted by cubics, no further away than the tolerance; how
+/// many, how well, and how much the curvature differs at joints is told on standard error. Involutes and trigonometric
+/// curves are refused.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas export opendrive path.json --lane-width 3.75 --out road.xodr")]
 struct RoadArgs {

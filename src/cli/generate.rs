@@ -18,9 +18,9 @@ const SAMPLES: u64 = 2000;
 
 /// Make the atlases of a recipe, with their pictures and a report.
 ///
-/// Of each atlas: NAME.atlas.safetensors (the same bytes on every machine), NAME.report.json (what differs: backend, time,
-/// check) and the recipe's pictures, NAME.png or NAME-1.png, NAME-2.png, ... Several atlases that begin with slices are
-/// also drawn side by side, in RECIPE.png. Files appear whole or not at all.
+/// Of each atlas: NAME.atlas.safetensors (the same bytes on every machine), NAME.report.json (what differs: backend,
+/// time, check) and the recipe's pictures, NAME.png or NAME-1.png, NAME-2.png, ... Several atlases that begin with
+/// slices are also drawn side by side, in RECIPE.png. Files appear whole or not at all.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas generate atlases/quickstart.toml\n  \
                         spiral-atlas generate my.toml --out maps --backend gpu --adapter llvmpipe --check full")]
@@ -153,7 +153,14 @@ pub fn write_atlas(
 }
 
 /// Checks an atlas and writes what stands beside it.
-fn finish(args: &Args, plan: &AtlasPlan, atlas: &Atlas, report: Report, checkers: &[Backend], stop: &AtomicBool) -> Result<Made> {
+fn finish(
+    args: &Args,
+    plan: &AtlasPlan,
+    atlas: &Atlas,
+    report: Report,
+    checkers: &[Backend],
+    stop: &AtomicBool,
+) -> Result<Made> {
     let job = Job { family: plan.family, grid: &plan.grid, scalars: &plan.scalars };
     let stored = spiral_atlas::atlas::verify::stored(atlas)?;
     let check = match args.check {
@@ -187,12 +194,14 @@ impl Made {
             text += &format!("    {:<14} {:>16}  {share:6.2} %  {}\n", flag.name, grouped(count), flag.label);
         }
         text += "  undecided nodes after each step of the ladder\n";
-        let after = |step: &str, count: u64| format!("    {step:<14} {:>16}  {}\n", grouped(count), rate(count, r.nodes));
+        let after =
+            |step: &str, count: u64| format!("    {step:<14} {:>16}  {}\n", grouped(count), rate(count, r.nodes));
         if let Some(count) = r.undecided_f32 {
             text += &after("f32", count);
         }
         text += &after("f64", r.undecided_f64);
-        let bits = if r.most_bits > 0 { format!("intervals of up to {} bits", r.most_bits) } else { "intervals".into() };
+        let bits =
+            if r.most_bits > 0 { format!("intervals of up to {} bits", r.most_bits) } else { "intervals".into() };
         text += &format!("    {bits}: {}\n", grouped(r.undecided));
         for compared in &self.check {
             text += &format!("  check {}", compared.text());

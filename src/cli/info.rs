@@ -46,7 +46,8 @@ pub fn spacing(axis: &Axis) -> &'static str {
 }
 
 fn json(atlas: &Atlas) -> serde_json::Value {
-    let About { kind: _, generator, name, family, chart, chart_doc, conventions, flags, counts, scalars, recipe } = atlas.about();
+    let About { kind: _, generator, name, family, chart, chart_doc, conventions, flags, counts, scalars, recipe } =
+        atlas.about();
     let axis = |a: &Axis| {
         let values = a.values();
         serde_json::json!({

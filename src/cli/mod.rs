@@ -1,7 +1,7 @@
 //! The commands: arguments in, text, JSON and files out. No mathematics here.
 //!
-//! Exit status: 0 yes or done, 1 no, 2 an error, 130 interrupted. Reports go to standard output, progress and errors to standard
-//! error.
+//! Exit status: 0 yes or done, 1 no, 2 an error, 130 interrupted. Reports go to standard output, progress and errors to
+//! standard error.
 
 mod adapters;
 mod backend;
@@ -29,7 +29,8 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Proved atlases of spiral regions: is there a transition curve with monotone curvature between two ends, and which one?
+/// Proved atlases of spiral regions: is there a transition curve with monotone curvature between two ends, and which
+/// one?
 ///
 /// Angles are radians, or degrees when written like 40deg or 40°. Beyond a full turn the unit must be named: 40deg or
 /// 40rad.
@@ -61,7 +62,9 @@ enum Command {
     Path(path::Args),
     Export(export::Args),
     /// Print shell completions.
-    #[command(after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]
+    #[command(
+        after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas"
+    )]
     Completions {
         /// The shell.
         shell: clap_complete::Shell,
@@ -135,8 +138,8 @@ fn refuse_by(mut command: clap::Command, what: &str) -> ! {
     end(&error, &command)
 }
 
-/// The arguments, or the end of the program with help or an error. An error always shows the usage of the command that was given;
-/// clap leaves it out where a single value is wrong.
+/// The arguments, or the end of the program with help or an error. An error always shows the usage of the command that
+/// was given; clap leaves it out where a single value is wrong.
 fn parse() -> Cli {
     Cli::try_parse().unwrap_or_else(|mut error| {
         // Help that was asked for, or that stands where a subcommand is missing.
@@ -151,8 +154,8 @@ fn parse() -> Cli {
     })
 }
 
-/// Ends the program with an error of the command line. The hint at its end names the command: clap's is a bare `--help`, which is that of
-/// the whole program.
+/// Ends the program with an error of the command line. The hint at its end names the command: clap's is a bare
+/// `--help`, which is that of the whole program.
 fn end(error: &clap::Error, command: &clap::Command) -> ! {
     let text = error.render().ansi().to_string();
     let name = command.get_bin_name().unwrap_or("spiral-atlas");

@@ -37,7 +37,9 @@ pub fn stdout_error(source: io::Error) -> Error {
 pub fn check_figure(figure: Option<&Path>) -> Result<()> {
     match figure.filter(|path| !has_extension(path, "png")) {
         None => Ok(()),
-        Some(path) => Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display()))),
+        Some(path) => {
+            Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())))
+        }
     }
 }
 
@@ -148,7 +150,10 @@ pub fn report_path(folder: &Path, name: &str) -> PathBuf {
 /// Creates a folder with its parents, unless it is there.
 pub fn make_folder(path: &Path) -> Result<()> {
     if path.exists() && !path.is_dir() {
-        return Err(Error::Domain(format!("{} is a file; the folder for the results needs another name", path.display())));
+        return Err(Error::Domain(format!(
+            "{} is a file; the folder for the results needs another name",
+            path.display()
+        )));
     }
     std::fs::create_dir_all(path).map_err(|source| Error::Io { path: path.to_owned(), source })
 }

@@ -210,7 +210,11 @@ impl Lines {
             }
             skipped += length;
         }
-        Err(io::Error::other(format!("line {} has no end within {}; this is no table", self.number, size(MAX_SKIPPED as u64))))
+        Err(io::Error::other(format!(
+            "line {} has no end within {}; this is no table",
+            self.number,
+            size(MAX_SKIPPED as u64)
+        )))
     }
 }
 

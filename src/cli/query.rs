@@ -14,17 +14,19 @@ use std::path::PathBuf;
 
 /// Answer exactly for one datum, or for a table of them.
 ///
-/// Which conditions hold, and all curves with these ends; nothing is rounded before it is decided. The frame is the family's own
-/// (for `cubic`: end points (-1, 0) and (1, 0), so curvatures are the user's times half the chord); `curve` takes data as they are.
+/// Which conditions hold, and all curves with these ends; nothing is rounded before it is decided. The frame is the
+/// family's own (for `cubic`: end points (-1, 0) and (1, 0), so curvatures are the user's times half the chord);
+/// `curve` takes data as they are.
 ///
 /// With --points, one line of JSON for each row, in order:
 /// {"phi0":..,"phi1":..,"kappa0":..,"kappa1":..,"flags":{"SOLVABLE":true,..},"solutions":[{"f0":..,"f1":..,"theorem31":true,
-/// "spiral":true,"margin":..,"length":..,"control_points":[[x,y],..]},..],"chosen":0}, where `chosen` is an index into `solutions` or
-/// null; a bad row gives {"line":..,"error":".."}.
+/// "spiral":true,"margin":..,"length":..,"control_points":[[x,y],..]},..],"chosen":0}, where `chosen` is an index into
+/// `solutions` or null; a bad row gives {"line":..,"error":".."}.
 ///
-/// Exit status: 0 when what the family looks for exists, 1 when it does not, 2 for an error. With --points it is 0 when every row was
-/// answered, whatever the answers, and 2 when one was bad. A yes is the flag SPIRAL (`cubic`, `ph-quintic`, `trig-quintic`), EXISTS
-/// (`any-spiral`), CASE1_EXACT or CASE2_EXACT (`reach-cubic`, `reach-ph`), REGULAR (`ph-equal-length`, `ph-hermite`).
+/// Exit status: 0 when what the family looks for exists, 1 when it does not, 2 for an error. With --points it is 0 when
+/// every row was answered, whatever the answers, and 2 when one was bad. A yes is the flag SPIRAL (`cubic`,
+/// `ph-quintic`, `trig-quintic`), EXISTS (`any-spiral`), CASE1_EXACT or CASE2_EXACT (`reach-cubic`, `reach-ph`),
+/// REGULAR (`ph-equal-length`, `ph-hermite`).
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --kappa1 4\n  \
                         spiral-atlas query --family reach-ph --theta 40deg --xi 1.5 --eta 0.35\n  \
@@ -37,11 +39,12 @@ pub struct Args {
     family: Option<&'static dyn Family>,
     #[command(flatten)]
     coordinates: Coordinates,
-    /// A CSV file whose header names the coordinates, such as phi0,phi1,kappa0,kappa1 (in any order; other columns are not looked
-    /// at); - is standard input.
+    /// A CSV file whose header names the coordinates, such as phi0,phi1,kappa0,kappa1 (in any order; other columns are
+    /// not looked at); - is standard input.
     #[arg(long, value_name = "FILE")]
     points: Option<PathBuf>,
-    /// Tell also what this atlas says: at the node nearest to the datum, or of the cell that holds it (`cell`, null outside the cells).
+    /// Tell also what this atlas says: at the node nearest to the datum, or of the cell that holds it (`cell`, null
+    /// outside the cells).
     #[arg(long, value_name = "FILE")]
     atlas: Option<PathBuf>,
     /// Print JSON.
@@ -146,7 +149,9 @@ impl Answer {
         Ok(Answer {
             holds: family.holds(solved.code),
             flags: Object(family.about().flags.iter().enumerate().map(flag).collect()),
-            counts: Object(family.about().counts.iter().map(|count| (count.name, count.of(solved.code.counts()))).collect()),
+            counts: Object(
+                family.about().counts.iter().map(|count| (count.name, count.of(solved.code.counts()))).collect(),
+            ),
             atlas: atlas.and_then(|atlas| match atlas {
                 Opened::Nodes(atlas) => Some(look_up(atlas, place)),
                 Opened::Cells(_) => None,
@@ -210,7 +215,8 @@ impl Told {
                 let set: Vec<&str> = flags.0.iter().filter(|(_, set)| *set).map(|(name, _)| &name[..]).collect();
                 let set = if set.is_empty() { "no flag".into() } else { set.join(" ") };
                 let counts: Vec<String> = solutions.0.iter().map(|(name, n)| format!("{name} {n}")).collect();
-                let values = scalars.0.iter().map(|(name, v)| format!("{name} {}", v.map_or("-".into(), |v| format!("{v:?}"))));
+                let values =
+                    scalars.0.iter().map(|(name, v)| format!("{name} {}", v.map_or("-".into(), |v| format!("{v:?}"))));
                 let rest: Vec<String> = counts.into_iter().chain(values).collect();
                 format!("the atlas at node {node}, the nearest ({place}):\n  {set}; {}\n", rest.join(", "))
             }
@@ -235,7 +241,9 @@ fn look_up(atlas: &Atlas, coordinate: impl Fn(&str) -> f64) -> Told {
     Told::Node {
         node,
         coordinates: Object(names.zip(atlas.grid().node(node)).collect()),
-        flags: Object(atlas.flag_names().enumerate().map(|(bit, n)| (n.to_owned(), entry.flags >> bit & 1 == 1)).collect()),
+        flags: Object(
+            atlas.flag_names().enumerate().map(|(bit, n)| (n.to_owned(), entry.flags >> bit & 1 == 1)).collect(),
+        ),
         solutions: Object(atlas.counts().iter().map(|c| (c.name.clone(), c.of(entry.solutions))).collect()),
         scalars: Object(atlas.scalar_names().map(scalar).collect()),
     }

@@ -64,7 +64,9 @@ impl QuestionArgs {
             print(&found, json, |found| ranges_text(&property, name, found))?;
             return Ok(if found.ranges.is_empty() { Outcome::Bad } else { Outcome::Fine });
         }
-        let [first, second] = free[..] else { super::refuse("--boundary takes two coordinates, such as kappa0,kappa1") };
+        let [first, second] = free[..] else {
+            super::refuse("--boundary takes two coordinates, such as kappa0,kappa1")
+        };
         let within = within()?;
         let found = boundary(&property, &point, [place(&first), place(&second)], [within[0], within[1]], self.cells)?;
         print(&found, json, |found| boundary_text([first, second], found))?;
@@ -77,7 +79,9 @@ impl QuestionArgs {
             super::refuse(&format!("give --within FROM,TO for {name}, the interval to look in"));
         };
         let ends = text.split_once(',').ok_or_else(|| {
-            Error::Domain(format!("--within is {text:?}; it must be two values with a comma between them, such as 0,10"))
+            Error::Domain(format!(
+                "--within is {text:?}; it must be two values with a comma between them, such as 0,10"
+            ))
         })?;
         Ok([parse_coordinate(name, ends.0)?, parse_coordinate(name, ends.1)?])
     }

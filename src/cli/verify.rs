@@ -15,9 +15,9 @@ use std::sync::atomic::AtomicBool;
 ///
 /// Cells are made anew by the CPU, and attacked with points, of which the family itself tells the truth.
 ///
-/// By default with the CPU and with every GPU adapter there is, hardware and software. Where there is no adapter, the CPU alone
-/// recomputes it, and the output says so. The exit status is 1 when anything differs: a hash, the legend, the recipe, or a value of a
-/// node.
+/// By default with the CPU and with every GPU adapter there is, hardware and software. Where there is no adapter, the
+/// CPU alone recomputes it, and the output says so. The exit status is 1 when anything differs: a hash, the legend, the
+/// recipe, or a value of a node.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas verify out/quickstart.atlas.safetensors\n  \
                         spiral-atlas verify out/quickstart.atlas.safetensors --adapter llvmpipe --json\n  \

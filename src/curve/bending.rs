@@ -7,18 +7,20 @@ use super::quintic::changes;
 use crate::num::{Ball, Interval, Number, Real, formula};
 use crate::steps::step;
 
-/// Bits with which σ and h are rewritten from where the curve is slow. Of a regular curve w is at least 1e-6 of its size, so coefficients
-/// lose 80 bits at most.
+/// Bits with which σ and h are rewritten from where the curve is slow. Of a regular curve w is at least 1e-6 of its
+/// size, so coefficients lose 80 bits at most.
 const BITS: usize = 256;
 
 impl PhQuintic {
-    /// Bending energy `∫κ² ds`, 1 / length; infinite for a curve that is not [regular](PhQuintic::is_regular) and no straight line.
+    /// Bending energy `∫κ² ds`, 1 / length; infinite for a curve that is not [regular](PhQuintic::is_regular) and no
+    /// straight line.
     ///
     /// # Accuracy
     /// 2^-40, relative, proved: an enclosure by Taylor series with remainder.
     ///
-    /// The work is bounded: pieces are halved towards the places where the curve is slow, and the speed of a regular curve is nowhere below
-    /// 1e-12 of its mean. Where doubles lose digits on the way there, the curve is written anew from its slowest places.
+    /// The work is bounded: pieces are halved towards the places where the curve is slow, and the speed of a regular
+    /// curve is nowhere below 1e-12 of its mean. Where doubles lose digits on the way there, the curve is written anew
+    /// from its slowest places.
     pub fn bending_energy(&self) -> f64 {
         let (unit, size) = self.scaled();
         if unit.turn_coefficients() == [0.0; 3] {
@@ -86,7 +88,8 @@ fn rates<N: Real>(w: &[[N; 2]; 3]) -> Option<Rates<N>> {
 /// `∫ h²/σ³` over [0, 1].
 fn energy<N: Real>((speed, turn): &Rates<N>) -> Option<N> {
     step();
-    // The square of a small h would leave the range of doubles, so h is scaled to size 1 by powers of 2 that are doubles themselves.
+    // The square of a small h would leave the range of doubles, so h is scaled to size 1 by powers of 2 that are
+    // doubles themselves.
     let most = turn.iter().fold(f64::MIN_POSITIVE, |most, h| h.most().max(most));
     let half = most.log2().floor() * 0.5;
     let (first, last) = (half.floor().exp2(), half.ceil().exp2());
@@ -99,8 +102,9 @@ mod tests {
     use crate::curve::{Hermite, hermite};
     use crate::steps::counted;
 
-    /// End derivatives and chords from 1e-154 to 1e154, ends that coincide, mirrored and opposed directions: an energy takes at most one
-    /// integral in plain doubles and four from the slow places, of a hundred pieces each, and only what is not regular has none.
+    /// End derivatives and chords from 1e-154 to 1e154, ends that coincide, mirrored and opposed directions: an energy
+    /// takes at most one integral in plain doubles and four from the slow places, of a hundred pieces each, and only
+    /// what is not regular has none.
     #[test]
     fn energies_of_any_ends_take_few_integrals() {
         let (mut most, mut regular) = (0, 0);

@@ -8,8 +8,8 @@ use serde::Serialize;
 
 /// A cubic Bézier curve, `P(t) = Σ C(3,i) t^i (1-t)^(3-i) p_i` for t in [0, 1]: Habib & Sakai, (3.1).
 ///
-/// Any unit of length, any place; but far from the origin the rounding of the control points themselves, relative to the
-/// curve's size, is what limits derivatives and curvature.
+/// Any unit of length, any place; but far from the origin the rounding of the control points themselves, relative to
+/// the curve's size, is what limits derivatives and curvature.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct CubicBezier {
@@ -33,7 +33,12 @@ impl CubicBezier {
     pub fn from_ratios(phi0: f64, phi1: f64, f0: f64, f1: f64) -> CubicBezier {
         let [h0, h1] = outer_legs(phi0, phi1, f0, f1);
         CubicBezier {
-            p: [[-1.0, 0.0], [-1.0 + h0 * phi0.cos(), -h0 * phi0.sin()], [1.0 - h1 * phi1.cos(), -h1 * phi1.sin()], [1.0, 0.0]],
+            p: [
+                [-1.0, 0.0],
+                [-1.0 + h0 * phi0.cos(), -h0 * phi0.sin()],
+                [1.0 - h1 * phi1.cos(), -h1 * phi1.sin()],
+                [1.0, 0.0],
+            ],
         }
     }
 
@@ -41,9 +46,9 @@ impl CubicBezier {
     /// curvatures of the normalised frame, which (f0, f1) must meet.
     ///
     /// # Accuracy
-    /// A few ulp of each. The middle one is made from the end curvatures, so that the sides meet those and the end directions to a few ulp
-    /// over `sin(phi0 + phi1)` and `1 - f/3` of the other end, however short an end's tangent is; their sum is the chord as nearly as the
-    /// root is one.
+    /// A few ulp of each. The middle one is made from the end curvatures, so that the sides meet those and the end
+    /// directions to a few ulp over `sin(phi0 + phi1)` and `1 - f/3` of the other end, however short an end's tangent
+    /// is; their sum is the chord as nearly as the root is one.
     ///
     /// # Source
     /// Habib & Sakai, (3.3), (3.4).

@@ -20,14 +20,16 @@ pub struct Candidate {
 pub struct Choice {
     /// In the order that the problem states.
     pub candidates: Vec<Candidate>,
-    /// Index of the one with least absolute rotation among those that stand still nowhere; of mirror images that tie, the first.
+    /// Index of the one with least absolute rotation among those that stand still nowhere; of mirror images that tie,
+    /// the first.
     pub best: usize,
 }
 
 impl Choice {
     pub(super) fn of(what: &str, curves: impl IntoIterator<Item = PhQuintic>) -> Result<Choice> {
         let candidate = |curve: PhQuintic| {
-            let candidate = Candidate { absolute_rotation: curve.absolute_rotation(), regular: curve.is_regular(), curve };
+            let candidate =
+                Candidate { absolute_rotation: curve.absolute_rotation(), regular: curve.is_regular(), curve };
             if curve.is_finite() && candidate.absolute_rotation.is_finite() {
                 return Ok(candidate);
             }
@@ -44,7 +46,8 @@ impl Choice {
     }
 }
 
-/// The regular one of least absolute rotation; without a regular one, of all. Rotations that differ by rounding alone tie.
+/// The regular one of least absolute rotation; without a regular one, of all. Rotations that differ by rounding alone
+/// tie.
 pub(super) fn best(candidates: &[Candidate], range: std::ops::Range<usize>) -> usize {
     let key = |i: usize| (!candidates[i].regular, candidates[i].absolute_rotation);
     let less = |a: (bool, f64), b: (bool, f64)| (a.0, a.1 * (1.0 + 1e-12)) < b;

@@ -1,8 +1,8 @@
 //! The bending energy `∫ κ² ds = ∫ h²/σ³ dξ` of a curve, enclosed.
 //!
 //! On a piece, centred so that it is `-1 <= u <= 1`, let `σ = c0 (1 + c1 u + ... + c4 u⁴)`. Where
-//! `2|c1| + 4|c2| + 8|c3| + 16|c4| <= 3/4`, σ/c0 is at least 1/4 in the disc `|u| <= 2`, so `y = (σ/c0)^-3` is at most 64 there and its Taylor
-//! coefficients at most `64 · 2^-m` (Cauchy). They follow from `σ y' = -3 σ' y`:
+//! `2|c1| + 4|c2| + 8|c3| + 16|c4| <= 3/4`, σ/c0 is at least 1/4 in the disc `|u| <= 2`, so `y = (σ/c0)^-3` is at most
+//! 64 there and its Taylor coefficients at most `64 · 2^-m` (Cauchy). They follow from `σ y' = -3 σ' y`:
 //! `(m + 1) y_{m+1} = -Σ c_j (m + 1 + 2j) y_{m+1-j}`. Other pieces are halved.
 
 use crate::num::bernstein::halve;
@@ -24,8 +24,12 @@ struct Piece<N> {
 
 impl<N: Real> Piece<N> {
     fn new(speed: [N; 5], turn: [N; 3], depth: i32, from: f64) -> Piece<N> {
-        let least = speed.iter().map(|s| if s.is_positive() { s.ln() } else { f64::NEG_INFINITY }).fold(f64::INFINITY, f64::min);
-        let largest = turn.iter().map(|h| if h.is_positive() { h.ln() } else { h.most().ln() }).fold(f64::NEG_INFINITY, f64::max);
+        let least = speed
+            .iter()
+            .map(|s| if s.is_positive() { s.ln() } else { f64::NEG_INFINITY })
+            .fold(f64::INFINITY, f64::min);
+        let largest =
+            turn.iter().map(|h| if h.is_positive() { h.ln() } else { h.most().ln() }).fold(f64::NEG_INFINITY, f64::max);
         let most = 2.0 * largest - 3.0 * least - f64::from(depth) * LN_2;
         Piece { speed, turn, depth, from, most: if most.is_nan() { f64::INFINITY } else { most } }
     }
@@ -68,8 +72,9 @@ impl<N> Ord for Piece<N> {
 
 /// `∫ h²/σ³` over [0, 1] for σ and h with these Bernstein coefficients; `None` when the precision does not suffice.
 ///
-/// The piece that may add most comes first, and the search ends where all that is left adds less than 2^-61 of what is found, or than half
-/// the bits show: so the work grows with the halvings to the sharpest bend, and not with all there is between bends.
+/// The piece that may add most comes first, and the search ends where all that is left adds less than 2^-61 of what is
+/// found, or than half the bits show: so the work grows with the halvings to the sharpest bend, and not with all there
+/// is between bends.
 pub(crate) fn energy<N: Real>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
     let bits = speed[0].bits();
     // One halving more for each halving of the distance to a zero of σ, as close as data of doubles can put it.
@@ -112,8 +117,9 @@ fn middle<N: Number>(b: &[N; 5]) -> N {
     combine(b, [0.0625, 0.25, 0.375, 0.25, 0.0625])
 }
 
-/// `c1 .. c4`, if the disc of radius 2 is clear of the zeros of σ: `Some(None)` when that is not certain. `None` when only the precision is
-/// in the way: σ itself changes little on the piece, so that halving, which leaves errors as they are, would go on everywhere.
+/// `c1 .. c4`, if the disc of radius 2 is clear of the zeros of σ: `Some(None)` when that is not certain. `None` when
+/// only the precision is in the way: σ itself changes little on the piece, so that halving, which leaves errors as they
+/// are, would go on everywhere.
 fn centred<N: Real>(b: &[N; 5]) -> Option<Option<[N; 4]>> {
     let c0 = middle(b);
     let c = [
@@ -151,15 +157,17 @@ fn series<N: Real>(speed: &[N; 5], c: &[N; 4], turn: &[N; 3]) -> Option<N> {
             let part = (1..5).fold(e[0].mul(&y[0]), |part, i| formula!(part + e[i] * y[i]));
             sum = sum.add(&part.over(&number((m + 1) as f64))?);
         }
-        let next = (1..5).fold(number(0.0), |next, j| formula!(next - c[j - 1] * y[j - 1] * { (m + 1 + 2 * j) as f64 }));
+        let next =
+            (1..5).fold(number(0.0), |next, j| formula!(next - c[j - 1] * y[j - 1] * { (m + 1 + 2 * j) as f64 }));
         let next = next.over(&number((m + 1) as f64))?;
         let [y0, y1, y2, y3, _] = y;
         y = [next, y0, y1, y2, y3];
     }
     // What is left out are products of some e_i and y_j with i + j > terms, in all at most 64 · 2^(i - terms) · |e_i|.
     let most = e.iter().fold(number(0.0), |sum, e| sum.add(&e.size()));
-    let tail =
-        (0..terms).step_by(500).fold(most.times(1024.0), |tail, from| tail.times(2f64.powi(-(500.min(terms - from) as i32))));
+    let tail = (0..terms)
+        .step_by(500)
+        .fold(most.times(1024.0), |tail, from| tail.times(2f64.powi(-(500.min(terms - from) as i32))));
     let c0 = middle(speed);
     sum.add(&tail).over(&formula!(c0 * c0 * c0))
 }

@@ -24,16 +24,19 @@ pub struct EqualLength {
 
 /// The four PH quintics with these ends and this length whose end speeds are equal.
 ///
-/// The first two are the paper's, with half the angles to the chord from (-π/2, π/2]; the other two have `w2` with the other sign, and turn
-/// less for some ends. [`Choice::best`] is the best of all four, [`EqualLength::paper`] that of the paper's two.
+/// The first two are the paper's, with half the angles to the chord from (-π/2, π/2]; the other two have `w2` with the
+/// other sign, and turn less for some ends. [`Choice::best`] is the best of all four, [`EqualLength::paper`] that of
+/// the paper's two.
 ///
 /// # Accuracy
-/// End points exact; length and end directions to a few roundings of the length. No difference cancels as `θ1` comes near `±θ0` or the
-/// length near the chord: with `p = P0 - P1 z`, `q = Q0 - Q1 z` of (12), (13) the discriminant of `pq = 25g²z²` is the sum
-/// `(P0 Q1 - Q0 P1)² + 100 g² P0 Q0`, one of p and q is a sum as well, and the other follows from `√p √q = 5 g z`, which has the right sign.
+/// End points exact; length and end directions to a few roundings of the length. No difference cancels as `θ1` comes
+/// near `±θ0` or the length near the chord: with `p = P0 - P1 z`, `q = Q0 - Q1 z` of (12), (13) the discriminant of
+/// `pq = 25g²z²` is the sum `(P0 Q1 - Q0 P1)² + 100 g² P0 Q0`, one of p and q is a sum as well, and the other follows
+/// from `√p √q = 5 g z`, which has the right sign.
 ///
 /// # Errors
-/// [`Error::Domain`] naming a number that is not finite, ends that coincide, a length not above their distance, or results beyond doubles.
+/// [`Error::Domain`] naming a number that is not finite, ends that coincide, a length not above their distance, or
+/// results beyond doubles.
 ///
 /// ```
 /// use spiral_atlas::curve::{EqualLength, equal_length};

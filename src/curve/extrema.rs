@@ -17,7 +17,8 @@ pub(super) fn curvature_extrema(p: &[Vector; 4]) -> Vec<f64> {
     roots
 }
 
-/// Parameters in (0, 1), increasing, where the curvature of the cubic with these control points changes its sign: as that of `P' × P''`.
+/// Parameters in (0, 1), increasing, where the curvature of the cubic with these control points changes its sign: as
+/// that of `P' × P''`.
 pub(super) fn inflections(p: &[Vector; 4]) -> Vec<f64> {
     let mut roots = Vec::new();
     if let Some(q) = sides(p) {

@@ -20,13 +20,16 @@ pub struct Hermite {
     pub end_derivative: [f64; 2],
 }
 
-/// The four PH quintics with given ends and end derivatives: `w2 = √d1` with either sign of the inner root, then `w2 = -√d1`.
+/// The four PH quintics with given ends and end derivatives: `w2 = √d1` with either sign of the inner root, then
+/// `w2 = -√d1`.
 ///
 /// # Accuracy
-/// End points exact, end derivatives to a few roundings; inner control points to a few roundings of the largest of chord and derivatives.
+/// End points exact, end derivatives to a few roundings; inner control points to a few roundings of the largest of
+/// chord and derivatives.
 ///
 /// # Errors
-/// [`Error::Domain`] naming a number that is not finite, a derivative of 0 (it has no direction), or results beyond doubles.
+/// [`Error::Domain`] naming a number that is not finite, a derivative of 0 (it has no direction), or results beyond
+/// doubles.
 ///
 /// ```
 /// use spiral_atlas::curve::{Hermite, hermite};

@@ -18,7 +18,8 @@ pub struct Jet {
 impl Jet {
     /// Of a Bézier curve of any degree with these control points; exact at 0 and 1.
     ///
-    /// Differences come first, then de Casteljau's algorithm: those of neighbouring points are exact, so nothing cancels later.
+    /// Differences come first, then de Casteljau's algorithm: those of neighbouring points are exact, so nothing
+    /// cancels later.
     pub fn of_bezier(p: &[[f64; 2]], t: f64) -> Jet {
         let differences = |p: &[Vector]| p.windows(2).map(|w| sub(w[1], w[0])).collect::<Vec<_>>();
         let mut first = differences(p);
@@ -46,8 +47,9 @@ impl Jet {
     /// Signed curvature, positive where the curve turns left, in 1 / length; NaN where the speed is zero.
     ///
     /// # Accuracy
-    /// For curves of any size from 1e-300 to 1e300 nothing overflows or vanishes unless the result itself leaves the range of doubles. Rounding errors of the
-    /// derivatives are amplified by `1 / sin` of the angle between `P'` and `P''`.
+    /// For curves of any size from 1e-300 to 1e300 nothing overflows or vanishes unless the result itself leaves the
+    /// range of doubles. Rounding errors of the derivatives are amplified by `1 / sin` of the angle between `P'` and
+    /// `P''`.
     ///
     /// # Source
     /// Habib & Sakai, (2.4).

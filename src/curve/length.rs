@@ -23,8 +23,8 @@ const DEPTH: u32 = 40;
 ///
 /// # Accuracy
 /// 1e-14 relative for the speed of a polynomial curve, cusps included: the interval is halved until the 16-point
-/// Gauss-Legendre rule on both halves agrees with the rule on the whole to 1e-15 of the total. All weights and speeds are
-/// positive, so sums do not cancel.
+/// Gauss-Legendre rule on both halves agrees with the rule on the whole to 1e-15 of the total. All weights and speeds
+/// are positive, so sums do not cancel.
 ///
 /// # Source
 /// Gander & Gautschi, Adaptive quadrature revisited (2000), for the stopping rule relative to the whole integral.

@@ -1,5 +1,5 @@
-//! Geometry alone: points, vectors and derivatives, Bézier curves, Pythagorean-hodograph quintics and trigonometric quintics, their length,
-//! extrema, offsets and bending energy. Nothing here asks whether a curve is a spiral.
+//! Geometry alone: points, vectors and derivatives, Bézier curves, Pythagorean-hodograph quintics and trigonometric
+//! quintics, their length, extrema, offsets and bending energy. Nothing here asks whether a curve is a spiral.
 
 mod bending;
 mod bezier;

@@ -7,7 +7,8 @@ use serde::Serialize;
 
 /// A rational curve of degree 9 in homogeneous coordinates, as Bernstein coefficients.
 ///
-/// The point at t is `numerator(t) / weight(t)`. Where all weights are positive, `numerator[i] / weight[i]` are its control points.
+/// The point at t is `numerator(t) / weight(t)`. Where all weights are positive, `numerator[i] / weight[i]` are its
+/// control points.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Offset {
     /// X and Y.

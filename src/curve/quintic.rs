@@ -1,7 +1,8 @@
 //! Pythagorean-hodograph quintics: the one type that every maker of them gives.
 //!
-//! With the pre-image `w = w0 (1-t)² + 2 w1 t(1-t) + w2 t²` of complex numbers the curve's derivative is `w²`, so its speed `σ = |w|²`, its
-//! arc length, unit tangent, curvature and offsets are polynomials or quotients of them (Farouki et al., (2)-(9)).
+//! With the pre-image `w = w0 (1-t)² + 2 w1 t(1-t) + w2 t²` of complex numbers the curve's derivative is `w²`, so its
+//! speed `σ = |w|²`, its arc length, unit tangent, curvature and offsets are polynomials or quotients of them (Farouki
+//! et al., (2)-(9)).
 
 use super::extrema::{self, product, sign_changes};
 use super::jet::{Jet, casteljau};
@@ -9,7 +10,8 @@ use num_complex::Complex64;
 
 /// A Pythagorean-hodograph quintic for t in [0, 1], anywhere in the plane, in any unit of length.
 ///
-/// A pre-image and its negative give the same curve: compare curves by control points. As JSON it is a [`crate::transition::Piece`].
+/// A pre-image and its negative give the same curve: compare curves by control points. As JSON it is a
+/// [`crate::transition::Piece`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhQuintic {
     /// The point at t = 0.
@@ -77,7 +79,12 @@ impl PhQuintic {
     pub fn jet(&self, t: f64) -> Jet {
         let ([w, w1], w2) = (self.image(t), self.bend());
         let pair = |z: Complex64| [z.re, z.im];
-        Jet { point: self.point(t), first: pair(w * w), second: pair(2.0 * w * w1), third: pair(2.0 * (w1 * w1 + w * w2)) }
+        Jet {
+            point: self.point(t),
+            first: pair(w * w),
+            second: pair(2.0 * w * w1),
+            third: pair(2.0 * (w1 * w1 + w * w2)),
+        }
     }
 
     /// Direction of travel at t as a vector of length 1; NaN where the speed is zero.
@@ -129,8 +136,8 @@ impl PhQuintic {
     /// Where the arc length from the start is `s`: the inverse of [`PhQuintic::length_to`], 0 below it and 1 above.
     ///
     /// # Accuracy
-    /// The length at the result is `s` to a few roundings of the whole length. Newton's method, kept inside a bracket: where the curve
-    /// stands still it becomes bisection.
+    /// The length at the result is `s` to a few roundings of the whole length. Newton's method, kept inside a bracket:
+    /// where the curve stands still it becomes bisection.
     pub fn parameter_at(&self, s: f64) -> f64 {
         let lengths = self.length_coefficients();
         if s <= 0.0 || s >= lengths[5] {
@@ -177,11 +184,13 @@ impl PhQuintic {
         changes(&rising.iter().zip(&falling).map(|(r, f)| r - 2.0 * f).collect::<Vec<_>>())
     }
 
-    /// The largest curvature by size, and where: `(t, |κ|)`. Infinite for a curve that stands still somewhere and is no straight line.
+    /// The largest curvature by size, and where: `(t, |κ|)`. Infinite for a curve that stands still somewhere and is no
+    /// straight line.
     ///
     /// # Accuracy
-    /// A few roundings over the square root of the least speed's share of the length. A curve that is not [regular](PhQuintic::is_regular)
-    /// counts as standing still, as its pre-image does not tell how near it comes to that.
+    /// A few roundings over the square root of the least speed's share of the length. A curve that is not
+    /// [regular](PhQuintic::is_regular) counts as standing still, as its pre-image does not tell how near it comes to
+    /// that.
     pub fn greatest_curvature(&self) -> (f64, f64) {
         if !self.is_regular() {
             let size = if self.scaled().0.turn_coefficients() == [0.0; 3] { 0.0 } else { f64::INFINITY };
@@ -218,9 +227,9 @@ impl PhQuintic {
     /// `∫|κ| ds`: how far the tangent turns, to either side, radians.
     ///
     /// # Accuracy
-    /// A few roundings over the square root of the least speed's share of the length: so much does a rounding of the pre-image turn the
-    /// tangent where the curve is slowest. Between inflections it is twice the sum of the angles under which the roots of w see the piece.
-    /// A stationary point, a root on the piece itself, turns nothing.
+    /// A few roundings over the square root of the least speed's share of the length: so much does a rounding of the
+    /// pre-image turn the tangent where the curve is slowest. Between inflections it is twice the sum of the angles
+    /// under which the roots of w see the piece. A stationary point, a root on the piece itself, turns nothing.
     pub fn absolute_rotation(&self) -> f64 {
         let roots = self.roots();
         let mut ends = self.inflections();
@@ -229,11 +238,13 @@ impl PhQuintic {
         ends.windows(2).map(|w| turned(&roots, w[0], w[1]).abs()).sum()
     }
 
-    /// An upper bound of |κ|, infinite where the curve nearly stands still: h and σ in Bernstein form on `2^halvings` pieces.
+    /// An upper bound of |κ|, infinite where the curve nearly stands still: h and σ in Bernstein form on `2^halvings`
+    /// pieces.
     ///
     /// # Accuracy
-    /// Never below the truth. With w at most about 1, σ and h are computed to 2^-46; what is added to |h| exceeds that, and as pieces with σ below
-    /// 1e-6 of its coefficients count as infinite, the last factor exceeds what it makes of σ².
+    /// Never below the truth. With w at most about 1, σ and h are computed to 2^-46; what is added to |h| exceeds that,
+    /// and as pieces with σ below 1e-6 of its coefficients count as infinite, the last factor exceeds what it makes of
+    /// σ².
     pub fn curvature_bound(&self, halvings: u32) -> f64 {
         let (unit, size) = self.scaled();
         let (speed, turn) = (unit.speed_coefficients(), unit.turn_coefficients());
@@ -254,8 +265,8 @@ impl PhQuintic {
         2.0 * ((w2 - w1) - (w1 - w0))
     }
 
-    /// Adds where the curvature may be greatest on this piece, between parameters of the whole: the extrema, and the end. Close to where the
-    /// speed is low the roundings of the whole would cover them, so there the pieces are small.
+    /// Adds where the curvature may be greatest on this piece, between parameters of the whole: the extrema, and the
+    /// end. Close to where the speed is low the roundings of the whole would cover them, so there the pieces are small.
     fn bends(&self, [from, to]: [f64; 2], all: &mut Vec<f64>) {
         let speed = self.speed_coefficients();
         let most = speed.iter().copied().fold(0.0, f64::max);

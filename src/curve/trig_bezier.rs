@@ -7,7 +7,8 @@ use crate::error::{Error, Result};
 use serde::{Serialize, Serializer};
 use std::f64::consts::FRAC_PI_2;
 
-/// `z(t) = Σ Pi gi(t)`, t in [0, 1]: (1), (2) of Misro, Ramli and Ali. Kept as its start and the sides of its polygon, so that nothing is lost far from the origin.
+/// `z(t) = Σ Pi gi(t)`, t in [0, 1]: (1), (2) of Misro, Ramli and Ali. Kept as its start and the sides of its polygon,
+/// so that nothing is lost far from the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrigBezier {
     /// P0.

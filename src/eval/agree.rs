@@ -83,8 +83,8 @@ impl Agreement {
 /// - `progress`: is told the number of nodes compared so far.
 ///
 /// # Errors
-/// Those of [`evaluate`]; [`Error::Domain`] when a stored field has not one value for each node; [`Error::Gpu`] when the GPU
-/// decided no node itself.
+/// Those of [`evaluate`]; [`Error::Domain`] when a stored field has not one value for each node; [`Error::Gpu`] when
+/// the GPU decided no node itself.
 pub fn compare(
     job: &Job,
     stored: &Stored,
@@ -163,13 +163,16 @@ struct Comparison<'a> {
 impl<'a> Comparison<'a> {
     fn new(job: &'a Job<'a>, stored: &'a Stored<'a>) -> Result<Comparison<'a>> {
         let nodes = job.grid.len();
-        let lengths = [stored.flags.len(), stored.solutions.len()].into_iter().chain(stored.scalars.iter().map(|s| s.len()));
+        let lengths =
+            [stored.flags.len(), stored.solutions.len()].into_iter().chain(stored.scalars.iter().map(|s| s.len()));
         if let Some(length) = lengths.into_iter().find(|length| *length as u64 != nodes) {
             return Err(Error::Domain(format!("a stored field has {length} values; the grid has {nodes} nodes")));
         }
         if stored.scalars.len() != job.scalars.len() {
             let (stored, asked) = (stored.scalars.len(), job.scalars.len());
-            return Err(Error::Domain(format!("{stored} scalars are stored and {asked} asked for; compare the same ones")));
+            return Err(Error::Domain(format!(
+                "{stored} scalars are stored and {asked} asked for; compare the same ones"
+            )));
         }
         Ok(Comparison { job, stored, found: Agreement { nodes: 0, values: 0, differences: 0, first: Vec::new() } })
     }
@@ -256,8 +259,12 @@ mod tests {
 
     fn grid() -> Grid {
         let axis = |name, lo, hi, count| Axis::new(name, Spacing::Linear { lo, hi, count }).unwrap();
-        let axes =
-            vec![axis("phi0", 0.3, 0.9, 3), axis("phi1", 0.9, 1.5, 4), axis("kappa0", 0.05, 0.6, 7), axis("kappa1", 1.0, 9.0, 5)];
+        let axes = vec![
+            axis("phi0", 0.3, 0.9, 3),
+            axis("phi1", 0.9, 1.5, 4),
+            axis("kappa0", 0.05, 0.6, 7),
+            axis("kappa1", 1.0, 9.0, 5),
+        ];
         Grid::new(axes).unwrap()
     }
 

@@ -1,7 +1,7 @@
 //! The ladder over a whole grid: a producer, workers that prove what is left, and chunks in order to a sink.
 //!
-//! Memory is bounded whatever the grid: at most `2 threads + 2` pieces of [`PIECE`] nodes exist at once, each with two bytes
-//! of codes, two bytes of fields and four bytes a scalar a node (and, on a GPU, the engine's own buffers).
+//! Memory is bounded whatever the grid: at most `2 threads + 2` pieces of [`PIECE`] nodes exist at once, each with two
+//! bytes of codes, two bytes of fields and four bytes a scalar a node (and, on a GPU, the engine's own buffers).
 
 use super::report::Tally;
 use super::{Backend, Chunk, Job, Report};
@@ -24,8 +24,8 @@ const PIECE: u64 = 1 << 17;
 /// - `stop`: when set, the run ends soon with [`Error::Interrupted`].
 ///
 /// # Errors
-/// What the family's [`crate::family::Family::table`] says of the grid, [`Error::Undecided`] naming a node, [`Error::Gpu`],
-/// [`Error::Interrupted`], and whatever `sink` returns.
+/// What the family's [`crate::family::Family::table`] says of the grid, [`Error::Undecided`] naming a node,
+/// [`Error::Gpu`], [`Error::Interrupted`], and whatever `sink` returns.
 pub fn evaluate(
     job: &Job,
     backend: &Backend,
@@ -173,13 +173,20 @@ fn produce(
         #[cfg(feature = "gpu")]
         Backend::Gpu(choice) => {
             let mut engine = super::gpu::Engine::new(choice.as_deref(), table, job.grid, &Default::default())?;
-            let stats = engine.run(0..job.grid.len(), halt.users, |start, codes| push(start, Some(codes), codes.len() as u64))?;
+            let stats = engine
+                .run(0..job.grid.len(), halt.users, |start, codes| push(start, Some(codes), codes.len() as u64))?;
             Ok(Some(super::DeviceReport { adapter: engine.adapter().clone(), run: stats }))
         }
     }
 }
 
-fn work(job: &Job, table: &dyn Table, queue: &Mutex<Receiver<Task>>, results: &SyncSender<Result<(Chunk, Tally)>>, halt: &Halt) {
+fn work(
+    job: &Job,
+    table: &dyn Table,
+    queue: &Mutex<Receiver<Task>>,
+    results: &SyncSender<Result<(Chunk, Tally)>>,
+    halt: &Halt,
+) {
     loop {
         let task = queue.lock().unwrap_or_else(PoisonError::into_inner).recv();
         let Ok(task) = task else { return };

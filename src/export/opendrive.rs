@@ -1,8 +1,8 @@
 //! ASAM OpenDRIVE: a path as a road whose reference line it is.
 //!
-//! Lines and arcs are themselves there. A cubic Bézier curve is a `paramPoly3` in the parameter from 0 to 1, exactly. A PH
-//! quintic has degree 5, and `paramPoly3` has 3: it is divided into n equal parts of its parameter, and each becomes the
-//! cubic with the same ends and the same derivatives there. For p from [0, 1] to the plane, in any direction u,
+//! Lines and arcs are themselves there. A cubic Bézier curve is a `paramPoly3` in the parameter from 0 to 1, exactly. A
+//! PH quintic has degree 5, and `paramPoly3` has 3: it is divided into n equal parts of its parameter, and each becomes
+//! the cubic with the same ends and the same derivatives there. For p from [0, 1] to the plane, in any direction u,
 //! Hermite's remainder on a part of width h = 1/n is
 //!
 //! ```text
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! and p'''' = 120 Δ⁴b is linear, with its largest size at an end. So q is no further from p than
-//! `120 max(|Δ⁴b0|, |Δ⁴b1|) / (384 n⁴)`, at the same parameter; n is the least that keeps the tolerance. Directions are met at
-//! all joints. Curvatures differ there a little, and by how much is told.
+//! `120 max(|Δ⁴b0|, |Δ⁴b1|) / (384 n⁴)`, at the same parameter; n is the least that keeps the tolerance. Directions are
+//! met at all joints. Curvatures differ there a little, and by how much is told.
 
 use crate::curve::vector::{Vector, add, cross, length, scale, sub};
 use crate::curve::{PhQuintic, arc_length, casteljau};
@@ -52,9 +52,9 @@ pub struct Fit {
 /// - `paths`: in metres. Each becomes a road, with the numbers from 1 on; no junctions are made.
 ///
 /// # Errors
-/// [`Error::Domain`] for no path, options that are not above 0, a curve whose direction at its start is not defined, a PH
-/// quintic that would need more than 2,000 cubics, and pieces that OpenDRIVE does not have: involutes and trigonometric
-/// curves.
+/// [`Error::Domain`] for no path, options that are not above 0, a curve whose direction at its start is not defined, a
+/// PH quintic that would need more than 2,000 cubics, and pieces that OpenDRIVE does not have: involutes and
+/// trigonometric curves.
 pub fn opendrive(paths: &[Course], options: &OpenDrive) -> Result<(String, Fit)> {
     for (name, x) in [("lane width", options.lane_width), ("tolerance", options.tolerance)] {
         if !(x > 0.0 && x.is_finite()) {
@@ -216,13 +216,15 @@ fn plan_view(out: &mut Writer<Vec<u8>>, road: &[Geometry]) -> io::Result<()> {
     for Geometry { start, heading, length, shape } in road {
         let place = [("s", station), ("x", start[0]), ("y", start[1]), ("hdg", *heading), ("length", *length)];
         let place = place.map(|(name, x)| (name, format!("{x:?}")));
-        out.create_element("geometry").with_attributes(place.iter().map(|(name, x)| (*name, &x[..]))).write_inner_content(
-            |out| {
+        out.create_element("geometry")
+            .with_attributes(place.iter().map(|(name, x)| (*name, &x[..])))
+            .write_inner_content(|out| {
                 match shape {
                     Primitive::Line => out.create_element("line").write_empty()?,
-                    Primitive::Arc { curvature } => {
-                        out.create_element("arc").with_attribute(("curvature", &*format!("{curvature:?}"))).write_empty()?
-                    }
+                    Primitive::Arc { curvature } => out
+                        .create_element("arc")
+                        .with_attribute(("curvature", &*format!("{curvature:?}")))
+                        .write_empty()?,
                     Primitive::Cubic { u, v } => {
                         let names = ["aU", "bU", "cU", "dU", "aV", "bV", "cV", "dV"];
                         let numbers = [0.0, u[0], u[1], u[2], 0.0, v[0], v[1], v[2]].map(|x| format!("{x:?}"));
@@ -233,8 +235,7 @@ fn plan_view(out: &mut Writer<Vec<u8>>, road: &[Geometry]) -> io::Result<()> {
                     }
                 };
                 Ok(())
-            },
-        )?;
+            })?;
         station += length;
     }
     Ok(())

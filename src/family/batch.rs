@@ -21,7 +21,7 @@ pub struct RowError {
 /// The proved codes of many data, as an atlas has them at its nodes.
 ///
 /// # Arguments
-/// - `chart`: index into [`About::charts`].
+/// - `chart`: index into [`crate::family::About::charts`].
 /// - `data`: one datum after another, each with as many numbers as the chart has axes, in the order of its axes.
 /// - `threads`: workers, at least 1. The result does not depend on their number.
 ///
@@ -38,8 +38,8 @@ pub fn verdicts(family: &dyn Family, chart: usize, data: &[f64], threads: usize)
     let mut codes = vec![Code::UNDECIDED; whole.len()];
     let pieces = codes.chunks_mut(PIECE).zip(data.chunks(PIECE * axes)).enumerate();
     let (pieces, failed) = (Mutex::new(pieces), AtomicBool::new(false));
-    // Pieces are taken in order, and each that was taken is finished up to its first fault. So the first fault of all is
-    // among those found.
+    // Pieces are taken in order, and each that was taken is finished up to its first fault. So the first fault of all
+    // is among those found.
     let take = || pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
     let work = || -> Result<(), RowError> {
         while let (false, Some((piece, (codes, data)))) = (failed.load(Ordering::Relaxed), take()) {
@@ -55,7 +55,8 @@ pub fn verdicts(family: &dyn Family, chart: usize, data: &[f64], threads: usize)
     let faults: Vec<RowError> = std::thread::scope(|scope| {
         let workers: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
         let own = work();
-        let others = workers.into_iter().map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        let others =
+            workers.into_iter().map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         others.chain([own]).filter_map(Result::err).collect()
     });
     match faults.into_iter().min_by_key(|fault| fault.row) {

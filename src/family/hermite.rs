@@ -15,13 +15,16 @@ pub(super) fn told_angle(angle: f64) -> String {
     if degrees.is_finite() { format!("{} ({} degrees)", told(angle), told(degrees)) } else { told(angle) }
 }
 
-/// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by [`check_angles`].
+/// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by
+/// [`check_angles`].
 fn check_angle(name: &str, angle: f64) -> Result<()> {
     if angle > 0.0 && angle <= PI {
         return Ok(());
     }
     let angle = told_angle(angle);
-    Err(Error::Domain(format!("{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)")))
+    Err(Error::Domain(format!(
+        "{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)"
+    )))
 }
 
 /// The tangents must meet: φ0 + φ1 < π, decided exactly.

@@ -42,10 +42,11 @@ pub(super) fn constants(flags: &[(&str, u8)], counts: &[(&str, usize)], numbers:
     text
 }
 
-/// A shader's tables: the records that the nodes `start .. start + len` need, by the index of their first `A` axes, then the
-/// words of each further axis, by index.
+/// A shader's tables: the records that the nodes `start .. start + len` need, by the index of their first `A` axes,
+/// then the words of each further axis, by index.
 ///
-/// The offsets: the first of these indices, then where each further axis begins; the rest is the family's own, and 0 here.
+/// The offsets: the first of these indices, then where each further axis begins; the rest is the family's own, and 0
+/// here.
 pub(super) fn tables<const A: usize, R: Record>(
     grid: &Grid,
     (start, len): (u64, u64),

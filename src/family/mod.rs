@@ -31,7 +31,8 @@ use crate::grid::{Axis, Grid, Spacing};
 pub struct Code(pub u16);
 
 impl Code {
-    /// Marks a node whose verdicts are not proved yet. No family uses all flags and all counts, so it cannot be a verdict.
+    /// Marks a node whose verdicts are not proved yet. No family uses all flags and all counts, so it cannot be a
+    /// verdict.
     pub const UNDECIDED: Code = Code(u16::MAX);
 
     /// Packs flags and counts.
@@ -145,20 +146,26 @@ pub trait Family: Sync {
     /// [`Family::answer`] with its numbers as they come, some of which may have left the range of doubles.
     ///
     /// # Errors
-    /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
+    /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the
+    /// precision cap.
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer>;
-    /// The exact answer for one datum, with its curves: coordinates as the axes of the chart with this index. Every number is finite.
+    /// The exact answer for one datum, with its curves: coordinates as the axes of the chart with this index. Every
+    /// number is finite.
     ///
     /// # Errors
-    /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain, or the number of the answer that leaves the range of
-    /// doubles; [`crate::Error::Undecided`] at the precision cap.
+    /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain, or the number of the answer that
+    /// leaves the range of doubles; [`crate::Error::Undecided`] at the precision cap.
     fn answer(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let answer = self.compute(chart, point)?;
         match answer.beyond_range() {
             None => Ok(answer),
             Some(what) => {
-                let datum: Vec<String> =
-                    self.about().charts[chart].axes.iter().zip(point).map(|(axis, x)| format!("{axis} = {x:?}")).collect();
+                let datum: Vec<String> = self.about().charts[chart]
+                    .axes
+                    .iter()
+                    .zip(point)
+                    .map(|(axis, x)| format!("{axis} = {x:?}"))
+                    .collect();
                 Err(Error::Domain(format!(
                     "{what} leaves the range of doubles for {}; choose less extreme numbers",
                     datum.join(", ")
@@ -205,7 +212,8 @@ fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
 /// The code of one datum, as a grid of one node has it.
 ///
 /// # Errors
-/// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the precision cap.
+/// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the
+/// precision cap.
 pub fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
     let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
     let grid = Grid::new(family.about().charts[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
@@ -226,7 +234,8 @@ pub trait Table: Kernel {
     /// [`crate::Error::Undecided`] at the precision cap.
     fn exact(&self, node: u64) -> Result<(Code, usize)>;
 
-    /// The scalars `which` (indices into [`About::scalars`]) at a node whose code is known, each rounded to nearest f32.
+    /// The scalars `which` (indices into [`About::scalars`]) at a node whose code is known, each rounded to nearest
+    /// f32.
     ///
     /// # Errors
     /// [`crate::Error::Undecided`] at the precision cap.

@@ -1,9 +1,9 @@
 //! The outer bound of every curve family: whether any spiral at all has these ends (Kurnosenko).
 //!
 //! For increasing curvature in the cubic's frame: `κ0 < sin φ0`, `κ1 > sin φ1` and
-//! `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1 - φ0)/2)`, given φ0 < φ1. That is Q < 0, and κ0 < κ1 follows: otherwise both factors
-//! would add up to at most `sin φ0 - sin φ1`, and their product to at most `cos²((φ0 + φ1)/2) sin²((φ1 - φ0)/2)`.
-//! Likewise Q < 0 and κ0 < κ1 leave no other signs of the factors.
+//! `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1 - φ0)/2)`, given φ0 < φ1. That is Q < 0, and κ0 < κ1 follows: otherwise both
+//! factors would add up to at most `sin φ0 - sin φ1`, and their product to at most
+//! `cos²((φ0 + φ1)/2) sin²((φ1 - φ0)/2)`. Likewise Q < 0 and κ0 < κ1 leave no other signs of the factors.
 
 use crate::num::Verdict;
 use crate::num::bernstein::Certain;

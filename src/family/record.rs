@@ -138,7 +138,9 @@ mod tests {
         let text = Sample::wgsl();
         assert!(text.contains("const SAMPLE_WORDS: u32 = 4u;"), "{text}");
         assert!(
-            text.contains("return Sample(inputs[at], vec2<f32>(inputs[at + 1u], inputs[at + 2u]), inputs[at + 3u] > 0.0);"),
+            text.contains(
+                "return Sample(inputs[at], vec2<f32>(inputs[at + 1u], inputs[at + 2u]), inputs[at + 3u] > 0.0);"
+            ),
             "{text}"
         );
     }

@@ -17,7 +17,14 @@ pub(super) trait Rows {
     /// The codes of the nodes with these last coordinates, as many as `out` has; surplus lanes repeat the last.
     ///
     /// `node` is the first of a row; its own last coordinate means nothing here.
-    fn codes<S: Simd>(&self, simd: S, constants: &Self::Constants, node: &[f64; MAX_AXES], last: S::f64s, out: &mut [Code]);
+    fn codes<S: Simd>(
+        &self,
+        simd: S,
+        constants: &Self::Constants,
+        node: &[f64; MAX_AXES],
+        last: S::f64s,
+        out: &mut [Code],
+    );
 }
 
 /// Fills the nodes from `start` on.
@@ -47,7 +54,14 @@ pub(super) fn fill<S: Simd, R: Rows>(simd: S, rows: &R, grid: &Grid, start: u64,
 
 /// Nodes that share all but the last coordinate, which runs over `last`.
 #[inline(always)]
-fn row<S: Simd, R: Rows>(simd: S, rows: &R, constants: &R::Constants, node: &[f64; MAX_AXES], last: &[f64], out: &mut [Code]) {
+fn row<S: Simd, R: Rows>(
+    simd: S,
+    rows: &R,
+    constants: &R::Constants,
+    node: &[f64; MAX_AXES],
+    last: &[f64],
+    out: &mut [Code],
+) {
     const { assert!(S::f64s::LEN <= 8, "room for one vector") };
     let width = S::f64s::LEN;
     let mut padded = [0.0; 8];

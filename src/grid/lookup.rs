@@ -99,7 +99,8 @@ impl Lookup {
         // Any guess will do for an index in range; the comparisons below tell a wrong one.
         let index = (nearest_integer(guess) as usize).min(self.count() - 1);
         if let [below, here, above] = self.padded[index..index + 3] {
-            // With `x <= here` the second holds anyway, else the first; so no branch depends on which half of a step x is in.
+            // With `x <= here` the second holds anyway, else the first; so no branch depends on which half of a step x
+            // is in.
             if (here - x < x - below) & (x - here <= above - x) {
                 return Some(index);
             }
@@ -116,7 +117,8 @@ fn nearest_integer(x: f64) -> u32 {
     (x + 6755399441055744.0).to_bits() as u32
 }
 
-/// log2 of a positive normal `x` to 1.3e-4, and some number for any other `x`: several times quicker than the exact one.
+/// log2 of a positive normal `x` to 1.3e-4, and some number for any other `x`: several times quicker than the exact
+/// one.
 #[inline]
 fn rough_log2(x: f64) -> f64 {
     const FRACTION: u64 = (1 << 52) - 1;

@@ -216,20 +216,27 @@ impl Grid {
         node
     }
 
-    /// The grid of the chosen nodes of each axis. An axis of which all are chosen stays as it is; others keep their values alone.
+    /// The grid of the chosen nodes of each axis. An axis of which all are chosen stays as it is; others keep their
+    /// values alone.
     ///
     /// # Errors
-    /// [`Error::Domain`] when the number of axes is wrong, an index is out of range, or those of an axis do not increase.
+    /// [`Error::Domain`] when the number of axes is wrong, an index is out of range, or those of an axis do not
+    /// increase.
     pub fn pick(&self, nodes: &[Vec<usize>]) -> Result<Grid> {
         if nodes.len() != self.axes.len() {
-            return Err(Error::Domain(format!("nodes of {} axes are chosen; the grid has {}", nodes.len(), self.axes.len())));
+            return Err(Error::Domain(format!(
+                "nodes of {} axes are chosen; the grid has {}",
+                nodes.len(),
+                self.axes.len()
+            )));
         }
         let pick = |(axis, nodes): (&Axis, &Vec<usize>)| {
             if nodes.iter().copied().eq(0..axis.values.len()) {
                 return Ok(axis.clone());
             }
             let value = |node: &usize| {
-                let beyond = || Error::Domain(format!("axis `{}` has no node {node}; it has {}", axis.name, axis.values.len()));
+                let beyond =
+                    || Error::Domain(format!("axis `{}` has no node {node}; it has {}", axis.name, axis.values.len()));
                 axis.values.get(*node).copied().ok_or_else(beyond)
             };
             Axis::new(&axis.name, Spacing::Values(nodes.iter().map(value).collect::<Result<_>>()?))

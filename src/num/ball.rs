@@ -1,4 +1,5 @@
-//! Doubles that know how far they may be off: what the f64 step of a family computes with where counting roundings by hand would not pay.
+//! Doubles that know how far they may be off: what the f64 step of a family computes with where counting roundings by
+//! hand would not pay.
 
 use super::bernstein::Certain;
 use super::{Interval, Number, Real};

@@ -6,7 +6,8 @@ use super::{Interval, Number};
 use crate::steps::step;
 use std::cmp::Ordering;
 
-/// Most halvings of intervals: deeper pieces are ties for every purpose, and the recursion stays within a thread's stack.
+/// Most halvings of intervals: deeper pieces are ties for every purpose, and the recursion stays within a thread's
+/// stack.
 pub const MOST_HALVINGS: u32 = 400;
 
 /// Bernstein coefficients of a quintic.
@@ -21,7 +22,8 @@ pub trait Certain: Number {
     fn grain(&self) -> f64 {
         0.0
     }
-    /// Coefficients of the same sign everywhere on (0, 1), for which halving parts what is to be told apart; `None` where it does already.
+    /// Coefficients of the same sign everywhere on (0, 1), for which halving parts what is to be told apart; `None`
+    /// where it does already.
     #[inline(always)]
     fn balanced<const K: usize>(_c: &[Self; K]) -> Option<[Self; K]> {
         None
@@ -50,10 +52,10 @@ impl Certain for Interval {
     fn certain_sign(&self, _error: f64) -> Option<Ordering> {
         self.sign()
     }
-    /// In `x = t/(1 - t)` the coefficients are those of powers of x, but for binomials, and `x = 2^k y` multiplies them by powers of
-    /// `2^k`. Newton's polygon, the hull above their logarithms, has a side for each size that x may have at a root. The middle
-    /// of all sizes where signs differ becomes 1. So the halvings are as many as the roots' distances ask for, relative to their
-    /// sizes, and do not grow with the logarithms of these.
+    /// In `x = t/(1 - t)` the coefficients are those of powers of x, but for binomials, and `x = 2^k y` multiplies them
+    /// by powers of `2^k`. Newton's polygon, the hull above their logarithms, has a side for each size that x may have
+    /// at a root. The middle of all sizes where signs differ becomes 1. So the halvings are as many as the roots'
+    /// distances ask for, relative to their sizes, and do not grow with the logarithms of these.
     fn balanced<const K: usize>(c: &[Interval; K]) -> Option<[Interval; K]> {
         step();
         let points = c.iter().enumerate().filter_map(|(i, c)| Some((i, c.magnitude()?)));
@@ -85,8 +87,9 @@ impl Certain for Interval {
 
 /// Splits at `t`: the coefficients on `[0, t]` and on `[t, 1]` (de Casteljau).
 ///
-/// At `t = 1/2` each step adds two numbers of at most the largest coefficient's size and halves exactly, so the `K - 1` steps
-/// are off by at most `K - 1` units of 2^-53 of the largest coefficient, and pass on errors of the input undiminished but not grown.
+/// At `t = 1/2` each step adds two numbers of at most the largest coefficient's size and halves exactly, so the `K - 1`
+/// steps are off by at most `K - 1` units of 2^-53 of the largest coefficient, and pass on errors of the input
+/// undiminished but not grown.
 #[inline]
 pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
     let (mut left, mut right) = (c.clone(), c.clone());
@@ -104,8 +107,8 @@ pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
 ///
 /// # Arguments
 /// - `error`: how far each coefficient may be from the truth (0 for intervals).
-/// - `rounding`: error added by the first halving: `K - 1` units of 2^-53 of the largest coefficient for doubles, 0 for intervals;
-///   a piece's own is in proportion to its own largest coefficient.
+/// - `rounding`: error added by the first halving: `K - 1` units of 2^-53 of the largest coefficient for doubles, 0 for
+///   intervals; a piece's own is in proportion to its own largest coefficient.
 /// - `depth`: most halvings of a piece before giving up.
 ///
 /// Coefficients bound the polynomial from below on their piece (convex hull); the outer two are its values there.
@@ -147,12 +150,12 @@ fn positive_piece<N: Certain, const K: usize>(c: &[N; K], error: f64, unit: f64,
 
 /// The least value on [0, 1] and where it is taken, for coefficients taken as exact: `(value, t)`.
 ///
-/// Branch and bound by halving: a piece is dropped when its lowest coefficient is not below the best value found by more than
-/// 2^-50 of the largest coefficient.
+/// Branch and bound by halving: a piece is dropped when its lowest coefficient is not below the best value found by
+/// more than 2^-50 of the largest coefficient.
 ///
 /// # Accuracy
-/// The value is at most `(5 · 64 + 8) 2^-53` of the largest coefficient from the least value: 5 units for each of up to 64
-/// halvings, 8 units for the tolerance.
+/// The value is at most `(5 · 64 + 8) 2^-53` of the largest coefficient from the least value: 5 units for each of up to
+/// 64 halvings, 8 units for the tolerance.
 pub fn least(c: &Quintic<f64>) -> (f64, f64) {
     const DEPTH: u32 = 64;
     let tolerance = c.iter().fold(0.0f64, |m, v| m.max(v.abs())) * 2f64.powi(-50);
@@ -187,12 +190,13 @@ pub fn least_error(c: &Quintic<f64>, error: f64) -> f64 {
 
 /// The least value on [0, 1] of a quintic with interval coefficients, as an interval.
 ///
-/// Branch and bound by halving, as [`least`]: a piece is dropped when its lowest coefficient is not below the best value found by more than
-/// 2^-(bits/2) of the largest coefficient and twice the width of the widest, or after as many halvings as there are bits.
+/// Branch and bound by halving, as [`least`]: a piece is dropped when its lowest coefficient is not below the best
+/// value found by more than 2^-(bits/2) of the largest coefficient and twice the width of the widest, or after as many
+/// halvings as there are bits.
 ///
 /// # Accuracy
-/// Near a least value inside, the lowest coefficient of a piece is below it by the square of the piece's width, so that some bits/4 halvings
-/// suffice. A feature of width w asks for log2 1/w more.
+/// Near a least value inside, the lowest coefficient of a piece is below it by the square of the piece's width, so that
+/// some bits/4 halvings suffice. A feature of width w asks for log2 1/w more.
 pub fn least_interval(c: &Quintic<Interval>) -> Interval {
     let bits = c[0].bits();
     let less = |a: &Interval, b: &Interval| a.compare(b) == Some(Ordering::Less);
@@ -223,8 +227,8 @@ pub fn least_interval(c: &Quintic<Interval>) -> Interval {
     floor.union(&ceiling)
 }
 
-/// The margin of a quintic: its least value on [0, 1] over its largest coefficient, and how far that may be off, for coefficients that
-/// may each be off by `error`.
+/// The margin of a quintic: its least value on [0, 1] over its largest coefficient, and how far that may be off, for
+/// coefficients that may each be off by `error`.
 pub fn margin(c: &Quintic<f64>, error: f64) -> (f64, f64) {
     let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let (value, _) = least(c);
@@ -344,7 +348,10 @@ mod tests {
             for c in [c, back] {
                 let (steps, least) = counted(|| least_interval(&c));
                 assert!(steps < 600, "{offset}: {steps} steps");
-                assert!(least.sign() != Some(Ordering::Greater) && least.size().upper().approx() < 1e-60, "{offset}: {least:?}");
+                assert!(
+                    least.sign() != Some(Ordering::Greater) && least.size().upper().approx() < 1e-60,
+                    "{offset}: {least:?}"
+                );
             }
         }
     }

@@ -242,7 +242,8 @@ mod tests {
         terms.iter().fold(number(q.value), |sum, (k, term)| &sum + &term.scale(*k))
     }
 
-    /// Two ranges, wide or narrow, and random expressions of both: at every place the truth is held, and not by being far too large.
+    /// Two ranges, wide or narrow, and random expressions of both: at every place the truth is held, and not by being
+    /// far too large.
     #[test]
     fn every_operation_holds_the_truth() {
         let mut noise = Noise(1);
@@ -302,8 +303,12 @@ mod tests {
         let mut noise = Noise(2);
         for round in 0..2000 {
             let mut random = || noise.signed();
-            let mut q =
-                Quadratic { value: random(), slope: [random(), random()], bend: [random(), random(), random()], error: 0.0 };
+            let mut q = Quadratic {
+                value: random(),
+                slope: [random(), random()],
+                bend: [random(), random(), random()],
+                error: 0.0,
+            };
             if round % 2 == 0 {
                 q.bend[1] = 0.0;
             }
@@ -356,7 +361,10 @@ mod tests {
                 }
                 let off = (&truth - &sum).approx().abs();
                 assert!(off <= found.error, "{ranges:?} {place:?}: {found:?} is off by {off}");
-                assert!(found.low() <= truth.approx() && truth.approx() <= found.high(), "{ranges:?} {place:?}: {found:?}");
+                assert!(
+                    found.low() <= truth.approx() && truth.approx() <= found.high(),
+                    "{ranges:?} {place:?}: {found:?}"
+                );
                 worst = worst.max(off / found.error);
                 held += 1;
             }
@@ -377,7 +385,9 @@ mod tests {
     #[test]
     fn what_is_not_certain_is_not_said() {
         let wide = Quadratic::along([-1.0, 3.0], 0);
-        assert!(wide.sqrt().is_none() && Quadratic::of(1.0, 53).over(&wide).is_none() && wide.certain_sign(0.0).is_none());
+        assert!(
+            wide.sqrt().is_none() && Quadratic::of(1.0, 53).over(&wide).is_none() && wide.certain_sign(0.0).is_none()
+        );
         let huge = Quadratic::of(1e200, 53);
         assert!(huge.mul(&huge).certain_sign(0.0).is_none() && huge.mul(&huge).sqrt().is_none());
         assert!(Quadratic::of(1.0, 53).over(&Quadratic::of(0.0, 53)).is_none());

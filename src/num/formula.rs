@@ -162,6 +162,9 @@ mod tests {
         let (x, y) = (Interval::new(p, 100), Interval::new(*q, 100));
         let formula = formula!(2.0 * x * y - (1.0 - x) * x + 0.5);
         let calls = x.times(2.0).mul(&y).sub(&x.times(-1.0).plus(1.0).mul(&x)).plus(0.5);
-        assert_eq!((formula.lower().to_f64(), formula.upper().to_f64()), (calls.lower().to_f64(), calls.upper().to_f64()));
+        assert_eq!(
+            (formula.lower().to_f64(), formula.upper().to_f64()),
+            (calls.lower().to_f64(), calls.upper().to_f64())
+        );
     }
 }

@@ -22,8 +22,8 @@ thread_local! {
     static CONSTANTS: RefCell<ConstCache> = const { RefCell::new(ConstCache::new()) };
 }
 
-/// The nearest double, also below the least subnormal, where the conversion of `dashu-float` 0.6 always gives zero: numbers above half
-/// of it round to it.
+/// The nearest double, also below the least subnormal, where the conversion of `dashu-float` 0.6 always gives zero:
+/// numbers above half of it round to it.
 fn nearest_f64(x: &Repr<2>) -> f64 {
     match x.to_f64().value() {
         0.0 if beyond(x, -1075) => f64::from_bits(1).copysign(sign(x)),
@@ -89,7 +89,8 @@ impl Interval {
         let middle = if thin { self.lo.clone() } else { self.middle().lo };
         // The middle has a bit more than the precision; at least as many are asked for, so that it is taken as it is.
         let bits = self.bits + 2;
-        let (sin, cos) = CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).sin_cos(&middle, Some(cache)));
+        let (sin, cos) =
+            CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).sin_cos(&middle, Some(cache)));
         let half = (self - &Interval { lo: middle.clone(), hi: middle, bits: self.bits }).size();
         let around = |rounded: FpResult<FBig<HalfEven, 2>>| {
             let nearest = rounded.expect("finite argument").value().into_repr();
@@ -101,7 +102,8 @@ impl Interval {
 
     /// π.
     pub fn pi(bits: usize) -> Interval {
-        let nearest = CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).pi::<2>(Some(cache)).value().into_repr());
+        let nearest =
+            CONSTANTS.with_borrow_mut(|cache| Context::<HalfEven>::new(bits).pi::<2>(Some(cache)).value().into_repr());
         Interval { lo: nearest.clone(), hi: nearest, bits }.widened()
     }
 
@@ -110,7 +112,8 @@ impl Interval {
         self.union(&-self)
     }
 
-    /// Larger by more than one unit in the last place at both ends: around a correctly rounded number, contains the true one.
+    /// Larger by more than one unit in the last place at both ends: around a correctly rounded number, contains the
+    /// true one.
     fn widened(&self) -> Interval {
         self + &(self * &Interval::power_of_two(1 - self.bits as isize, self.bits)).size()
     }
@@ -172,7 +175,11 @@ impl Interval {
         // By a positive divisor: each end is farthest from or nearest to zero, as its sign says.
         let low_by = if self.lo < zero { &divisor.lo } else { &divisor.hi };
         let high_by = if self.hi < zero { &divisor.hi } else { &divisor.lo };
-        Some(Interval { lo: directed!(bits, div, Down, &self.lo, low_by), hi: directed!(bits, div, Up, &self.hi, high_by), bits })
+        Some(Interval {
+            lo: directed!(bits, div, Down, &self.lo, low_by),
+            hi: directed!(bits, div, Up, &self.hi, high_by),
+            bits,
+        })
     }
 
     /// The square root; `None` when it may be negative.
@@ -238,7 +245,11 @@ impl Add for &Interval {
     type Output = Interval;
     fn add(self, other: &Interval) -> Interval {
         let bits = self.bits.max(other.bits);
-        Interval { lo: directed!(bits, add, Down, &self.lo, &other.lo), hi: directed!(bits, add, Up, &self.hi, &other.hi), bits }
+        Interval {
+            lo: directed!(bits, add, Down, &self.lo, &other.lo),
+            hi: directed!(bits, add, Up, &self.hi, &other.hi),
+            bits,
+        }
     }
 }
 
@@ -246,7 +257,11 @@ impl Sub for &Interval {
     type Output = Interval;
     fn sub(self, other: &Interval) -> Interval {
         let bits = self.bits.max(other.bits);
-        Interval { lo: directed!(bits, sub, Down, &self.lo, &other.hi), hi: directed!(bits, sub, Up, &self.hi, &other.lo), bits }
+        Interval {
+            lo: directed!(bits, sub, Down, &self.lo, &other.hi),
+            hi: directed!(bits, sub, Up, &self.hi, &other.lo),
+            bits,
+        }
     }
 }
 
@@ -276,10 +291,11 @@ impl Neg for &Interval {
     }
 }
 
-/// `lo (hi / lo)^(i / last)` for i in 0..=last, the ends exact, each other value rounded once from 256 bits; positive `lo`, `last > 0`.
+/// `lo (hi / lo)^(i / last)` for i in 0..=last, the ends exact, each other value rounded once from 256 bits; positive
+/// `lo`, `last > 0`.
 ///
-/// Integer arithmetic throughout, so the same doubles on every machine; within 1/2 ulp and 2^-200 of the true value: the ratio is
-/// off by 2^-254 relative, its power by at most 2^24 times that, and each product adds 2^-255.
+/// Integer arithmetic throughout, so the same doubles on every machine; within 1/2 ulp and 2^-200 of the true value:
+/// the ratio is off by 2^-254 relative, its power by at most 2^24 times that, and each product adds 2^-255.
 pub(super) fn log_space(lo: f64, hi: f64, last: usize) -> Vec<f64> {
     let context = Context::<HalfEven>::new(256);
     let number = |x: f64| FBig::<HalfEven, 2>::from_repr(repr(x), context);

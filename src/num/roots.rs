@@ -5,9 +5,9 @@ use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// Finds where `f` changes its sign between `low` and `high`, at which its signs must differ; a guess, nothing proved.
 ///
-/// The ITP method (Oliveira & Takahashi, ACM TOMS 47, 2020): at most one evaluation more than bisection, and superlinear on
-/// smooth functions. Written out because the crates that bracket roots are no longer kept, or bring a whole framework for
-/// these lines.
+/// The ITP method (Oliveira & Takahashi, ACM TOMS 47, 2020): at most one evaluation more than bisection, and
+/// superlinear on smooth functions. Written out because the crates that bracket roots are no longer kept, or bring a
+/// whole framework for these lines.
 ///
 /// # Accuracy
 /// The sign changes within `tolerance` of the result.
@@ -31,7 +31,8 @@ pub fn find(f: impl Fn(f64) -> f64, low: f64, high: f64, tolerance: f64) -> f64 
         let secant = (above * low - below * high) / (above - below);
         let pull = (0.2 / width * (high - low).powi(2)).min((middle - secant).abs());
         let toward = secant + (middle - secant).signum() * pull;
-        let next = if (toward - middle).abs() <= radius { toward } else { middle - (middle - secant).signum() * radius };
+        let next =
+            if (toward - middle).abs() <= radius { toward } else { middle - (middle - secant).signum() * radius };
         // Also where a secant was no number.
         let next = if next > low && next < high { next } else { middle };
         let value = f(next);
@@ -57,7 +58,8 @@ pub trait Curve {
     }
 }
 
-/// A guess at the zero of `f` between two thin intervals: [`find`] in doubles, then Newton's method kept inside the bracket.
+/// A guess at the zero of `f` between two thin intervals: [`find`] in doubles, then Newton's method kept inside the
+/// bracket.
 ///
 /// `None` when f has no certain, opposite signs at the ends.
 pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Interval> {
@@ -67,12 +69,15 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
         return None;
     }
     let bits = low.bits();
-    let inside = |x: &Interval, low: &Interval, high: &Interval| x.compare(low) == Some(Greater) && x.compare(high) == Some(Less);
+    let inside = |x: &Interval, low: &Interval, high: &Interval| {
+        x.compare(low) == Some(Greater) && x.compare(high) == Some(Less)
+    };
     let middle = |low: &Interval, high: &Interval| (low + high).scale(0.5).middle();
     let searched = || {
         let (first, last) = (low.approx(), high.approx());
         // Ends beyond the range of doubles leave no guess.
-        let guess = Some(find(|x| f.guess(x), first, last, f64::EPSILON * first.abs().max(last.abs()))).filter(|x| x.is_finite());
+        let guess = Some(find(|x| f.guess(x), first, last, f64::EPSILON * first.abs().max(last.abs())))
+            .filter(|x| x.is_finite());
         guess.map(|x| Interval::new(x, bits))
     };
     let guess = f.start().or_else(searched).filter(|x| inside(x, &low, &high));
@@ -102,8 +107,8 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
     Some(x)
 }
 
-/// Proves a root around a guess: opposite certain signs at `x - δ` and `x + δ`, with about the least δ that works. The first is what the
-/// value at the guess and its rounding ask for.
+/// Proves a root around a guess: opposite certain signs at `x - δ` and `x + δ`, with about the least δ that works. The
+/// first is what the value at the guess and its rounding ask for.
 pub fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
     let bits = guess.bits();
     let (value, slope) = f.at(guess)?;
@@ -123,7 +128,8 @@ pub fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
     None
 }
 
-/// Newton's method from a guess in doubles, and a proof as in [`enclose`]: for numbers of about twice their digits, whose range doubles have.
+/// Newton's method from a guess in doubles, and a proof as in [`enclose`]: for numbers of about twice their digits,
+/// whose range doubles have.
 ///
 /// `f` gives value and slope. Three steps double the digits of any guess that shows some 14 of them.
 pub fn near<N: Real>(f: impl Fn(&N) -> Option<(N, N)>, guess: f64) -> Option<N> {

@@ -41,9 +41,9 @@ static KNOTS: LazyLock<Vec<Knot>> = LazyLock::new(|| {
 /// `sin x` for `0 <= x <= 1.65`.
 ///
 /// # Accuracy
-/// 6 units of 2^-53, relative. With `x = k/16 + r`, `|r| <= 1/32` (exact: both are multiples of the last bit of `x`, and
-/// the difference is smaller than `x`), `sin x = S + (S (cos r - 1) + C sin r + S_low)`. The series stop at relative
-/// 2^-58. The bracket is at most 1/32, its rounding errors at most 4 units of it, and it is at most `sin x` in
+/// 6 units of 2^-53, relative. With `x = k/16 + r`, `|r| <= 1/32` (exact: both are multiples of the last bit of `x`,
+/// and the difference is smaller than `x`), `sin x = S + (S (cos r - 1) + C sin r + S_low)`. The series stop at
+/// relative 2^-58. The bracket is at most 1/32, its rounding errors at most 4 units of it, and it is at most `sin x` in
 /// absolute value (equal only at k = 1, r = -1/32); the last addition costs 1 unit.
 fn sin_quadrant(x: f64) -> f64 {
     let k = (x * 16.0).round();
@@ -89,8 +89,8 @@ pub fn two_sum(x: f64, y: f64) -> (f64, f64) {
     (sum, (x - (sum - part)) + (y - part))
 }
 
-/// Whether `x + y < π`, decided exactly: π lies between the double [`PI`] and the next one up, so where the rounded sum equals
-/// [`PI`] its rounding error tells.
+/// Whether `x + y < π`, decided exactly: π lies between the double [`PI`] and the next one up, so where the rounded sum
+/// equals [`PI`] its rounding error tells.
 pub fn sum_below_pi(x: f64, y: f64) -> bool {
     let (sum, low) = two_sum(x, y);
     sum < PI || sum == PI && low < PI_LOW

@@ -321,7 +321,11 @@ mod tests {
             Twin::of(1e308, TWIN_BITS).times(2.0),
             Twin::sine_cosine(9.0).0,
         ] {
-            assert_eq!((x.certain_sign(0.0), x.to_f64(), x.to_f32(), x.error), (None, None, None, f64::INFINITY), "{x:?}");
+            assert_eq!(
+                (x.certain_sign(0.0), x.to_f64(), x.to_f32(), x.error),
+                (None, None, None, f64::INFINITY),
+                "{x:?}"
+            );
         }
     }
 }

@@ -5,7 +5,8 @@ use std::fmt::Debug;
 
 /// Precision of the first try, in bits.
 const FIRST_BITS: usize = 128;
-/// Documented cap: a verdict still open here is an error. Sums of the tiniest and the largest doubles need some 4000 bits.
+/// Documented cap: a verdict still open here is an error. Sums of the tiniest and the largest doubles need some 4000
+/// bits.
 const MOST_BITS: usize = 16384;
 
 /// Runs `attempt` with doubling precision until it succeeds; returns its result and the bits that were needed.
@@ -22,6 +23,7 @@ pub fn climb<T>(datum: &impl Debug, what: &str, attempt: impl Fn(usize) -> Optio
     }
     let told = format!("{datum:?}");
     // Fields without the type's name.
-    let coordinates = told.split_once(" { ").map_or(told.as_str(), |(_, fields)| fields.trim_end_matches(" }")).to_owned();
+    let coordinates =
+        told.split_once(" { ").map_or(told.as_str(), |(_, fields)| fields.trim_end_matches(" }")).to_owned();
     Err(Error::Undecided { node: None, coordinates, what: what.into(), bits: MOST_BITS })
 }

@@ -7,8 +7,8 @@ use num_complex::Complex64;
 
 /// A path of two straight legs turns: half the turning angle θ, as cosine c and sine s.
 ///
-/// A corner curve of reach L leaves the first leg a distance L before the corner and joins the second one L behind it. Its curvature is 0 at
-/// both ends and largest in the middle.
+/// A corner curve of reach L leaves the first leg a distance L before the corner and joins the second one L behind it.
+/// Its curvature is 0 at both ends and largest in the middle.
 ///
 /// # Accuracy
 /// c and s are known to a few units of 2^-53, absolute.
@@ -66,17 +66,19 @@ impl Turn {
         32.0 * (6.0 * c + 1.0) * (self.sine / c).abs() / (15.0 * (c + 1.0) * (c + 1.0) * most)
     }
 
-    /// The reach at which the middle of the curve comes to the vertex of an obstacle that turns as the path does, both sides a distance
-    /// `offset` from the path: the largest that keeps out of it, (19). Infinite for a path that does not turn.
+    /// The reach at which the middle of the curve comes to the vertex of an obstacle that turns as the path does, both
+    /// sides a distance `offset` from the path: the largest that keeps out of it, (19). Infinite for a path that does
+    /// not turn.
     pub fn reach_for_offset(&self, offset: f64) -> f64 {
         8.0 * (6.0 + 1.0 / self.cosine) * offset / ((3.0 * self.cosine + 8.0) * self.sine.abs())
     }
 
-    /// How far from the sides of an obstacle that turns as it does a path must run so that, rounded with curvature up to `most`, it keeps
-    /// `clearance` from the obstacle; with no clearance (21).
+    /// How far from the sides of an obstacle that turns as it does a path must run so that, rounded with curvature up
+    /// to `most`, it keeps `clearance` from the obstacle; with no clearance (21).
     ///
-    /// With the corner as origin and y along the bisector to the obstacle, its vertex is at height `offset / c`, and a point (x, y) of the path
-    /// keeps the clearance when `offset >= c (y + √(clearance² - x²))`. The greatest over the path is wanted. Legs alone give `clearance`.
+    /// With the corner as origin and y along the bisector to the obstacle, its vertex is at height `offset / c`, and a
+    /// point (x, y) of the path keeps the clearance when `offset >= c (y + √(clearance² - x²))`. The greatest over the
+    /// path is wanted. Legs alone give `clearance`.
     ///
     /// # Accuracy
     /// 1e-3 of it, from 65 points of the curve; exact without a clearance, where the middle decides.
@@ -134,12 +136,14 @@ impl Turn {
         let curve = PhQuintic::between(pair(complex(at) - first), pair(complex(at) + last), self.preimage(reach));
         match curve.is_finite() {
             true => Ok(curve),
-            false => Err(Error::Domain(format!("corner: a curve of reach {reach:?} at {at:?} leaves the range of doubles"))),
+            false => {
+                Err(Error::Domain(format!("corner: a curve of reach {reach:?} at {at:?} leaves the range of doubles")))
+            }
         }
     }
 
-    /// The straight line between two points that runs along the incoming leg, or along the outgoing one: the direction is that of the
-    /// corner curve to the last bit but one, however short the line.
+    /// The straight line between two points that runs along the incoming leg, or along the outgoing one: the direction
+    /// is that of the corner curve to the last bit but one, however short the line.
     pub(super) fn line(&self, outgoing: bool, [start, end]: [[f64; 2]; 2]) -> PhQuintic {
         let length = (complex(end) - complex(start)).norm();
         PhQuintic::between(start, end, [pair(self.roots[usize::from(outgoing)] * length.sqrt()); 3])

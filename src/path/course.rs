@@ -1,4 +1,5 @@
-//! A path of pieces of any kinds: its length, points along it, where its curvature is extreme or changes its sign, and its offset curves.
+//! A path of pieces of any kinds: its length, points along it, where its curvature is extreme or changes its sign, and
+//! its offset curves.
 
 mod signs;
 
@@ -9,7 +10,8 @@ use crate::transition::{Piece, Station, stations};
 use serde::Serialize;
 use signs::{Signs, opposite};
 
-/// Pieces join where the gap between them is at most this share of their length and place, for roundings of whoever wrote them.
+/// Pieces join where the gap between them is at most this share of their length and place, for roundings of whoever
+/// wrote them.
 const GAP: f64 = 1e-10;
 /// Stations of one path nearer to each other than this share of its length are one, seen from both sides of a joint.
 const SAME: f64 = 1e-9;
@@ -69,8 +71,8 @@ impl Course {
     /// Of pieces in order.
     ///
     /// # Errors
-    /// [`Error::Domain`] without a piece, for a length that is not finite, and for a gap between pieces above 1e-10 of their length and
-    /// place.
+    /// [`Error::Domain`] without a piece, for a length that is not finite, and for a gap between pieces above 1e-10 of
+    /// their length and place.
     pub fn new(pieces: Vec<Piece>) -> Result<Course> {
         let fail = |what: String| Err(Error::Domain(what));
         if pieces.is_empty() {
@@ -82,7 +84,9 @@ impl Course {
             let own = piece.length();
             length += own;
             if !length.is_finite() {
-                return fail(format!("pieces[{i}] is {own:?} long, and the path would be {length:?}; change the unit of length"));
+                return fail(format!(
+                    "pieces[{i}] is {own:?} long, and the path would be {length:?}; change the unit of length"
+                ));
             }
         }
         for (i, w) in pieces.windows(2).enumerate() {
@@ -91,7 +95,10 @@ impl Course {
             // Written so that NaN is a gap.
             let joined = distance(end, start) <= GAP * size;
             if !joined {
-                return fail(format!("pieces[{i}] ends at {end:?}, pieces[{}] starts at {start:?}; they must join", i + 1));
+                return fail(format!(
+                    "pieces[{i}] ends at {end:?}, pieces[{}] starts at {start:?}; they must join",
+                    i + 1
+                ));
             }
         }
         Ok(Course { pieces, before, length })
@@ -153,11 +160,13 @@ impl Course {
         self.pieces.iter().map(one).sum()
     }
 
-    /// Where the curvature ends to rise or to fall: inside pieces, and where they join. That it jumps at a joint is not told.
+    /// Where the curvature ends to rise or to fall: inside pieces, and where they join. That it jumps at a joint is not
+    /// told.
     ///
     /// # Accuracy
-    /// For PH quintics and cubics all extrema are isolated in doubles. For a trigonometric quintic they are found where the slope of the
-    /// curvature has different signs at neighbours of 256 parameters, so that two closer ones may be missed. The other kinds have none.
+    /// For PH quintics and cubics all extrema are isolated in doubles. For a trigonometric quintic they are found where
+    /// the slope of the curvature has different signs at neighbours of 256 parameters, so that two closer ones may be
+    /// missed. The other kinds have none.
     pub fn curvature_extrema(&self) -> Vec<Spot> {
         self.spots(signs::slope)
     }
@@ -176,7 +185,8 @@ impl Course {
     /// Exact for PH quintics. The points of the others are at this distance to a few roundings.
     ///
     /// # Errors
-    /// [`Error::Domain`] where a number leaves the range of doubles, or where a piece that is no PH quintic stands still.
+    /// [`Error::Domain`] where a number leaves the range of doubles, or where a piece that is no PH quintic stands
+    /// still.
     pub fn offset(&self, d: f64) -> Result<Vec<OffsetCurve>> {
         let fail = |i: usize| {
             Error::Domain(format!(
@@ -217,12 +227,14 @@ impl Course {
         Spot { station: Station { station, x, y, heading: at.heading, curvature: at.curvature }, piece, parameter }
     }
 
-    /// Parameters inside pieces, and joints where the sign that pieces have beside them changes. Pieces that have none, such as lines, are
-    /// passed over: then it changes at the start of the next one. A path that ends where it starts joins there, too.
+    /// Parameters inside pieces, and joints where the sign that pieces have beside them changes. Pieces that have none,
+    /// such as lines, are passed over: then it changes at the start of the next one. A path that ends where it starts
+    /// joins there, too.
     fn spots(&self, signs: fn(&Piece) -> Signs) -> Vec<Spot> {
         let all: Vec<Signs> = self.pieces.iter().map(signs).collect();
         let some = |numbers: &[f64]| numbers.iter().copied().find(|s| s.abs() > 0.0);
-        let mut last = if self.closed() { all.iter().rev().find_map(|s| some(&[s.ends[1]])).unwrap_or(0.0) } else { 0.0 };
+        let mut last =
+            if self.closed() { all.iter().rev().find_map(|s| some(&[s.ends[1]])).unwrap_or(0.0) } else { 0.0 };
         let mut spots = Vec::new();
         for (i, Signs { inside, ends: [first, end] }) in all.iter().enumerate() {
             if opposite(*first, last) {

@@ -53,32 +53,36 @@ pub struct LeastCurvature {
     pub searched: [f64; 2],
 }
 
-/// A search ends when the proved bound is no further than this share of the best path's curvature below that, or when [`MOST`] is spent. It
-/// is far above the roundings of both, and so small that nobody would build the difference.
+/// A search ends when the proved bound is no further than this share of the best path's curvature below that, or when
+/// [`MOST`] is spent. It is far above the roundings of both, and so small that nobody would build the difference.
 const TOLERANCE: f64 = 1e-6;
-/// Ranges that are halved at most; about a hundred suffice for one free number, some hundreds and near straight lines some thousands for two.
+/// Ranges that are halved at most; about a hundred suffice for one free number, some hundreds and near straight lines
+/// some thousands for two.
 const MOST: usize = 20_000;
-/// Steps of one length in the local search, at most: each is a rate of the numbers, so that with all lengths they lead anywhere.
+/// Steps of one length in the local search, at most: each is a rate of the numbers, so that with all lengths they lead
+/// anywhere.
 const MOVES: usize = 40;
 /// Least derivative over the distance.
 const LEAST: f64 = 1e-2;
 
 /// The path of least greatest curvature between two ends with given directions.
 ///
-/// Searched are all four PH quintics for end derivatives from a hundredth of the distance on, that are no longer than allowed, up to 1e-12 of that.
-/// A derivative is at most nine times the length: a polynomial w of degree 2 with `w(0) = 1` has `∫ w² >= 1/9`. Where little more than the distance
-/// is allowed, the search begins at half of what is allowed beyond it.
+/// Searched are all four PH quintics for end derivatives from a hundredth of the distance on, that are no longer than
+/// allowed, up to 1e-12 of that. A derivative is at most nine times the length: a polynomial w of degree 2 with
+/// `w(0) = 1` has `∫ w² >= 1/9`. Where little more than the distance is allowed, the search begins at half of what is
+/// allowed beyond it.
 ///
 /// # Accuracy
-/// `at_least` is proved by enclosing means of curvatures over ranges of the free numbers, in halves until it is within 1e-6 of what was found, or
-/// until 20,000 halvings are spent: then it is what they have proved. The curve is refined by a local search.
+/// `at_least` is proved by enclosing means of curvatures over ranges of the free numbers, in halves until it is within
+/// 1e-6 of what was found, or until 20,000 halvings are spent: then it is what they have proved. The curve is refined
+/// by a local search.
 ///
 /// The proof takes the angles of the directions to the chord as doubles give them, within 1e-15.
 ///
 /// # Errors
-/// [`Error::Domain`] naming a number that is not finite, ends that coincide, a greatest length not above their distance or beyond a million times
-/// that. [`Error::NoPath`] where no searched path is short enough, or none but such as all but stand still at their
-/// ends.
+/// [`Error::Domain`] naming a number that is not finite, ends that coincide, a greatest length not above their distance
+/// or beyond a million times that. [`Error::NoPath`] where no searched path is short enough, or none but such as all
+/// but stand still at their ends.
 ///
 /// ```
 /// use spiral_atlas::path::{Directions, Free, least_curvature};
@@ -239,15 +243,17 @@ impl Space {
         })
     }
 
-    /// Steps in directions all around, turned each time, as long as they help and not for ever, then shorter ones: between a kink or the greatest
-    /// length and what is better there may be little room, and along it a search would only creep.
+    /// Steps in directions all around, turned each time, as long as they help and not for ever, then shorter ones:
+    /// between a kink or the greatest length and what is better there may be little room, and along it a search would
+    /// only creep.
     fn refined(&self, mut x: [f64; 2], mut found: Candidate) -> ([f64; 2], Candidate) {
         let (mut step, mut turn, around) = (0.1, 0.0, if self.dimensions() == 1 { 2 } else { 24 });
         let mut moves = 0;
         while step > 1e-12 {
             let moved = (0..around).filter_map(|i| {
                 let angle = turn + std::f64::consts::TAU * f64::from(i) / f64::from(around);
-                let way = if self.dimensions() == 1 { [1.0 - 2.0 * f64::from(i); 2] } else { [angle.cos(), angle.sin()] };
+                let way =
+                    if self.dimensions() == 1 { [1.0 - 2.0 * f64::from(i); 2] } else { [angle.cos(), angle.sin()] };
                 let next = [0, 1].map(|i| (x[i] * (1.0 + step * way[i])).clamp(self.ranges[i][0], self.ranges[i][1]));
                 Some((next, self.at(next)?))
             });
@@ -279,7 +285,8 @@ mod tests {
     use crate::steps::counted;
     use std::f64::consts::PI;
 
-    /// Lengths that exceed the distance by ulps or much, and directions that are straight, nearly straight, mirrored, equal or opposed.
+    /// Lengths that exceed the distance by ulps or much, and directions that are straight, nearly straight, mirrored,
+    /// equal or opposed.
     #[test]
     fn the_work_does_not_depend_on_how_degenerate_the_ends_are() {
         let angles = [0.0, 5e-324, 1e-16, 1e-8, 1e-3, 0.5, 0.5 * PI, PI.next_down(), PI];
@@ -288,7 +295,8 @@ mod tests {
             for (i, first) in angles.into_iter().enumerate() {
                 for last in [-first.next_up(), angles[(i + 5) % angles.len()], 0.0] {
                     let (start, end, free) = ([0.0, 0.0], [1.0, 0.0], Free::Derivatives);
-                    let ends = Directions { start, end, start_direction: first, end_direction: last, greatest_length, free };
+                    let ends =
+                        Directions { start, end, start_direction: first, end_direction: last, greatest_length, free };
                     most = most.max(counted(|| least_curvature(&ends)).0);
                 }
             }

@@ -143,7 +143,8 @@ impl Motion {
             + self.mismatch
             + ROUNDINGS * self.size
             + f64::EPSILON
-                * (self.ways.len() as f64 * self.length() + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
+                * (self.ways.len() as f64 * self.length()
+                    + 4.0 * self.speed * (under_way.abs() + self.start_time.abs()));
         if time <= start || time >= end {
             return State { point, tangent: [0.0; 2], off, tangent_off: 0.0, speed: 0.0, curvature: 0.0 };
         }
@@ -158,12 +159,13 @@ impl Motion {
         }
     }
 
-    /// By how much the way from one vehicle to the other changes in a time, at most, but for four times what both points may be off; infinite
-    /// unless both go along pieces of the same shapes at the same speed.
+    /// By how much the way from one vehicle to the other changes in a time, at most, but for four times what both
+    /// points may be off; infinite unless both go along pieces of the same shapes at the same speed.
     ///
-    /// The other one is ahead along that shape by a constant length c, and `|x(s) - x(s + c)| <= |c|`: that changes by 2 |c|. Where shapes
-    /// differ by roundings, points at the same length along a piece differ by no more than [`Way::unlike`] more than they did at its start, and so
-    /// do lengths. What the points may be off covers the roundings of c, twice, and the jumps of both paths.
+    /// The other one is ahead along that shape by a constant length c, and `|x(s) - x(s + c)| <= |c|`: that changes by
+    /// 2 |c|. Where shapes differ by roundings, points at the same length along a piece differ by no more than
+    /// [`Way::unlike`] more than they did at its start, and so do lengths. What the points may be off covers the
+    /// roundings of c, twice, and the jumps of both paths.
     pub(super) fn drift(&self, other: &Motion, [from, to]: [f64; 2]) -> f64 {
         let under_way = |motion: &Motion| motion.times()[0] <= from && to <= motion.times()[1];
         if self.speed != other.speed || !under_way(self) || !under_way(other) {

@@ -3,8 +3,9 @@
 //! On a stretch of time with half-width h around a moment with the separation `r` and the relative velocity `v`, the
 //! separation stays above both `|r| - L h`, `L = V1 + V2`, and `min |r + vτ| - K h²/2`, `K = V1² κ1 + V2² κ2` with
 //! bounds of the curvatures. Stretches are halved, the one with the least bound first, until the least separation is
-//! enclosed and the verdict certain. Where both move in step the second bound needs far fewer stretches than the first; and where their pieces
-//! have the same shapes, as those of a formation, one stretch does: the way from one to the other does not change ([`Motion::drift`]).
+//! enclosed and the verdict certain. Where both move in step the second bound needs far fewer stretches than the first;
+//! and where their pieces have the same shapes, as those of a formation, one stretch does: the way from one to the
+//! other does not change ([`Motion::drift`]).
 
 use super::motion::{Motion, State};
 use super::queue::Queue;
@@ -75,15 +76,16 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
 /// [`separation`] of all pairs, as `(first, second, what is known)` with `first < second`.
 ///
 /// # Accuracy
-/// Verdicts are those of [`separation`]. Where 1,000,000 stretches do not suffice for all pairs together, the pairs that come nearest are
-/// enclosed as there, and others as far as it takes to decide them.
+/// Verdicts are those of [`separation`]. Where 1,000,000 stretches do not suffice for all pairs together, the pairs
+/// that come nearest are enclosed as there, and others as far as it takes to decide them.
 ///
 /// # Errors
 /// Those of [`separation`].
 pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<(usize, usize, Separation)>> {
     check(minimum)?;
     let pairs = (0..motions.len()).flat_map(|i| (i + 1..motions.len()).map(move |j| (i, j)));
-    let mut searches: Vec<(usize, usize, Search)> = pairs.map(|(i, j)| (i, j, Search::new(&motions[i], &motions[j]))).collect();
+    let mut searches: Vec<(usize, usize, Search)> =
+        pairs.map(|(i, j)| (i, j, Search::new(&motions[i], &motions[j]))).collect();
     for (_, _, search) in &mut searches {
         search.run(STRETCHES, |least, most| decided(minimum, least, most));
     }
@@ -129,7 +131,8 @@ impl Search<'_> {
     fn new<'m>(a: &'m Motion, b: &'m Motion) -> Search<'m> {
         let mut events = [a.times(), b.times()].concat();
         events.sort_by(f64::total_cmp);
-        let mut search = Search { a, b, waiting: Queue::new(), best: (f64::INFINITY, events[0], [[0.0; 2]; 2]), at_least: 0.0 };
+        let mut search =
+            Search { a, b, waiting: Queue::new(), best: (f64::INFINITY, events[0], [[0.0; 2]; 2]), at_least: 0.0 };
         // Where one starts or arrives the least separation often is. In between both keep standing or moving.
         for time in &events {
             search.look(*time);
@@ -140,7 +143,8 @@ impl Search<'_> {
         search
     }
 
-    /// Halves stretches until lower and upper bound are `enough`, or as near as roundings allow; the number looked at, `most` at most.
+    /// Halves stretches until lower and upper bound are `enough`, or as near as roundings allow; the number looked at,
+    /// `most` at most.
     fn run(&mut self, most: usize, enough: impl Fn(f64, f64) -> bool) -> usize {
         for count in 0..most {
             step();
@@ -227,8 +231,8 @@ mod tests {
         Piece::Cubic(Cubic { points: CubicBezier { p }, legs })
     }
 
-    /// Curves that coincide, touch, move in step or stand still, and a path of 20,000 pieces: a bounded number of stretches, and of steps of
-    /// Newton's method in each of its two moments.
+    /// Curves that coincide, touch, move in step or stand still, and a path of 20,000 pieces: a bounded number of
+    /// stretches, and of steps of Newton's method in each of its two moments.
     #[test]
     fn every_question_ends() {
         let shape = |up: f64| cubic([[0.0, up], [1.0, up], [2.0, 1.0 + up], [3.0, 1.0 + up]]);
@@ -258,8 +262,9 @@ mod tests {
         }
     }
 
-    /// A formation of 200: copies of one path of curves, lines and arcs, and others that only move as slowly as they do. Each pair of copies takes a
-    /// few stretches, and all pairs together no more than is allowed after they are decided.
+    /// A formation of 200: copies of one path of curves, lines and arcs, and others that only move as slowly as they
+    /// do. Each pair of copies takes a few stretches, and all pairs together no more than is allowed after they are
+    /// decided.
     #[test]
     fn formations_take_few_stretches() {
         let vehicle = |up: f64| {
@@ -277,7 +282,10 @@ mod tests {
             assert!(found.len() == pairs && steps < 4 * pairs, "{steps}");
             for (i, j, found) in found {
                 let (apart, closest) = (0.0131 * (j - i) as f64, found.closest);
-                assert!((closest.at_most - apart).abs() < 1e-9 && apart - closest.at_least < 1e-9, "{i} {j}: {found:?}");
+                assert!(
+                    (closest.at_most - apart).abs() < 1e-9 && apart - closest.at_least < 1e-9,
+                    "{i} {j}: {found:?}"
+                );
                 assert_eq!(found.verdict == Verdict::Kept, apart > 1.000001 * minimum, "{i} {j}: {found:?}");
             }
         }

@@ -23,20 +23,22 @@ pub struct Spline {
 
 /// The C² PH quintic spline through points, in order; open with cubic end spans, or closed.
 ///
-/// Span i has the pre-image `((z₋ + z)/2, z, (z + z₊)/2)`, so neighbours join with C² continuity whatever the z; what remains is
-/// `3z₋² + 27z² + 3z₊² + z₋z₊ + 13z₋z + 13zz₊ = 60Δp` for each span, with `z₋ = 2z - z₊` at an open end. Newton's method starts where
-/// the middle of each span has the derivative of the ordinary cubic spline.
+/// Span i has the pre-image `((z₋ + z)/2, z, (z + z₊)/2)`, so neighbours join with C² continuity whatever the z; what
+/// remains is `3z₋² + 27z² + 3z₊² + z₋z₊ + 13z₋z + 13zz₊ = 60Δp` for each span, with `z₋ = 2z - z₊` at an open end.
+/// Newton's method starts where the middle of each span has the derivative of the ordinary cubic spline.
 ///
 /// # Arguments
-/// - `points`: at least 2, or 3 of a closed curve, no two neighbours the same. The last point of a closed curve may repeat the first.
+/// - `points`: at least 2, or 3 of a closed curve, no two neighbours the same. The last point of a closed curve may
+///   repeat the first.
 ///
 /// # Accuracy
-/// Through every point exactly; derivatives agree at the joints as far as spans meet their points, to 1e-12 of the span's size.
+/// Through every point exactly; derivatives agree at the joints as far as spans meet their points, to 1e-12 of the
+/// span's size.
 ///
 /// # Errors
-/// [`Error::Domain`] naming a point that is not finite or coincides with the next, too few points, or that Newton's method did not
-/// converge, with the worst span: then there is no curve rather than a wrong one. It is uneven spacing and sharp turns that do this;
-/// more points help.
+/// [`Error::Domain`] naming a point that is not finite or coincides with the next, too few points, or that Newton's
+/// method did not converge, with the worst span: then there is no curve rather than a wrong one. It is uneven spacing
+/// and sharp turns that do this; more points help.
 ///
 /// ```
 /// use spiral_atlas::path::spline;
@@ -76,12 +78,17 @@ fn checked(points: &[[f64; 2]], closed: bool) -> Result<Vec<[f64; 2]>> {
     if closed && points.first() != points.last() {
         all.extend(points.first());
     }
-    let (least, kind) = if closed { (4, "a closed spline needs at least 3") } else { (2, "an open spline needs at least 2") };
+    let (least, kind) =
+        if closed { (4, "a closed spline needs at least 3") } else { (2, "an open spline needs at least 2") };
     if all.len() < least {
         return fail(format!("{} points; {kind} different ones", points.len()));
     }
     if let Some(i) = all.windows(2).position(|w| w[0] == w[1]) {
-        return fail(format!("points[{i}] and points[{}] are both {:?}; drop one of them", (i + 1) % points.len(), all[i]));
+        return fail(format!(
+            "points[{i}] and points[{}] are both {:?}; drop one of them",
+            (i + 1) % points.len(),
+            all[i]
+        ));
     }
     if let Some(i) = all.windows(2).position(|w| !(w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]).is_finite()) {
         return fail(format!(
@@ -98,7 +105,8 @@ struct Problem<'c> {
 }
 
 impl Problem<'_> {
-    /// The square roots of the ordinary cubic spline's derivatives in the middle of the spans, at acute angles to each other.
+    /// The square roots of the ordinary cubic spline's derivatives in the middle of the spans, at acute angles to each
+    /// other.
     fn roots(&self, closed: bool) -> Vec<Complex64> {
         let n = self.chords.len();
         let slopes = slopes(self.chords, closed);
@@ -239,7 +247,8 @@ fn slopes(chords: &[Complex64], closed: bool) -> Vec<Complex64> {
     let size = if closed { n } else { n + 1 };
     let mut system = Tridiagonal { lower: vec![one; size], diagonal: vec![4.0 * one; size], upper: vec![one; size] };
     let chord = |i: usize| chords.get(i).copied().unwrap_or(ZERO);
-    let mut right: Vec<Complex64> = (0..size).map(|i| 3.0 * (chord(i) + if i > 0 { chord(i - 1) } else { ZERO })).collect();
+    let mut right: Vec<Complex64> =
+        (0..size).map(|i| 3.0 * (chord(i) + if i > 0 { chord(i - 1) } else { ZERO })).collect();
     if closed {
         right[0] += 3.0 * chords[n - 1];
     } else {

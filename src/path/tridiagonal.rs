@@ -4,7 +4,8 @@ use num_complex::Complex64;
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
-/// `lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1]`; `lower[0]` and the last of `upper` are the corners of a closed loop, else 0.
+/// `lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1]`; `lower[0]` and the last of `upper` are the corners of a
+/// closed loop, else 0.
 #[derive(Debug, Clone)]
 pub struct Tridiagonal {
     pub lower: Vec<Complex64>,
@@ -15,12 +16,16 @@ pub struct Tridiagonal {
 impl Tridiagonal {
     /// The solution; numbers that are not finite where the matrix is singular.
     ///
-    /// Elimination with row exchanges. The corners are a change of rank one (Sherman and Morrison), for at least three unknowns.
+    /// Elimination with row exchanges. The corners are a change of rank one (Sherman and Morrison), for at least three
+    /// unknowns.
     pub fn solve(&self, right: &[Complex64]) -> Vec<Complex64> {
         let last = self.diagonal.len() - 1;
         let (corner, other) = (self.lower[0], self.upper[last]);
         if corner == ZERO && other == ZERO {
-            return eliminate(&self.lower, self.diagonal.clone(), &self.upper, [right.to_vec()]).into_iter().flatten().collect();
+            return eliminate(&self.lower, self.diagonal.clone(), &self.upper, [right.to_vec()])
+                .into_iter()
+                .flatten()
+                .collect();
         }
         // A = T + u vᵀ with u = (γ, 0 .. 0, other), v = (1, 0 .. 0, corner / γ).
         let gamma = -self.diagonal[0];

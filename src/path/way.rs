@@ -190,22 +190,34 @@ impl Way {
         // one.
         let length_off = blind_length + mismatch + ROUNDINGS * size + f64::EPSILON * cells.len() as f64 * before;
         let sizes = [largest(&curve.points()), size];
-        Way { curve: Curve::Integrated(curve, cells), length: before, length_off, mismatch, direction_off, curvature, sizes }
+        Way {
+            curve: Curve::Integrated(curve, cells),
+            length: before,
+            length_off,
+            mismatch,
+            direction_off,
+            curvature,
+            sizes,
+        }
     }
 
-    /// By how much two points after the same length on both, less those at the starts, differ at most; and so both lengths. Infinite where kinds
-    /// differ, or numbers that it cannot tell from.
+    /// By how much two points after the same length on both, less those at the starts, differ at most; and so both
+    /// lengths. Infinite where kinds differ, or numbers that it cannot tell from.
     ///
-    /// Derivatives differ by no more than `|w² - v²| <= |w - v| (|w| + |v|)`, or three times a difference of legs; so do speeds, and then
-    /// points after the same length by twice that.
+    /// Derivatives differ by no more than `|w² - v²| <= |w - v| (|w| + |v|)`, or three times a difference of legs; so
+    /// do speeds, and then points after the same length by twice that.
     pub fn unlike(&self, other: &Way) -> f64 {
         let most = |v: &[[f64; 2]]| v.iter().map(|x| length(*x)).fold(0.0, f64::max);
         let apart = |v: &[[f64; 2]], w: &[[f64; 2]]| v.iter().zip(w).map(|(v, w)| distance(*v, *w)).fold(0.0, f64::max);
         let equal = |same: bool| if same { 0.0 } else { f64::INFINITY };
         let derivatives = match (&self.curve, &other.curve) {
-            (Curve::Quintic(a), Curve::Quintic(b)) => apart(&a.preimage, &b.preimage) * (most(&a.preimage) + most(&b.preimage)),
+            (Curve::Quintic(a), Curve::Quintic(b)) => {
+                apart(&a.preimage, &b.preimage) * (most(&a.preimage) + most(&b.preimage))
+            }
             (Curve::Arc(a), Curve::Arc(b)) => equal(Arc { start: b.start, ..*a } == *b),
-            (Curve::Integrated(Bezier::Cubic(a), _), Curve::Integrated(Bezier::Cubic(b), _)) => 3.0 * apart(&a.legs, &b.legs),
+            (Curve::Integrated(Bezier::Cubic(a), _), Curve::Integrated(Bezier::Cubic(b), _)) => {
+                3.0 * apart(&a.legs, &b.legs)
+            }
             (Curve::Integrated(Bezier::Trig(a), _), Curve::Integrated(Bezier::Trig(b), _)) => {
                 let [c, d] = [&a.curve, &b.curve];
                 equal((c.sides, c.p, c.q, a.from, a.to) == (d.sides, d.p, d.q, b.from, b.to))

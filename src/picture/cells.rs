@@ -50,7 +50,8 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
 pub(super) fn slice(name: &str, family: &dyn Family, grid: &Grid, plan: &PicturePlan, known: &[Known]) -> Slice {
     let axes = grid.axes();
     let named = |name: &&str| family.about().flags.iter().position(|flag| flag.name == *name);
-    let usual = || family.about().nested.iter().take(1).chain(family.about().yes).filter_map(named).collect::<Vec<usize>>();
+    let usual =
+        || family.about().nested.iter().take(1).chain(family.about().yes).filter_map(named).collect::<Vec<usize>>();
     let shown = if plan.regions.is_empty() { usual() } else { plan.regions.clone() };
     let regions = shown.iter().flat_map(|bit| {
         let label = family.about().flags[*bit].label;
@@ -60,7 +61,8 @@ pub(super) fn slice(name: &str, family: &dyn Family, grid: &Grid, plan: &Picture
             Region { label: format!("{label}: INSIDE"), mask: mask(&|k| k.inside >> bit & 1 == 1) },
         ]
     });
-    let places: Vec<String> = plan.at.iter().filter_map(|(axis, nodes)| Some(place(&axes[*axis], *nodes.first()?))).collect();
+    let places: Vec<String> =
+        plan.at.iter().filter_map(|(axis, nodes)| Some(place(&axes[*axis], *nodes.first()?))).collect();
     let axis = |axis: usize| AxisView { values: middles(&axes[axis]), ..view(&axes[axis]) };
     Slice {
         title: heading(plan, &format!("{name}: {}", places.join(", "))),

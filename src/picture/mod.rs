@@ -73,7 +73,9 @@ pub fn slice(atlas: &dyn Source, plan: &PicturePlan) -> Result<Slice> {
 pub fn side_by_side(stem: &str, look: &Look, slices: Vec<Slice>) -> Result<Vec<u8>> {
     match SideBySide::new(stem, look, slices) {
         SideBySide::Alike(figure, usual) => plot::multiples_png(&figure, sheet(look, usual)),
-        SideBySide::Unlike { title, slices, columns, usual } => plot::montage_png(title, &slices, columns, sheet(look, usual)),
+        SideBySide::Unlike { title, slices, columns, usual } => {
+            plot::montage_png(title, &slices, columns, sheet(look, usual))
+        }
     }
 }
 
@@ -101,7 +103,8 @@ impl<'a> SideBySide<'a> {
             slice.note += &slice.regions.iter().map(share).collect::<String>();
         }
         let count = slices.len();
-        let labels = |slice: &Slice| slice.regions.iter().chain(&slice.outlines).map(|r| r.label.clone()).collect::<Vec<_>>();
+        let labels =
+            |slice: &Slice| slice.regions.iter().chain(&slice.outlines).map(|r| r.label.clone()).collect::<Vec<_>>();
         if slices.iter().any(|slice| labels(slice) != labels(&slices[0])) {
             let columns = count.min(3);
             let rows = count.div_ceil(columns) as u32;
@@ -154,7 +157,8 @@ pub fn check_side_by_side(stem: &str, look: &Look, slices: &[(&AtlasPlan, &Pictu
 fn check_letters(texts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
     for text in texts {
         if let Some(letter) = plot::missing_letter(text.as_ref()) {
-            let what = format!("the font has no letter `{letter}`, which stands in {:?}; write it in others", text.as_ref());
+            let what =
+                format!("the font has no letter `{letter}`, which stands in {:?}; write it in others", text.as_ref());
             return Err(Error::Domain(what));
         }
     }
@@ -171,7 +175,9 @@ fn check_size(look: &Look, usual: (u32, u32), fits: impl Fn(Sheet) -> Result<()>
     };
     let enough = (11..200).map(larger).find(|look| fits(sheet(look, usual)).is_ok());
     Err(match (error, enough.and_then(|look| look.size)) {
-        (Error::Domain(what), Some((width, height))) => Error::Domain(format!("{what}, such as `size = [{width}, {height}]`")),
+        (Error::Domain(what), Some((width, height))) => {
+            Error::Domain(format!("{what}, such as `size = [{width}, {height}]`"))
+        }
         (error, _) => error,
     })
 }

@@ -63,7 +63,9 @@ impl<'a> Part<'a> {
         let lengths = scalars.iter().map(|(name, values)| (*name, values.len())).chain([("flags", flags.len())]);
         match lengths.into_iter().find(|(_, length)| *length as u64 != count) {
             None => Ok(Part { outline, nodes, flags, scalars }),
-            Some((name, length)) => Err(Error::Domain(format!("`{name}` has {length} values; the chosen nodes are {count}"))),
+            Some((name, length)) => {
+                Err(Error::Domain(format!("`{name}` has {length} values; the chosen nodes are {count}")))
+            }
         }
     }
 

@@ -7,7 +7,8 @@ pub fn grouped(number: u64) -> String {
     digits.chars().enumerate().flat_map(|(i, c)| breaks(i).then_some(',').into_iter().chain([c])).collect()
 }
 
-/// A number with at most four decimals, or of four digits in scientific form where decimals would say nothing or fill lines.
+/// A number with at most four decimals, or of four digits in scientific form where decimals would say nothing or fill
+/// lines.
 pub fn short(x: f64) -> String {
     let size = x.abs();
     let text = if !(1e-4..1e15).contains(&size) { format!("{x:.3e}") } else { format!("{x:.4}") };

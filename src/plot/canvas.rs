@@ -250,7 +250,11 @@ impl Canvas {
         let room = width - self.text_width(em, "…");
         // Kept: the characters before the last that begins within the room.
         let kept = glyphs.partition_point(|glyph| f64::from(glyph.position.x) <= room).saturating_sub(1);
-        if room < 0.0 { String::new() } else { text.chars().take(kept).collect::<String>().trim_end().to_owned() + "…" }
+        if room < 0.0 {
+            String::new()
+        } else {
+            text.chars().take(kept).collect::<String>().trim_end().to_owned() + "…"
+        }
     }
 
     /// The text in lines of at most `width`, broken at spaces.
@@ -329,8 +333,8 @@ fn distance(p: Point, a: Point, b: Point) -> f64 {
 /// Whether a closed polygon holds a point (even-odd rule).
 fn holds(corners: &[Point], p: Point) -> bool {
     let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
-    let crossed =
-        pairs.filter(|(a, b)| (a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
+    let crossed = pairs
+        .filter(|(a, b)| (a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
     crossed.count() % 2 == 1
 }
 

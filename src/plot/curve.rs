@@ -82,7 +82,12 @@ pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     heading.draw(&mut canvas, style, sheet);
     draw_curve(&mut canvas, figure, style, Rect { right: middle, ..body })?;
     let right = Rect { left: middle + style.px(1.2), ..body };
-    draw_graphs(&mut canvas, figure, style, [Rect { bottom: half, ..right }, Rect { top: half + style.px(0.6), ..right }])?;
+    draw_graphs(
+        &mut canvas,
+        figure,
+        style,
+        [Rect { bottom: half, ..right }, Rect { top: half + style.px(0.6), ..right }],
+    )?;
     legend.draw(&mut canvas, style, (sheet.left, sheet.bottom - legend.height(style)));
     canvas.into_png()
 }
@@ -139,11 +144,12 @@ fn entries(figure: &CurveFigure) -> Vec<Entry> {
     entries
 }
 
-/// Which points of the derivative go against the change of curvature from the first point of their curve to its last; rounding noise
-/// does not.
+/// Which points of the derivative go against the change of curvature from the first point of their curve to its last;
+/// rounding noise does not.
 fn turns_back(figure: &CurveFigure) -> impl Fn(Point) -> bool {
     let noise = figure.derivative.points.iter().fold(0.0, |most: f64, p| most.max(p[1].abs())) * 1e-9;
-    let limits: Vec<f64> = [f64::NEG_INFINITY].into_iter().chain(figure.joints.iter().copied()).chain([f64::INFINITY]).collect();
+    let limits: Vec<f64> =
+        [f64::NEG_INFINITY].into_iter().chain(figure.joints.iter().copied()).chain([f64::INFINITY]).collect();
     let change = |limits: &[f64]| {
         let mut inside = figure.curvature.points.iter().filter(|p| (limits[0]..=limits[1]).contains(&p[0]));
         let first = inside.next();
@@ -165,8 +171,9 @@ fn draw_curve(canvas: &mut Canvas, figure: &CurveFigure, style: Style, area: Rec
     rect.left += width_left(canvas, &y, style, rect.height()) + style.px(1.6);
     check_room(canvas, rect)?;
     let [x, y] = window(figure, rect)?;
-    let to_sheet =
-        |points: &[Point]| -> Vec<Point> { points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect() };
+    let to_sheet = |points: &[Point]| -> Vec<Point> {
+        points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect()
+    };
     canvas.frame(rect, INK);
     let em = style.em;
     let diagonal = f64::from(rect.width() + rect.height()) / unit(&x, rect);
@@ -264,7 +271,14 @@ fn draw_graphs(canvas: &mut Canvas, figure: &CurveFigure, style: Style, areas: [
     Ok(())
 }
 
-fn draw_graph(canvas: &mut Canvas, graph: &Graph, [x, y]: [Scale; 2], style: Style, rect: Rect, wrong: &dyn Fn(Point) -> bool) {
+fn draw_graph(
+    canvas: &mut Canvas,
+    graph: &Graph,
+    [x, y]: [Scale; 2],
+    style: Style,
+    rect: Rect,
+    wrong: &dyn Fn(Point) -> bool,
+) {
     let zero = y.fraction(0.0);
     if (0.0..1.0).contains(&zero) {
         canvas.line(&[rect.at(0.0, zero), rect.at(1.0, zero)], 1.0, PALE, rect);

@@ -94,7 +94,8 @@ fn draw_key(canvas: &mut Canvas, style: Style, rect: Rect, key: Key) {
     }
 }
 
-/// How one of several outlines is told from the others: by its colour, and where there are more than colours, by the way its stripes run.
+/// How one of several outlines is told from the others: by its colour, and where there are more than colours, by the
+/// way its stripes run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outline {
     pub color: Color,
@@ -123,7 +124,13 @@ pub(super) struct Hatch {
 impl Hatch {
     pub fn new(style: Style) -> Hatch {
         let line = style.px(0.13).max(1);
-        Hatch { line, band: style.px(0.7).max(3), period: style.em * 0.7, half: style.em * 0.04 + 0.1, casing: style.em * 0.06 }
+        Hatch {
+            line,
+            band: style.px(0.7).max(3),
+            period: style.em * 0.7,
+            half: style.em * 0.04 + 0.1,
+            casing: style.em * 0.06,
+        }
     }
 
     /// Width of the casing on either side of the line.
@@ -131,7 +138,8 @@ impl Hatch {
         (self.line / 2).max(1)
     }
 
-    /// Draws as much of the stripes and their casing as lies on this pixel; of the casing alone where the stripes have ended.
+    /// Draws as much of the stripes and their casing as lies on this pixel; of the casing alone where the stripes have
+    /// ended.
     pub fn draw(&self, canvas: &mut Canvas, (x, y): (i32, i32), outline: Outline, stripes: bool) {
         // Distance from the nearest of the lines x - y, or x + y, = multiple of the period.
         let off = f64::from(if outline.rising { x + y } else { x - y }).rem_euclid(self.period);

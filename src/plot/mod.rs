@@ -89,7 +89,8 @@ pub fn symbol(name: &str) -> String {
         "f" | "H" | "w" | "a" | "k" => stem,
         _ => return name.to_owned(),
     };
-    let lowered = |c: char| c.to_digit(10).map_or(c, |d| ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'][d as usize]);
+    let lowered =
+        |c: char| c.to_digit(10).map_or(c, |d| ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'][d as usize]);
     letter.chars().chain(name[stem.len()..].chars().map(lowered)).collect()
 }
 

@@ -37,7 +37,8 @@ pub struct Multiples {
     pub columns: Vec<Caption>,
     /// What stands beside the rows, topmost first; the first line is nearest to them.
     pub rows: Vec<Caption>,
-    /// The panels row by row, all with the same labels of regions and outlines. Their titles and notes stand above them.
+    /// The panels row by row, all with the same labels of regions and outlines. Their titles and notes stand above
+    /// them.
     pub panels: Vec<Slice>,
 }
 
@@ -66,7 +67,11 @@ pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<
             label_left(&mut canvas, style, rect, layout.numbers, &slice.y.label);
         }
         let caption = Rect { top: rect.top - layout.above - style.px(0.2), ..rect };
-        Heading::new(&canvas, &slice.title, &slice.note, layout.small, rect.width()).draw(&mut canvas, layout.small, caption);
+        Heading::new(&canvas, &slice.title, &slice.note, layout.small, rect.width()).draw(
+            &mut canvas,
+            layout.small,
+            caption,
+        );
     }
     layout.draw_captions(&mut canvas, figure);
     let all: Vec<&Slice> = figure.panels.iter().collect();
@@ -87,7 +92,9 @@ fn check(figure: &Multiples) -> Result<()> {
         let of = |caption: &Caption| caption.values.iter().map(|(_, count)| count).sum::<usize>();
         if let Some(caption) = captions.iter().find(|caption| of(caption) != count) {
             let (name, of) = (&caption.name, of(caption));
-            return Err(Error::Domain(format!("the caption `{name}` is about {of} of {count} {what} of small multiples")));
+            return Err(Error::Domain(format!(
+                "the caption `{name}` is about {of} of {count} {what} of small multiples"
+            )));
         }
     }
     let labels = |slice: &Slice| -> Vec<String> {
@@ -161,8 +168,12 @@ impl<'a> Layout<'a> {
 
         let step = (width + between_columns, height + between_rows);
         let top = top + above;
-        let grid =
-            Rect { left, top, right: left + columns * step.0 - between_columns, bottom: top + rows * step.1 - between_rows };
+        let grid = Rect {
+            left,
+            top,
+            right: left + columns * step.0 - between_columns,
+            bottom: top + rows * step.1 - between_rows,
+        };
         check_room(canvas, Rect { left, top, right: left + width, bottom: top + height })?;
         let signs = Style { em: em.min(f64::from(width.min(height)) / 13.0), ..style };
         Ok(Layout { style, small, signs, heading, sheet, grid, shared, panel: (width, height), step, above, numbers })

@@ -1,8 +1,9 @@
 //! All colours of the pictures, chosen by two rules that the tests check.
 //!
-//! Contrast is that of the Web Content Accessibility Guidelines 2.2: the ratio of the relative luminances, each plus 0.05. It runs
-//! from 1 to 21. Lines, edges and signs have at least 3 to what is beside them (guideline 1.4.11), text has at least 4.5 (1.4.3).
-//! The lines of curves and paths have a white casing, so white is what is beside them wherever they lie.
+//! Contrast is that of the Web Content Accessibility Guidelines 2.2: the ratio of the relative luminances, each plus
+//! 0.05. It runs from 1 to 21. Lines, edges and signs have at least 3 to what is beside them (guideline 1.4.11), text
+//! has at least 4.5 (1.4.3). The lines of curves and paths have a white casing, so white is what is beside them
+//! wherever they lie.
 //!
 //! Colours that stand side by side in a legend also look different to readers without one kind of cones.
 
@@ -26,7 +27,8 @@ pub(super) const OBSTACLE: Color = [128, 128, 128];
 /// What lies within the clearance of them.
 pub(super) const GROWN: Color = [238, 228, 208];
 
-/// Lines beside each other: the four of Okabe and Ito (2008) that are dark enough for white paper, then three darker ones.
+/// Lines beside each other: the four of Okabe and Ito (2008) that are dark enough for white paper, then three darker
+/// ones.
 pub(super) const LINES: [Color; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [51, 34, 136], [120, 40, 0], INK];
 
@@ -40,7 +42,8 @@ const LEAST: f64 = 3.0;
 /// and for colour-blind readers.
 pub fn region_colors(count: usize) -> Vec<[u8; 3]> {
     const RAMP: [Color; 4] = [[226, 226, 226], [242, 188, 60], [38, 137, 152], [54, 26, 92]];
-    // Left out of the way along the ramp: beside some darker colours, these would need an edge that neither black nor white can be.
+    // Left out of the way along the ramp: beside some darker colours, these would need an edge that neither black nor
+    // white can be.
     const GAP: [f64; 2] = [1.28, 1.74];
     let picked: &[usize] = match count {
         0..=1 => &[2],
@@ -132,8 +135,8 @@ mod tests {
         least("curves and graphs across the line at 0", LEAST, beside(&[INK], &[PALE]));
     }
 
-    /// Casing and line together are seen on what they lie on, too: one of them has the contrast. (Of more than four regions some are so
-    /// middling that neither has; the line still stands out from its casing.)
+    /// Casing and line together are seen on what they lie on, too: one of them has the contrast. (Of more than four
+    /// regions some are so middling that neither has; the line still stands out from its casing.)
     #[test]
     fn cased_lines_stand_out_from_what_is_under_them() {
         let regions: Vec<Color> = (0..=4).flat_map(region_colors).chain([WHITE]).collect();
@@ -169,7 +172,8 @@ mod tests {
         }
     }
 
-    /// How a colour looks to readers without one kind of cones (Machado, Oliveira & Fernandes 2009, severity 1), as CIE L*a*b*.
+    /// How a colour looks to readers without one kind of cones (Machado, Oliveira & Fernandes 2009, severity 1), as CIE
+    /// L*a*b*.
     fn lab(color: Color, cones: &[[f64; 3]; 3]) -> [f64; 3] {
         let [r, g, b] = color.map(linear);
         let seen = cones.map(|row| (row[0] * r + row[1] * g + row[2] * b).clamp(0.0, 1.0));
@@ -186,9 +190,17 @@ mod tests {
     fn colour_blind_readers_tell_lines_apart() {
         let readers = [
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            [[0.152_286, 1.052_583, -0.204_868], [0.114_503, 0.786_281, 0.099_216], [-0.003_882, -0.048_116, 1.051_998]],
+            [
+                [0.152_286, 1.052_583, -0.204_868],
+                [0.114_503, 0.786_281, 0.099_216],
+                [-0.003_882, -0.048_116, 1.051_998],
+            ],
             [[0.367_322, 0.860_646, -0.227_968], [0.280_085, 0.672_501, 0.047_413], [-0.011_820, 0.042_940, 0.968_881]],
-            [[1.255_528, -0.076_749, -0.178_779], [-0.078_411, 0.930_809, 0.147_602], [0.004_733, 0.691_367, 0.303_900]],
+            [
+                [1.255_528, -0.076_749, -0.178_779],
+                [-0.078_411, 0.930_809, 0.147_602],
+                [0.004_733, 0.691_367, 0.303_900],
+            ],
         ];
         for (what, colors) in [("lines", &LINES[..]), ("outlines", &OUTLINES), ("regions", &region_colors(4))] {
             for (i, a) in colors.iter().enumerate() {
@@ -196,7 +208,8 @@ mod tests {
                     for cones in &readers {
                         let (p, q) = (lab(*a, cones), lab(*b, cones));
                         let apart = p.iter().zip(q).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt();
-                        // Okabe and Ito's own eight colours come as near as 16; 2 is what a trained eye just tells apart.
+                        // Okabe and Ito's own eight colours come as near as 16; 2 is what a trained eye just tells
+                        // apart.
                         assert!(apart > 16.0, "{what}: {a:?} and {b:?} are {apart:.1} apart");
                     }
                 }

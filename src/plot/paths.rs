@@ -48,10 +48,12 @@ pub struct PathsFigure {
     pub backdrop: Option<Backdrop>,
 }
 
-/// Draws a figure of `size` (width, height) pixels: the paths, to one scale in both directions, and on the right of them or below the graphs.
+/// Draws a figure of `size` (width, height) pixels: the paths, to one scale in both directions, and on the right of
+/// them or below the graphs.
 ///
 /// # Errors
-/// [`Error::Domain`] when a number is not finite, there is nothing to draw or it has no extent, or the size is 0, too large, or too small.
+/// [`Error::Domain`] when a number is not finite, there is nothing to draw or it has no extent, or the size is 0, too
+/// large, or too small.
 pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     let mut canvas = Canvas::new(size)?;
     let finite = |lines: &[Vec<Point>]| lines.iter().flatten().flatten().all(|v| v.is_finite());
@@ -167,7 +169,8 @@ fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
     let y = Scale::new(up, lo - air, hi + air, false)?;
     let rect = narrowed(canvas, &y, style, area)?;
     canvas.frame(rect, INK);
-    let places = |points: &[Point]| points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect::<Vec<_>>();
+    let places =
+        |points: &[Point]| points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect::<Vec<_>>();
     // Under the graphs, so that one that touches it is seen to.
     if let Some(level) = figure.level {
         canvas.cased(&places(&[[from, level], [to, level]]), style.em * 0.16, RED, rect);

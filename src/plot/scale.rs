@@ -3,7 +3,8 @@
 use super::AxisView;
 use crate::error::{Error, Result};
 
-/// A stretch of a linear or logarithmic axis. `lo` and `hi` are in the axis's own coordinate: the value or its logarithm.
+/// A stretch of a linear or logarithmic axis. `lo` and `hi` are in the axis's own coordinate: the value or its
+/// logarithm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     lo: f64,
@@ -190,7 +191,8 @@ impl Number {
 }
 
 fn superscript(number: i32) -> String {
-    let raised = |c: char| c.to_digit(10).map_or('⁻', |d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][d as usize]);
+    let raised =
+        |c: char| c.to_digit(10).map_or('⁻', |d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][d as usize]);
     number.to_string().chars().map(raised).collect()
 }
 
@@ -212,7 +214,10 @@ impl Cells {
             return fail("has no values; it must have at least one".into());
         }
         if let Some(bad) = values.iter().find(|v| !v.is_finite() || (axis.log && **v <= 0.0)) {
-            return fail(format!("has the value {bad}; it must be finite{}", if axis.log { " and above 0" } else { "" }));
+            return fail(format!(
+                "has the value {bad}; it must be finite{}",
+                if axis.log { " and above 0" } else { "" }
+            ));
         }
         if let Some(pair) = values.windows(2).find(|w| w[0] >= w[1]) {
             return fail(format!("has {} before {}; values must increase", pair[0], pair[1]));

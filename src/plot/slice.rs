@@ -28,7 +28,9 @@ pub fn slice_png(slice: &Slice, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
 pub fn montage_png(title: &str, slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
     if columns == 0 || slices.is_empty() {
         let (slices, columns) = (slices.len(), columns);
-        return Err(Error::Domain(format!("a montage of {slices} slices in {columns} columns; it needs at least 1 of each")));
+        return Err(Error::Domain(format!(
+            "a montage of {slices} slices in {columns} columns; it needs at least 1 of each"
+        )));
     }
     let sheet = sheet.into();
     let mut canvas = Canvas::new(sheet)?;
@@ -186,12 +188,13 @@ impl Panel<'_> {
         self.draw_marks(canvas, style, rect, mark_labels);
     }
 
-    /// Fills each pixel with the last region that holds its node. Where two fills of too little contrast meet, the pixels of the earlier
-    /// one have the colour of an edge: the later region keeps all of its own.
+    /// Fills each pixel with the last region that holds its node. Where two fills of too little contrast meet, the
+    /// pixels of the earlier one have the colour of an edge: the later region keeps all of its own.
     fn draw_regions(&self, canvas: &mut Canvas, style: Style, pixels: &Pixels) {
         let regions = &self.slice.regions;
         let colors = [vec![WHITE], region_colors(regions.len())].concat();
-        let edges: Vec<Vec<Option<Color>>> = colors.iter().map(|a| colors.iter().map(|b| edge(*a, *b)).collect()).collect();
+        let edges: Vec<Vec<Option<Color>>> =
+            colors.iter().map(|a| colors.iter().map(|b| edge(*a, *b)).collect()).collect();
         let fill = |node: usize| regions.iter().rposition(|region| region.mask[node]).map_or(0, |last| last + 1);
         let fills: Vec<usize> = (0..self.slice.x.values.len() * self.slice.y.values.len()).map(fill).collect();
         let width = style.px(0.07).max(1);
@@ -258,12 +261,13 @@ impl Pixels {
         self.rows[y as usize] + self.columns[x as usize]
     }
 
-    /// A line along the inside of a region's boundary and stripes further in, all in a white casing that parts them from every fill.
-    /// The boundary of a region that is the whole plot is the plot's, so many pixels further in.
+    /// A line along the inside of a region's boundary and stripes further in, all in a white casing that parts them
+    /// from every fill. The boundary of a region that is the whole plot is the plot's, so many pixels further in.
     fn draw_outline(&self, canvas: &mut Canvas, hatch: Hatch, region: &Region, outline: Outline, whole: Option<i32>) {
         let (line, rim) = (hatch.line, hatch.rim());
         let columns = self.columns.len();
-        let inside: Vec<bool> = self.rows.iter().flat_map(|j| self.columns.iter().map(move |i| region.mask[j + i])).collect();
+        let inside: Vec<bool> =
+            self.rows.iter().flat_map(|j| self.columns.iter().map(move |i| region.mask[j + i])).collect();
         let (width, height) = (columns as i32, self.rows.len() as i32);
         let within = |at: usize, inset: i32| {
             let (x, y) = ((at % columns) as i32, (at / columns) as i32);
@@ -291,8 +295,8 @@ impl Pixels {
 /// A pixel's side in the unit of [`depths`].
 const STEP: i32 = 5;
 
-/// How far each pixel of a mask is from the nearest one that is not as it is, in fifths of a pixel, by steps of 1 to the sides and 1.4
-/// across corners: one sweep down and one up (Borgefors 1986). Neighbours differ by one step at most.
+/// How far each pixel of a mask is from the nearest one that is not as it is, in fifths of a pixel, by steps of 1 to
+/// the sides and 1.4 across corners: one sweep down and one up (Borgefors 1986). Neighbours differ by one step at most.
 fn depths(inside: &[bool], columns: usize) -> Vec<i32> {
     const AROUND: [(i32, i32, i32); 8] =
         [(-1, 0, STEP), (1, 0, STEP), (0, -1, STEP), (0, 1, STEP), (-1, -1, 7), (1, -1, 7), (-1, 1, 7), (1, 1, 7)];

@@ -58,12 +58,22 @@ struct Slice<'p> {
 ///
 /// # Errors
 /// [`Error::Domain`] for a datum, a slice or a number of cells that is none; [`Error::Undecided`] at the precision cap.
-pub fn boundary(property: &Property, point: &[f64], axes: [usize; 2], within: [[f64; 2]; 2], cells: usize) -> Result<Boundary> {
+pub fn boundary(
+    property: &Property,
+    point: &[f64],
+    axes: [usize; 2],
+    within: [[f64; 2]; 2],
+    cells: usize,
+) -> Result<Boundary> {
     let mut slice = Slice::new(property, point, axes, within, cells)?;
     let (mixed, boxes) = slice.mixed(cells);
     let mut segments = Vec::new();
-    let mut found =
-        Boundary { outlines: Vec::new(), open: Vec::new(), cell: within.map(|[low, high]| (high - low) / cells as f64), boxes };
+    let mut found = Boundary {
+        outlines: Vec::new(),
+        open: Vec::new(),
+        cell: within.map(|[low, high]| (high - low) / cells as f64),
+        boxes,
+    };
     for cell in mixed {
         let edges = slice.crossed(cell)?;
         if edges.is_empty() {
@@ -89,7 +99,13 @@ pub fn boundary(property: &Property, point: &[f64], axes: [usize; 2], within: [[
 }
 
 impl<'p> Slice<'p> {
-    fn new(property: &'p Property, point: &[f64], axes: [usize; 2], within: [[f64; 2]; 2], cells: usize) -> Result<Slice<'p>> {
+    fn new(
+        property: &'p Property,
+        point: &[f64],
+        axes: [usize; 2],
+        within: [[f64; 2]; 2],
+        cells: usize,
+    ) -> Result<Slice<'p>> {
         if !(cells.is_power_of_two() && (2..=MOST_CELLS).contains(&cells)) {
             return Err(Error::Domain(format!(
                 "there are {cells} cells a side; it must be a power of two from 2 to {MOST_CELLS}"
@@ -188,7 +204,11 @@ impl<'p> Slice<'p> {
             [a, b, c, d] => {
                 let middle = |side: usize, k: usize| 0.5 * self.lines[side][k] + 0.5 * self.lines[side][k + 1];
                 // The middle goes with two opposite corners; the outline passes around the other two.
-                if self.at([middle(0, i), middle(1, j)])? == holds[0] { vec![[a, b], [c, d]] } else { vec![[d, a], [b, c]] }
+                if self.at([middle(0, i), middle(1, j)])? == holds[0] {
+                    vec![[a, b], [c, d]]
+                } else {
+                    vec![[d, a], [b, c]]
+                }
             }
             _ => Vec::new(),
         })
@@ -207,8 +227,9 @@ impl<'p> Slice<'p> {
             match self.property.over(&cell) {
                 Some(known) if Some(known) == holds => {}
                 None if boxes < MOST_PARTS => {
-                    let relative =
-                        |axis: &usize| (cell.high[*axis] - cell.low[*axis]) / (self.whole_side(*axis)).max(f64::MIN_POSITIVE);
+                    let relative = |axis: &usize| {
+                        (cell.high[*axis] - cell.low[*axis]) / (self.whole_side(*axis)).max(f64::MIN_POSITIVE)
+                    };
                     let widest = self.axes.into_iter().max_by(|a, b| relative(a).total_cmp(&relative(b)));
                     match widest.and_then(|axis| Some((axis, cell.middle(axis)?))) {
                         Some((axis, middle)) => waiting.extend(cell.parts(axis, middle)),

@@ -187,8 +187,9 @@ impl Search<'_> {
         if self.metric.distance(&to) > 2.0 * best || self.property.at(&to)? != Some(true) {
             return Ok(false);
         }
-        let at =
-            |share: f64| -> Vec<f64> { self.metric.point.iter().zip(&to).map(|(from, to)| from + share * (to - from)).collect() };
+        let at = |share: f64| -> Vec<f64> {
+            self.metric.point.iter().zip(&to).map(|(from, to)| from + share * (to - from)).collect()
+        };
         // The datum itself has it not.
         let (mut fails, mut holds, mut found) = (0.0, 1.0, to.clone());
         for _ in 0..40 {
@@ -237,7 +238,9 @@ fn searched(property: &Property, point: &[f64], weights: &[f64]) -> Result<Cell>
     }
     for (i, (weight, axis)) in weights.iter().zip(property.axes()).enumerate() {
         if weight.is_nan() || *weight <= 0.0 {
-            return Err(Error::Domain(format!("the weight of {axis} is {weight}; it must be above 0 (infinity keeps {axis})")));
+            return Err(Error::Domain(format!(
+                "the weight of {axis} is {weight}; it must be above 0 (infinity keeps {axis})"
+            )));
         }
         if weight.is_finite() {
             (whole.low[i], whole.high[i]) = (point[i].min(-FAR), point[i].max(FAR));
@@ -249,11 +252,13 @@ fn searched(property: &Property, point: &[f64], weights: &[f64]) -> Result<Cell>
 /// Parts of a box along the side that says most: the one that moves what is open most, or the widest as distances go.
 fn divided(metric: &Metric<'_>, cell: &Cell, pull: [f64; MOST_SIDES]) -> Option<[Cell; 2]> {
     let pull = |i: usize| if pull[i].is_finite() { pull[i] } else { 0.0 };
-    let width = |i: usize| (cell.high[i] - cell.low[i]) * if metric.weights[i].is_finite() { metric.weights[i] } else { 0.0 };
+    let width =
+        |i: usize| (cell.high[i] - cell.low[i]) * if metric.weights[i].is_finite() { metric.weights[i] } else { 0.0 };
     let sides = 0..metric.point.len();
     let widest = sides.clone().map(width).fold(f64::MIN_POSITIVE, f64::max);
     let most = sides.clone().map(pull).fold(f64::MIN_POSITIVE, f64::max);
     let score = |i: usize| pull(i) / most + width(i) / widest;
-    let (side, at) = sides.filter_map(|i| Some((i, cell.middle(i)?))).max_by(|a, b| score(a.0).total_cmp(&score(b.0)))?;
+    let (side, at) =
+        sides.filter_map(|i| Some((i, cell.middle(i)?))).max_by(|a, b| score(a.0).total_cmp(&score(b.0)))?;
     Some(cell.parts(side, at))
 }

@@ -31,7 +31,8 @@ impl Property {
         })?;
         let about = found.about();
         let chart = about.charts.iter().position(|c| c.axes == axes && region.covers(c.name)).ok_or_else(|| {
-            let all: Vec<String> = about.charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(" ")).collect();
+            let all: Vec<String> =
+                about.charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(" ")).collect();
             Error::Domain(format!("the axes are {}; of `{family}` they must be {}", axes.join(" "), all.join(", or ")))
         })?;
         let bit = about.flags.iter().position(|f| f.name == flag).ok_or_else(|| {

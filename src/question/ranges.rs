@@ -44,8 +44,8 @@ pub struct Ranges {
 /// - `within`: the interval of that coordinate. What of it lies outside the family's domain counts as failing.
 ///
 /// # Accuracy
-/// `ends` are exact. `inner` and `outer` differ by some 1e-12 to 1e-10, relative, where the property crosses its limit at
-/// an angle; by more where it comes near to its limit without crossing. All is proved by boxes, nothing is sampled.
+/// `ends` are exact. `inner` and `outer` differ by some 1e-12 to 1e-10, relative, where the property crosses its limit
+/// at an angle; by more where it comes near to its limit without crossing. All is proved by boxes, nothing is sampled.
 ///
 /// # Errors
 /// [`Error::Domain`] for a datum or an interval that is none; [`Error::Undecided`] at the precision cap.
@@ -59,7 +59,9 @@ pub fn ranges(property: &Property, point: &[f64], axis: usize, within: [f64; 2])
     let mut whole = property.point(&point)?;
     let [low, high] = within;
     if !(low < high && high.is_finite()) {
-        return Err(Error::Domain(format!("the interval is {low:?} to {high:?}; it must have two finite, increasing ends")));
+        return Err(Error::Domain(format!(
+            "the interval is {low:?} to {high:?}; it must have two finite, increasing ends"
+        )));
     }
     whole.high[axis] = high;
     if !property.clip(&mut whole) {

@@ -18,7 +18,9 @@ pub(super) fn cells(raw: &RawAtlas) -> Result<Option<CellsPlan>, Fault> {
     let kind = raw.kind.as_ref().map_or("nodes", |kind| kind.get_ref());
     match (kind, &raw.resolution, &raw.budget) {
         ("nodes", None, None) => Ok(None),
-        ("nodes", Some(key), _) => Err(Fault::new(key.span(), "`resolution` belongs to an atlas with `kind = \"cells\"`")),
+        ("nodes", Some(key), _) => {
+            Err(Fault::new(key.span(), "`resolution` belongs to an atlas with `kind = \"cells\"`"))
+        }
         ("nodes", _, Some(key)) => Err(Fault::new(key.span(), "`budget` belongs to an atlas with `kind = \"cells\"`")),
         ("cells", Some(resolution), Some(budget)) => {
             let cells = *resolution.get_ref();
@@ -47,7 +49,8 @@ fn bytes(text: &Spanned<String>) -> Result<u64, Fault> {
     match size {
         Some(size) if (1.0..=MOST as f64).contains(&size) => Ok(size as u64),
         _ => {
-            let what = format!("`budget` is {given:?}; it must be a size such as \"32 MiB\", in KiB, MiB or GiB, up to 8 GiB");
+            let what =
+                format!("`budget` is {given:?}; it must be a size such as \"32 MiB\", in KiB, MiB or GiB, up to 8 GiB");
             Err(Fault::new(text.span(), what))
         }
     }

@@ -1,7 +1,8 @@
-//! All keys of a recipe, from which the page docs/recipes.md is made, and from which the reader takes its words for a value of the wrong kind.
+//! All keys of a recipe, from which the page docs/recipes.md is made, and from which the reader takes its words for a
+//! value of the wrong kind.
 //!
-//! Tests hold this list to what the reader does: each table has just the keys that the reader knows, in its order; keys without a
-//! default are those that it misses; every example is accepted.
+//! Tests hold this list to what the reader does: each table has just the keys that the reader knows, in its order; keys
+//! without a default are those that it misses; every example is accepted.
 
 use super::levels::LEVELS_RULE;
 use super::look::{DPI, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, RESOLUTIONS, SLICE_SIZE};
@@ -219,7 +220,12 @@ fn picture() -> Table {
             "flags are drawn",
             "Which scalar to fill by `levels`, in place of flags.",
         ),
-        optional("levels", LEVELS_RULE, "flags are drawn", "Fills where the scalar is at most so much, the least level darkest."),
+        optional(
+            "levels",
+            LEVELS_RULE,
+            "flags are drawn",
+            "Fills where the scalar is at most so much, the least level darkest.",
+        ),
         optional(
             "mark",
             "a list of tables such as `[{ kappa0 = 0.4, kappa1 = 4, label = \"mine\" }]`",
@@ -297,7 +303,8 @@ mod tests {
             let known = message.split_once("known are `").unwrap_or_else(|| panic!("{message}")).1;
             let known: Vec<&str> = known.trim_end_matches('`').split("`, `").collect();
             let ours: Vec<&str> = table.keys.iter().map(|key| key.name).collect();
-            let ours: Vec<&str> = ours.iter().map(|name| *[*name, "kappa0", "kappa1"].get(places(name)).unwrap()).collect();
+            let ours: Vec<&str> =
+                ours.iter().map(|name| *[*name, "kappa0", "kappa1"].get(places(name)).unwrap()).collect();
             assert_eq!(known, ours, "{}", table.heading);
         }
     }
@@ -316,16 +323,19 @@ mod tests {
         let (mut missed, mut spared) = (Vec::new(), Vec::new());
         for (i, line) in lines.iter().enumerate() {
             let Some((name, _)) = line.split_once(" = ") else { continue };
-            let rest: String = lines.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, l)| format!("{l}\n")).collect();
+            let rest: String =
+                lines.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, l)| format!("{l}\n")).collect();
             let list = if Recipe::parse(&rest).is_err() { &mut missed } else { &mut spared };
             list.push(name);
         }
-        // The four axes are missed because the chart has them, `at` because this slice leaves axes of several values open.
+        // The four axes are missed because the chart has them, `at` because this slice leaves axes of several values
+        // open.
         assert_eq!(missed, ["family", "name", "phi0", "phi1", "kappa0", "kappa1", "kind", "x", "y", "at"]);
         assert_eq!(spared, ["fields", "title", "size", "dpi", "mark", "title", "size", "dpi"]);
         let needed = |table: Table| table.keys.into_iter().filter(|key| key.default.is_none()).map(|key| key.name);
         let needed: Vec<&str> = tables().into_iter().flat_map(needed).collect();
-        let expected = ["family", "atlas", "name", "axes", "kind", "x", "y", "the name of `x`", "the name of `y`", "label"];
+        let expected =
+            ["family", "atlas", "name", "axes", "kind", "x", "y", "the name of `x`", "the name of `y`", "label"];
         assert_eq!(needed, expected);
         for part in ["kappa0 = 0.4, ", "kappa1 = 4, ", ", label = \"example 1\""] {
             assert!(complaint(&recipe.replacen(part, "", 1)).contains("the mark lacks"), "{part}");

@@ -32,7 +32,8 @@ pub(super) fn levels(
     let known: Vec<&'static str> = stored.iter().map(|i| family.about().scalars[*i].name).collect();
     let name = known.iter().find(|name| *name == field.get_ref());
     let name = name.ok_or_else(|| Fault::new(field.span(), unknown("field of this atlas", field.get_ref(), &known)))?;
-    let rising = values.get_ref().windows(2).all(|pair| pair[0] < pair[1]) && values.get_ref().iter().all(|x| x.is_finite());
+    let rising =
+        values.get_ref().windows(2).all(|pair| pair[0] < pair[1]) && values.get_ref().iter().all(|x| x.is_finite());
     if values.get_ref().is_empty() || !rising {
         return Err(Fault::new(values.span(), "the levels must be finite and increase"));
     }

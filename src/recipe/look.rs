@@ -57,13 +57,19 @@ pub(super) fn look(
         look.dpi = dpi.get_ref().count();
         let [least, most] = RESOLUTIONS;
         if !(least..=most).contains(&look.dpi) {
-            return Err(Fault::new(dpi.span(), format!("`dpi` is {}; it must be {least} to {most} pixels per inch", look.dpi)));
+            return Err(Fault::new(
+                dpi.span(),
+                format!("`dpi` is {}; it must be {least} to {most} pixels per inch", look.dpi),
+            ));
         }
     }
     if let Some(size) = size {
         let fail = |what: String| Err(Fault::new(size.span(), what));
         let [width, height] = size.get_ref()[..] else {
-            return fail(format!("`size` has {} numbers; it is a list of two, width and height in pixels", size.get_ref().len()));
+            return fail(format!(
+                "`size` has {} numbers; it is a list of two, width and height in pixels",
+                size.get_ref().len()
+            ));
         };
         let (width, height) = (width.count(), height.count());
         if width == 0 || height == 0 {
@@ -75,7 +81,8 @@ pub(super) fn look(
     look.at = at.as_ref().map(|at| at.start).or(picture);
     match at {
         Some(at) if u64::from(wide) * u64::from(high) > MAX_PIXELS => {
-            let what = format!("the picture would have {wide} x {high} pixels; the product must be at most {MAX_PIXELS}");
+            let what =
+                format!("the picture would have {wide} x {high} pixels; the product must be at most {MAX_PIXELS}");
             Err(Fault::new(at, format!("{what}, so take a smaller `size` or `dpi`")))
         }
         _ => Ok(look),

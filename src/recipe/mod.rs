@@ -64,7 +64,7 @@ pub struct AtlasPlan {
     pub name: String,
     /// The family: the recipe's, unless the atlas has its own.
     pub family: &'static dyn Family,
-    /// The scalars to store, in the recipe's order: indices into [`About::scalars`].
+    /// The scalars to store, in the recipe's order: indices into [`crate::family::About::scalars`].
     pub scalars: Vec<usize>,
     /// What the axes are.
     pub chart: &'static Chart,
@@ -87,7 +87,8 @@ pub struct PicturePlan {
     pub y: usize,
     /// The other axes, slowest first, each with the nodes to show, increasing: just one on a slice.
     pub at: Vec<(usize, Vec<usize>)>,
-    /// Flags to fill, each over those before: indices into [`About::flags`]. Empty: the family's own choice.
+    /// Flags to fill, each over those before: indices into [`crate::family::About::flags`]. Empty: the family's own
+    /// choice.
     pub regions: Vec<usize>,
     /// Flags to draw as outlines, where `regions` are chosen.
     pub outlines: Vec<usize>,
@@ -163,7 +164,10 @@ fn resolve(text: &str) -> Result<Recipe, Fault> {
         let scalars = scalars(family, &raw.fields)?;
         let plan = plan(atlas, family, scalars)?;
         if atlases.iter().any(|other| other.name == plan.name) {
-            return Err(Fault::new(name, format!("two atlases are named `{}`; their files need different names", plan.name)));
+            return Err(Fault::new(
+                name,
+                format!("two atlases are named `{}`; their files need different names", plan.name),
+            ));
         }
         atlases.push(plan);
     }
@@ -206,8 +210,14 @@ fn plan(raw: RawAtlas, family: &'static dyn Family, scalars: Vec<usize>) -> Resu
     let edges = cells.map(|cells| cells.resolution + 1);
     let mut axes = Vec::new();
     for name in chart.axes {
-        let Some(axis) = raw.axes.get_ref().iter().find(|(key, _)| key.get_ref() == name).map(|(_, axis)| axis) else { continue };
-        axes.push(spacing(name, axis.get_ref(), edges).and_then(|s| new_axis(name, s)).map_err(|e| Fault::new(axis.span(), e))?);
+        let Some(axis) = raw.axes.get_ref().iter().find(|(key, _)| key.get_ref() == name).map(|(_, axis)| axis) else {
+            continue;
+        };
+        axes.push(
+            spacing(name, axis.get_ref(), edges)
+                .and_then(|s| new_axis(name, s))
+                .map_err(|e| Fault::new(axis.span(), e))?,
+        );
     }
     let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
     if cells.is_some() {
@@ -232,9 +242,11 @@ fn chart(
     }
     let fits = |c: &&Chart| c.axes.len() == given.len() && given.iter().all(|key| c.axes.contains(&&key.get_ref()[..]));
     family.about().charts.iter().find(fits).ok_or_else(|| {
-        let charts: Vec<String> = family.about().charts.iter().map(|c| format!("{} ({})", c.axes.join(", "), c.name)).collect();
+        let charts: Vec<String> =
+            family.about().charts.iter().map(|c| format!("{} ({})", c.axes.join(", "), c.name)).collect();
         let given: Vec<&str> = given.iter().map(|key| &key.get_ref()[..]).collect();
-        let what = format!("the axes are {}; `{}` takes {}", given.join(", "), family.about().name, charts.join(" or "));
+        let what =
+            format!("the axes are {}; `{}` takes {}", given.join(", "), family.about().name, charts.join(" or "));
         Fault::new(axes.span(), what)
     })
 }
@@ -244,12 +256,18 @@ fn spacing(name: &str, raw: &RawAxis, edges: Option<usize>) -> Result<Spacing, S
     let count = match (edges, raw.count, &raw.values) {
         (None, count, _) => count,
         (Some(edges), None, None) => Some(edges),
-        _ => return Err(format!("axis `{name}` of cells takes `{{ linear = [first, last] }}` or `{{ log = [first, last] }}`")),
+        _ => {
+            return Err(format!(
+                "axis `{name}` of cells takes `{{ linear = [first, last] }}` or `{{ log = [first, last] }}`"
+            ));
+        }
     };
     match (raw.linear.as_deref(), raw.log.as_deref(), &raw.values, count) {
         (Some([lo, hi]), None, None, Some(count)) => Ok(Spacing::Linear { lo: lo.on(name)?, hi: hi.on(name)?, count }),
         (None, Some([lo, hi]), None, Some(count)) => Ok(Spacing::Log { lo: lo.on(name)?, hi: hi.on(name)?, count }),
-        (None, None, Some(values), None) => values.iter().map(|v| v.on(name)).collect::<Result<_, _>>().map(Spacing::Values),
+        (None, None, Some(values), None) => {
+            values.iter().map(|v| v.on(name)).collect::<Result<_, _>>().map(Spacing::Values)
+        }
         _ => Err(format!("axis `{name}` takes {}", keys::AXIS)),
     }
 }
@@ -258,7 +276,13 @@ fn new_axis(name: &str, spacing: Spacing) -> Result<Axis, String> {
     Axis::new(name, spacing).map_err(|e| e.to_string())
 }
 
-fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, stored: &[usize]) -> Result<PicturePlan, Fault> {
+fn picture(
+    raw: &RawPicture,
+    grid: &Grid,
+    family: &dyn Family,
+    chart: &Chart,
+    stored: &[usize],
+) -> Result<PicturePlan, Fault> {
     let kind = match &raw.kind.get_ref()[..] {
         "slice" => PictureKind::Slice,
         "union" => PictureKind::Union,
@@ -302,7 +326,8 @@ fn picture(raw: &RawPicture, grid: &Grid, family: &dyn Family, chart: &Chart, st
 
 /// The family that a picture compares with: both have a `SPIRAL`, and the other a chart of the same axes.
 fn compared(raw: &RawPicture, family: &dyn Family, chart: &Chart) -> Result<&'static str, Fault> {
-    let with = raw.with.as_ref().ok_or_else(|| Fault::new(raw.kind.span(), "the picture lacks `with`, the other family"))?;
+    let with =
+        raw.with.as_ref().ok_or_else(|| Fault::new(raw.kind.span(), "the picture lacks `with`, the other family"))?;
     let other = family_of(with)?;
     let spiral = |family: &dyn Family| family.about().flags.iter().any(|f| f.name == "SPIRAL");
     if !other.about().charts.iter().any(|c| c.axes == chart.axes) || !spiral(family) || !spiral(other) {

@@ -28,9 +28,10 @@ pub(super) fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<
     let (name, count) = (axis.name(), axis.values().len());
     let Some((_, given)) = raw.at.iter().find(|(key, _)| key.get_ref() == name) else {
         return match kind {
-            PictureKind::Slice | PictureKind::Compare { .. } if count > 1 => {
-                Err(Fault::new(raw.kind.span(), format!("the slice leaves `{name}` open; say `at = {{ {name} = .. }}`")))
-            }
+            PictureKind::Slice | PictureKind::Compare { .. } if count > 1 => Err(Fault::new(
+                raw.kind.span(),
+                format!("the slice leaves `{name}` open; say `at = {{ {name} = .. }}`"),
+            )),
             PictureKind::Union => Ok((0..count).collect()),
             _ if count <= PANELS => Ok((0..count).collect()),
             _ => Ok((0..PANELS).map(|i| i * (count - 1) / (PANELS - 1)).collect()),
@@ -54,7 +55,9 @@ pub(super) fn nodes(raw: &RawPicture, kind: PictureKind, axis: &Axis) -> Result<
             return Err(fail(format!("{name} = {point} lies outside the axis, which runs from {first} to {last}")));
         };
         if nodes.last().is_some_and(|last| *last >= node) {
-            return Err(fail(format!("the values of `{name}` must increase, from node to node of the axis; {point} does not")));
+            return Err(fail(format!(
+                "the values of `{name}` must increase, from node to node of the axis; {point} does not"
+            )));
         }
         nodes.push(node);
     }

@@ -134,7 +134,9 @@ pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
 pub(super) fn unknown(what: &str, given: &str, known: &[&str]) -> String {
     let distance = |name: &&&str| strsim::damerau_levenshtein(given, name);
     match known.iter().min_by_key(distance) {
-        Some(name) if distance(&name) <= 1 + name.len() / 3 => format!("unknown {what} `{given}`; did you mean `{name}`?"),
+        Some(name) if distance(&name) <= 1 + name.len() / 3 => {
+            format!("unknown {what} `{given}`; did you mean `{name}`?")
+        }
         Some(_) => format!("unknown {what} `{given}`; known are `{}`", known.join("`, `")),
         None => format!("unknown {what} `{given}`"),
     }
@@ -159,7 +161,8 @@ pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
 /// Reads an angle: `40deg` or `40°`, `0.7rad`, or radians alone, `0.7`. Beyond a full turn the unit must be named.
 ///
 /// # Returns
-/// Radians; degrees are divided by 180 and then multiplied by π, each rounded once, so that `180deg` is π's double itself.
+/// Radians; degrees are divided by 180 and then multiplied by π, each rounded once, so that `180deg` is π's double
+/// itself.
 ///
 /// # Errors
 /// [`Error::Domain`] when it is no finite number with one of these units, or a number above 2π alone: degrees, most
@@ -187,8 +190,8 @@ pub fn parse_angle(text: &str) -> Result<f64> {
             "{text:?} is more than a full turn in radians; say which unit is meant: `{trimmed}deg` or `{trimmed}rad`"
         ))),
         Ok(value) if value.is_finite() => Ok(if degrees { value / 180.0 * PI } else { value }),
-        _ => {
-            Err(Error::Domain(format!("{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`")))
-        }
+        _ => Err(Error::Domain(format!(
+            "{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`"
+        ))),
     }
 }

@@ -155,7 +155,11 @@ pub fn reference() -> String {
         family.about().flags.iter().for_each(|flag| page += &format!("| `{}` | {} |\n", flag.name, cell(flag.doc)));
         if !family.about().scalars.is_empty() {
             page += "\n| scalar | is |\n| --- | --- |\n";
-            family.about().scalars.iter().for_each(|scalar| page += &format!("| `{}` | {} |\n", scalar.name, cell(scalar.doc)));
+            family
+                .about()
+                .scalars
+                .iter()
+                .for_each(|scalar| page += &format!("| `{}` | {} |\n", scalar.name, cell(scalar.doc)));
         }
     }
     page

@@ -1,4 +1,5 @@
-//! What a reader of recipes complains of, in the words of a recipe: the key, what stands there, and what may stand there.
+//! What a reader of recipes complains of, in the words of a recipe: the key, what stands there, and what may stand
+//! there.
 
 use super::keys::takes;
 use super::raw::{Fault, unknown};

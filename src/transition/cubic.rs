@@ -46,8 +46,8 @@ pub struct Solution {
     pub control_points: CubicBezier,
     /// The same relative to the start point, for coordinates far from the origin.
     pub local_control_points: CubicBezier,
-    /// The sides of the control polygon, each to a few ulp of itself: a third of the derivative's control points, and what to
-    /// differentiate where an end's tangent is short. See [`CubicBezier::legs`].
+    /// The sides of the control polygon, each to a few ulp of itself: a third of the derivative's control points, and
+    /// what to differentiate where an end's tangent is short. See [`CubicBezier::legs`].
     pub legs: [[f64; 2]; 3],
     /// Parameters of its curvature extrema; empty on a spiral.
     pub extrema: Vec<f64>,
@@ -56,14 +56,15 @@ pub struct Solution {
 /// Finds the cubic spiral between two ends, or says why there is none.
 ///
 /// # Accuracy
-/// Existence is proved for the normalised doubles in [`Answer::datum`], which differ from the exact normal form of the user's
-/// data by rounding; see [`Placement::normalise`]. The curve's end points are the user's, exactly; end directions and curvatures of
-/// [`Solution::legs`] are the user's to 1e-14 over `sin(phi0 + phi1)` and `1 - f/3` of the other end; those of control points to that
-/// over the length of the end's tangent in half chords (curvatures: its square).
+/// Existence is proved for the normalised doubles in [`Answer::datum`], which differ from the exact normal form of the
+/// user's data by rounding; see [`Placement::normalise`]. The curve's end points are the user's, exactly; end
+/// directions and curvatures of [`Solution::legs`] are the user's to 1e-14 over `sin(phi0 + phi1)` and `1 - f/3` of the
+/// other end; those of control points to that over the length of the end's tangent in half chords (curvatures: its
+/// square).
 ///
 /// # Errors
-/// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control point leaves the range of doubles. That
-/// no spiral exists is no error but an [`Answer::outcome`].
+/// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control point leaves the range of
+/// doubles. That no spiral exists is no error but an [`Answer::outcome`].
 pub fn spiral(ends: &Ends) -> Result<Answer> {
     let (datum, placement) = Placement::normalise(ends)?;
     if let Some(why) = Why::no_convex_arc(ends, &datum, &placement)? {
@@ -77,8 +78,8 @@ impl Answer {
     /// The answer when the roots are known already, from [`solve`] or an atlas; `chosen` is one of them.
     ///
     /// # Errors
-    /// Those of [`Placement::normalise`], and [`Error::Domain`] when a control point leaves the range of doubles or `chosen` is not
-    /// among the roots.
+    /// Those of [`Placement::normalise`], and [`Error::Domain`] when a control point leaves the range of doubles or
+    /// `chosen` is not among the roots.
     pub fn from_roots(ends: &Ends, roots: &[Root], chosen: Option<&Root>) -> Result<Answer> {
         let (datum, placement) = Placement::normalise(ends)?;
         let solutions = roots.iter().map(|root| Solution::new(&datum, &placement, root)).collect::<Result<Vec<_>>>()?;
@@ -131,7 +132,12 @@ pub(super) fn exists(ends: &Ends) -> bool {
 
 fn index(roots: &[Root], chosen: &Root) -> Result<usize> {
     roots.iter().position(|root| root == chosen).ok_or_else(|| {
-        Error::Domain(format!("the chosen root ({:?}, {:?}) is not among the {} roots", chosen.f0, chosen.f1, roots.len()))
+        Error::Domain(format!(
+            "the chosen root ({:?}, {:?}) is not among the {} roots",
+            chosen.f0,
+            chosen.f1,
+            roots.len()
+        ))
     })
 }
 
@@ -149,7 +155,11 @@ impl Solution {
         let Root { f0, f1, theorem31, spiral, margin } = *root;
         let control_points = placement.place(datum, f0, f1);
         let local_control_points = placement.place_local(datum, f0, f1);
-        let legs = placement.to_user_legs(&CubicBezier::legs([datum.phi0, datum.phi1], [datum.kappa0, datum.kappa1], [f0, f1]));
+        let legs = placement.to_user_legs(&CubicBezier::legs(
+            [datum.phi0, datum.phi1],
+            [datum.kappa0, datum.kappa1],
+            [f0, f1],
+        ));
         let mut all = control_points.p.iter().chain(&local_control_points.p).chain(&legs);
         if !all.all(|p| p[0].is_finite() && p[1].is_finite()) {
             return Err(Error::Domain(format!(
@@ -168,7 +178,10 @@ impl fmt::Display for Answer {
         match (&self.outcome, self.chosen()) {
             (Err(why), _) => writeln!(f, "{}", why.sentence("cubic spiral"))?,
             (_, Some(Solution { f0, f1, margin, length, control_points, .. })) => {
-                writeln!(f, "cubic spiral (f0, f1) = ({f0:?}, {f1:?}), margin {margin:?}, length {length:?}; control points")?;
+                writeln!(
+                    f,
+                    "cubic spiral (f0, f1) = ({f0:?}, {f1:?}), margin {margin:?}, length {length:?}; control points"
+                )?;
                 for [x, y] in control_points.p {
                     writeln!(f, "  ({x:?}, {y:?})")?;
                 }

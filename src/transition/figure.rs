@@ -1,4 +1,5 @@
-//! The numbers of a picture like Habib & Sakai's Fig. 3: curve, control polygon, end circles, curvature and its derivative.
+//! The numbers of a picture like Habib & Sakai's Fig. 3: curve, control polygon, end circles, curvature and its
+//! derivative.
 
 use super::Solution;
 use super::placement::Ends;

@@ -25,7 +25,8 @@ impl Fit {
 ///
 /// # Arguments
 /// - `kind`: [`Kind::Cubic`], of several spirals the one with the largest margin; [`Kind::PhQuintic`], that of least
-///   bending energy; or [`Kind::Involute`], the image of an involute of a circle, which exists whenever any spiral does.
+///   bending energy; or [`Kind::Involute`], the image of an involute of a circle, which exists whenever any spiral
+///   does.
 /// - `longest`: a spiral longer than this counts as none; infinity for no limit.
 ///
 /// # Errors
@@ -54,7 +55,8 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
         }
         Kind::Involute => {
             let (found, frame) = involute_between(ends, [0, 0])?;
-            let solutions: Vec<Piece> = InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute).into_iter().collect();
+            let solutions: Vec<Piece> =
+                InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute).into_iter().collect();
             let length: f64 = solutions.iter().map(Piece::length).sum();
             let outcome = match found.outcome {
                 Ok(_) if length <= longest => Ok(0),

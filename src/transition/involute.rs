@@ -43,16 +43,17 @@ impl Frame {
     }
 }
 
-/// Why no spiral of any kind joins two ends, in a sentence; `None` where one does. In the user's units; within rounding of
-/// a boundary, in those of the chord's frame.
+/// Why no spiral of any kind joins two ends, in a sentence; `None` where one does. In the user's units; within rounding
+/// of a boundary, in those of the chord's frame.
 pub fn why_no_spiral(ends: &Ends, found: &Spiral) -> Option<String> {
     let Err(why) = &found.outcome else { return None };
     let why = NoSpiral::of(ends).ok().flatten().map_or_else(|| why.to_string(), |why| why.to_string());
     Some(format!("no spiral of any kind joins these ends: {why}"))
 }
 
-/// Points of a curve to draw it by, with the lengths up to them, in its own frame. Between neighbours it turns by a degree and a half or less and is no
-/// longer than its 400th part, unless it would need more than 100,000 points for that: then turns are seen as rings.
+/// Points of a curve to draw it by, with the lengths up to them, in its own frame. Between neighbours it turns by a
+/// degree and a half or less and is no longer than its 400th part, unless it would need more than 100,000 points for
+/// that: then turns are seen as rings.
 pub fn polyline(curve: &Involute) -> Vec<(InvolutePoint, f64)> {
     const MOST: usize = 100_000;
     let turns: f64 = curve.turns().into_iter().map(f64::from).sum();

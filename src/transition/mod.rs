@@ -1,5 +1,5 @@
-//! Transition curves in the user's frame: placement in the plane, the spiral between two given ends or the reason why there is none, segments
-//! added to a line or a circle, and templates made of two spirals.
+//! Transition curves in the user's frame: placement in the plane, the spiral between two given ends or the reason why
+//! there is none, segments added to a line or a circle, and templates made of two spirals.
 //!
 //! ```
 //! use spiral_atlas::transition::{Ends, Placement};

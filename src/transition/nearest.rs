@@ -25,19 +25,20 @@ const HALVINGS: u32 = 10;
 /// A step: of the start and end curvature, and of the start and end direction.
 type Way = [f64; 4];
 
-/// Ends that a spiral of a kind joins: the nearest to the given ones among those that are tried. The points stay as they are.
+/// Ends that a spiral of a kind joins: the nearest to the given ones among those that are tried. The points stay as
+/// they are.
 ///
-/// A distance is measured in directions (radians) and in the inverse hyperbolic sines of curvatures times half the chord:
-/// these are as the curvatures themselves where those are small, and as their logarithms where they are large. Curvatures
-/// alone are changed if a change by a factor of about 7 suffices. Rings of growing size are tried until one has a spiral
-/// somewhere; the step to it is then shortened by halving. At most 7000 ends are tried.
+/// A distance is measured in directions (radians) and in the inverse hyperbolic sines of curvatures times half the
+/// chord: these are as the curvatures themselves where those are small, and as their logarithms where they are large.
+/// Curvatures alone are changed if a change by a factor of about 7 suffices. Rings of growing size are tried until one
+/// has a spiral somewhere; the step to it is then shortened by halving. At most 7000 ends are tried.
 ///
 /// # Arguments
 /// - `kind`: [`Kind::Cubic`], [`Kind::PhQuintic`], or [`Kind::Involute`] for any spiral.
 ///
 /// # Returns
-/// `None` where none of those tried does. The existence of the spiral is proved, for the numbers returned, which have six
-/// digits where they differ from the given ones.
+/// `None` where none of those tried does. The existence of the spiral is proved, for the numbers returned, which have
+/// six digits where they differ from the given ones.
 ///
 /// # Errors
 /// [`Error::Domain`] for another kind, and those of [`super::Placement::normalise`].
@@ -46,7 +47,12 @@ pub fn nearest(ends: &Ends, kind: Kind) -> Result<Option<Ends>> {
         Kind::Cubic => cubic::exists,
         Kind::PhQuintic => ph_quintic::exists,
         Kind::Involute => any,
-        _ => return Err(Error::Domain(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
+        _ => {
+            return Err(Error::Domain(format!(
+                "the kind is `{}`; it must be cubic, ph-quintic or involute",
+                kind.name()
+            )));
+        }
     };
     let (_, half_chord) = ends.chord()?;
     if exists(ends) {
@@ -60,7 +66,8 @@ pub fn nearest(ends: &Ends, kind: Kind) -> Result<Option<Ends>> {
 
 /// Whether any spiral joins two ends, proved; no where that is not known.
 fn any(ends: &Ends) -> bool {
-    let code = ends.chord().and_then(|(chord, _)| verdict(&AnySpiral, 0, &[chord.alpha, chord.beta, chord.k1, chord.k2]));
+    let code =
+        ends.chord().and_then(|(chord, _)| verdict(&AnySpiral, 0, &[chord.alpha, chord.beta, chord.k1, chord.k2]));
     code.is_ok_and(|code| AnySpiral.holds(code))
 }
 
@@ -174,7 +181,8 @@ mod tests {
         let found = nearest(&ends, Kind::Involute).unwrap().unwrap();
         assert_eq!((found.start_direction, found.end_direction), (ends.start_direction, ends.end_direction));
         let step = |a: f64, b: f64| (100.0 * a).asinh() - (100.0 * b).asinh();
-        let both = step(found.start_curvature, ends.start_curvature).hypot(step(found.end_curvature, ends.end_curvature));
+        let both =
+            step(found.start_curvature, ends.start_curvature).hypot(step(found.end_curvature, ends.end_curvature));
         // With the start as it is, (sin 0.7 - 0.4) (κ1 - sin 1.4) > sin² 0.35 asks for an end curvature above 0.014673.
         let alone = step(0.014673, ends.end_curvature);
         assert!(both < alone && both > 0.5 * alone, "{both} {alone} {found:?}");

@@ -17,8 +17,8 @@ pub enum NoSpiral {
         /// Both.
         curvature: f64,
     },
-    /// The directions ask for a curvature that changes the other way: for one that rises, half the sum of both directions against the chord
-    /// must be positive.
+    /// The directions ask for a curvature that changes the other way: for one that rises, half the sum of both
+    /// directions against the chord must be positive.
     WrongSide {
         /// Start direction against the chord, radians, positive to the left.
         start_angle: f64,
@@ -33,7 +33,8 @@ pub enum NoSpiral {
     CirclesCross {
         /// What would help. Empty where the curvatures that would are beyond the range of doubles.
         needs: Vec<Need>,
-        /// Whether each of `needs` alone suffices; if not, all of them are needed, and the curvatures must pass them by more than a little.
+        /// Whether each of `needs` alone suffices; if not, all of them are needed, and the curvatures must pass them by
+        /// more than a little.
         alone: bool,
     },
 }
@@ -116,8 +117,8 @@ impl Seen<'_> {
         .and_then(|at| self.passing(which, at))
     }
 
-    /// That an end's curvature must pass a number of this frame, in the user's units. The start's must be below, the end's above; where
-    /// curvature falls that is mirrored.
+    /// That an end's curvature must pass a number of this frame, in the user's units. The start's must be below, the
+    /// end's above; where curvature falls that is mirrored.
     fn passing(&self, which: Which, at: f64) -> Option<Need> {
         let (bound, up) = (at * self.back, (which == Which::End) == self.rising());
         let curvature = if which == Which::Start { self.ends.start_curvature } else { self.ends.end_curvature };
@@ -127,10 +128,12 @@ impl Seen<'_> {
 }
 
 impl NoSpiral {
-    /// The reason, as far as double precision can tell: none within rounding of a boundary where a spiral seems to exist.
+    /// The reason, as far as double precision can tell: none within rounding of a boundary where a spiral seems to
+    /// exist.
     ///
-    /// Seen so that curvature rises, a spiral exists exactly where `ω > 0`, `room > 0`, `over > 0` and `room over > sin² ω`: that is Q < 0;
-    /// see [`crate::family::any_spiral::least_end_curvature`] for why both cannot be negative.
+    /// Seen so that curvature rises, a spiral exists exactly where `ω > 0`, `room > 0`, `over > 0` and
+    /// `room over > sin² ω`: that is Q < 0; see [`crate::family::any_spiral::least_end_curvature`] for why both cannot
+    /// be negative.
     ///
     /// # Errors
     /// Those of [`super::Placement::normalise`].
@@ -185,12 +188,14 @@ impl Need {
 /// The bound as one of the radius, in brackets.
 fn radius(bound: Bound) -> String {
     let (arm, told) = match bound {
-        Bound::Above(x) => {
-            (1.0 / x, if x > 0.0 { "turning left with a radius of at most" } else { "or, turning right, a radius of at least" })
-        }
-        Bound::Below(x) => {
-            (1.0 / x, if x < 0.0 { "turning right with a radius of at most" } else { "or, turning left, a radius of at least" })
-        }
+        Bound::Above(x) => (
+            1.0 / x,
+            if x > 0.0 { "turning left with a radius of at most" } else { "or, turning right, a radius of at least" },
+        ),
+        Bound::Below(x) => (
+            1.0 / x,
+            if x < 0.0 { "turning right with a radius of at most" } else { "or, turning left, a radius of at least" },
+        ),
     };
     if !arm.is_finite() {
         return String::new();
@@ -203,7 +208,10 @@ impl fmt::Display for NoSpiral {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             NoSpiral::EqualCurvatures { curvature } => {
-                write!(f, "the curvature is {curvature:?} at both ends, so that it could neither rise nor fall between them")
+                write!(
+                    f,
+                    "the curvature is {curvature:?} at both ends, so that it could neither rise nor fall between them"
+                )
             }
             NoSpiral::WrongSide { start_angle, end_angle, rising, turned } => {
                 let (goes, sign) = if *rising { ("rises", "above") } else { ("falls", "below") };

@@ -48,19 +48,20 @@ pub struct PhSolution {
     pub control_points: [[f64; 2]; 6],
     /// The same relative to the start point, for coordinates far from the origin.
     pub local_control_points: [[f64; 2]; 6],
-    /// The sides of the control polygon, from the pre-image, each to a few ulp of itself: a fifth of the derivative's control points, and
-    /// what to differentiate where an end's tangent is short.
+    /// The sides of the control polygon, from the pre-image, each to a few ulp of itself: a fifth of the derivative's
+    /// control points, and what to differentiate where an end's tangent is short.
     pub legs: [[f64; 2]; 5],
 }
 
-/// Finds the PH quintic spiral of least bending energy between two ends, or says why there is none. Straight ends (curvature 0) are
-/// welcome.
+/// Finds the PH quintic spiral of least bending energy between two ends, or says why there is none. Straight ends
+/// (curvature 0) are welcome.
 ///
 /// # Accuracy
-/// As [`crate::transition::spiral`]: existence is proved for the normalised doubles in [`PhAnswer::datum`]. End points are the user's, exactly; end
-/// directions and curvatures of a spiral's [`PhSolution::legs`] are the user's to 1e-12, relative. Control points are rounded at the size of the
-/// chord: what is computed from them is known to 1e-15 over the end's leg in half chords (directions), or over its square (curvatures).
-/// Length and energy to 2^-36 relative, usually a few ulp.
+/// As [`crate::transition::spiral`]: existence is proved for the normalised doubles in [`PhAnswer::datum`]. End points
+/// are the user's, exactly; end directions and curvatures of a spiral's [`PhSolution::legs`] are the user's to 1e-12,
+/// relative. Control points are rounded at the size of the chord: what is computed from them is known to 1e-15 over the
+/// end's leg in half chords (directions), or over its square (curvatures). Length and energy to 2^-36 relative, usually
+/// a few ulp.
 ///
 /// # Errors
 /// Those of [`Placement::normalise`] and [`solve`], and [`Error::Domain`] when a control
@@ -92,7 +93,8 @@ impl PhAnswer {
         self
     }
 
-    /// The same with other end curvatures that would do, where there is no PH quintic spiral but one of some other kind.
+    /// The same with other end curvatures that would do, where there is no PH quintic spiral but one of some other
+    /// kind.
     ///
     /// This asks [`flags`] about some hundred other data, so it is left out unless somebody reads it.
     ///

@@ -26,8 +26,12 @@ use serde::{Deserialize, Serialize};
 
 /// A curve between two points, in the user's plane and unit of length.
 ///
-/// As JSON it has its `kind`, the numbers that rebuild it exactly, its `control_points` where it has them, and its `length`.
-#[expect(clippy::large_enum_variant, reason = "paths have few pieces, and a box for one kind would show in every match")]
+/// As JSON it has its `kind`, the numbers that rebuild it exactly, its `control_points` where it has them, and its
+/// `length`.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "paths have few pieces, and a box for one kind would show in every match"
+)]
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "RawPiece")]
 pub enum Piece {
@@ -88,7 +92,8 @@ impl Kind {
 pub struct Cubic {
     /// The control points; the outer ones are the ends, exactly.
     pub points: CubicBezier,
-    /// The sides of the control polygon. Directions and curvatures come from them, since control points far from the origin lose digits.
+    /// The sides of the control polygon. Directions and curvatures come from them, since control points far from the
+    /// origin lose digits.
     pub legs: [[f64; 2]; 3],
 }
 
@@ -294,7 +299,12 @@ impl Piece {
             }
             Piece::Arc(arc) => {
                 let (step, direction) = arc.after(t * arc.length);
-                At { point: add(arc.start, step), heading: principal(direction), curvature: arc.curvature, speed: arc.length }
+                At {
+                    point: add(arc.start, step),
+                    heading: principal(direction),
+                    curvature: arc.curvature,
+                    speed: arc.length,
+                }
             }
         }
     }

@@ -69,7 +69,8 @@ impl Ends {
         }
     }
 
-    /// The ends seen from their chord, and half the chord as a vector. A half turn is [`PI`], and stands for both signs.
+    /// The ends seen from their chord, and half the chord as a vector. A half turn is [`PI`], and stands for both
+    /// signs.
     pub(super) fn chord(&self) -> Result<(any_spiral::Datum, Vector)> {
         self.check_finite()?;
         let (half, size) = self.half_chord()?;
@@ -110,7 +111,8 @@ pub struct Placement {
     pub end: [f64; 2],
     /// `(end - start) / 2`, the complex factor of the similarity; its length is the normalised frame's unit.
     pub half_chord: [f64; 2],
-    /// Whether left turns of the normalised frame are right turns of the user's, both in the normalised direction of travel.
+    /// Whether left turns of the normalised frame are right turns of the user's, both in the normalised direction of
+    /// travel.
     pub mirrored: bool,
     /// Whether the user travels from the normalised end to the normalised start.
     pub reversed: bool,
@@ -129,8 +131,8 @@ impl Placement {
     /// | turns left ever less sharply | β | -α | κe | κs | yes | yes |
     /// | turns right ever less sharply | -β | α | -κe | -κs | no | yes |
     ///
-    /// (Running a curve backwards swaps its ends, turns directions and chord by π and negates curvatures.) The side is read off
-    /// the directions; where they lie on one side of the chord, off the curvatures. Data of no C-shaped curve
+    /// (Running a curve backwards swaps its ends, turns directions and chord by π and negates curvatures.) The side is
+    /// read off the directions; where they lie on one side of the chord, off the curvatures. Data of no C-shaped curve
     /// get a datum too, with a negative angle or curvature: what is wrong with it is [`crate::transition::Why`].
     ///
     /// # Accuracy
@@ -160,15 +162,16 @@ impl Placement {
     /// Points of the normalised frame in the user's frame, in the user's order of travel.
     ///
     /// # Accuracy
-    /// The images of (-1, 0) and (1, 0) are the user's points, exactly. Others are found from the nearer of the two, within
-    /// 4 ulp of their distance from it and half an ulp of the result.
+    /// The images of (-1, 0) and (1, 0) are the user's points, exactly. Others are found from the nearer of the two,
+    /// within 4 ulp of their distance from it and half an ulp of the result.
     pub fn to_user<const N: usize>(&self, points: &[[f64; 2]; N]) -> [[f64; 2]; N] {
         let mut mapped = points.map(|z| self.user_point(z));
         self.put_in_order(&mut mapped);
         mapped
     }
 
-    /// The same relative to the user's start point, free of the rounding of far-away coordinates: what to differentiate.
+    /// The same relative to the user's start point, free of the rounding of far-away coordinates: what to
+    /// differentiate.
     pub fn to_user_local<const N: usize>(&self, points: &[[f64; 2]; N]) -> [[f64; 2]; N] {
         let origin = if self.reversed { 1.0 } else { -1.0 };
         let mut mapped = points.map(|z| self.step(origin, z));
@@ -186,8 +189,8 @@ impl Placement {
 
     /// A PH quintic of the normalised frame, from (-1, 0) to (1, 0), in the user's.
     ///
-    /// The derivative w² is turned and stretched by half the chord, so w is by its root; a mirrored curve has the conjugate of w, and one run
-    /// backwards i times the coefficients in reverse order.
+    /// The derivative w² is turned and stretched by half the chord, so w is by its root; a mirrored curve has the
+    /// conjugate of w, and one run backwards i times the coefficients in reverse order.
     pub(super) fn ph_in_user_frame(&self, curve: &PhQuintic) -> PhQuintic {
         let [x, y] = self.half_chord;
         let root = Complex64::new(x, y).sqrt();
@@ -217,12 +220,14 @@ impl Placement {
         CubicBezier { p: self.to_user(&CubicBezier::from_ratios(datum.phi0, datum.phi1, f0, f1).p) }
     }
 
-    /// The same relative to the user's start point, free of the rounding of far-away coordinates: the one to differentiate.
+    /// The same relative to the user's start point, free of the rounding of far-away coordinates: the one to
+    /// differentiate.
     pub fn place_local(&self, datum: &Datum, f0: f64, f1: f64) -> CubicBezier {
         CubicBezier { p: self.to_user_local(&CubicBezier::from_ratios(datum.phi0, datum.phi1, f0, f1).p) }
     }
 
-    /// Angles of the user's end directions against the chord, radians, positive to the left: α and β of [`Placement::normalise`].
+    /// Angles of the user's end directions against the chord, radians, positive to the left: α and β of
+    /// [`Placement::normalise`].
     pub fn against_chord(&self, datum: &Datum) -> [f64; 2] {
         let side = if self.mirrored { -1.0 } else { 1.0 };
         if self.reversed { [side * datum.phi1, -side * datum.phi0] } else { [-side * datum.phi0, side * datum.phi1] }
@@ -255,8 +260,8 @@ impl Placement {
     }
 }
 
-/// `direction - chord`, brought into (-π, π]. Never beyond ±[`PI`], the double; a half turn up to the rounding of both is that double
-/// (a direction beyond ±π is taken to be rounded, by an ulp or 1e-9).
+/// `direction - chord`, brought into (-π, π]. Never beyond ±[`PI`], the double; a half turn up to the rounding of both
+/// is that double (a direction beyond ±π is taken to be rounded, by an ulp or 1e-9).
 fn against(direction: f64, chord: f64) -> f64 {
     let turned = principal(direction) - chord;
     let within = match turned {
@@ -285,8 +290,8 @@ fn principal(angle: f64) -> f64 {
     angle.sin().atan2(angle.cos())
 }
 
-/// The directions at both ends, a half turn with the sign that it has on a C-shaped curve: there α and β have opposite signs. So ends and
-/// their mirror image are placed alike.
+/// The directions at both ends, a half turn with the sign that it has on a C-shaped curve: there α and β have opposite
+/// signs. So ends and their mirror image are placed alike.
 fn half_turns_to_their_side(alpha: f64, beta: f64, left: bool) -> (f64, f64) {
     match (alpha.abs() == PI, beta.abs() == PI) {
         (true, true) if left => (-PI, PI),

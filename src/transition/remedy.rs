@@ -9,7 +9,8 @@ use serde::Serialize;
 
 /// Doublings away from the curvature in question that are tried, to either side.
 const DOUBLINGS: i32 = 24;
-/// Greatest curvature times half the chord for which others are tried: each answer beyond it takes numbers of hundreds of digits.
+/// Greatest curvature times half the chord for which others are tried: each answer beyond it takes numbers of hundreds
+/// of digits.
 const GREATEST: f64 = 1e30;
 /// Halvings, in logarithms, of the last doubling.
 const HALVINGS: u32 = 8;
@@ -28,8 +29,9 @@ pub struct Remedy {
 impl Remedy {
     /// For either end. `exists` must be a proof.
     ///
-    /// Curvatures are told by their distance from the bound that a spiral of any kind asks for: it is doubled and halved until the
-    /// family has a spiral, and the last doubling is halved so that the answer is within a few thousandths of the nearest.
+    /// Curvatures are told by their distance from the bound that a spiral of any kind asks for: it is doubled and
+    /// halved until the family has a spiral, and the last doubling is halved so that the answer is within a few
+    /// thousandths of the nearest.
     ///
     /// It asks at most `2 (2 * 24 + 8) = 112` times, so `exists` must be cheap, and batches do without.
     ///
@@ -49,7 +51,10 @@ impl Remedy {
             let works = |power: f64| {
                 let instead = at(power);
                 // Not through a straight end to the other side.
-                instead != curvature && instead * curvature > 0.0 && instead.is_finite() && exists(&with(ends, which, instead))
+                instead != curvature
+                    && instead * curvature > 0.0
+                    && instead.is_finite()
+                    && exists(&with(ends, which, instead))
             };
             let powers = (1..=DOUBLINGS).flat_map(|n| [f64::from(n), f64::from(-n)]);
             let Some(mut good) = powers.into_iter().find(|power| works(*power)) else { continue };

@@ -56,8 +56,8 @@ pub struct Request {
 }
 
 impl Request {
-    /// The segment between two ends one of which is straight. There is none where neither is or both are, and where no C-shaped curve that
-    /// turns to the side of the round end joins them.
+    /// The segment between two ends one of which is straight. There is none where neither is or both are, and where no
+    /// C-shaped curve that turns to the side of the round end joins them.
     ///
     /// # Accuracy
     /// [`Request::theta`] and [`Request::radius`] to 4e-15.
@@ -96,8 +96,8 @@ pub struct Added {
     /// What is proved of it: of the given shape, or of the end point after rounding to (θ, ξ, η).
     #[serde(serialize_with = "level_name")]
     pub level: Level,
-    /// Bézier control points in the user's units and axes: 4 (cubic) or 6 (PH quintic). The first is the start and, when an end
-    /// point was given, the last is that.
+    /// Bézier control points in the user's units and axes: 4 (cubic) or 6 (PH quintic). The first is the start and,
+    /// when an end point was given, the last is that.
     pub control_points: Vec<[f64; 2]>,
     /// The same relative to the start: what to differentiate, free of the rounding of far-away coordinates.
     pub local_control_points: Vec<[f64; 2]>,
@@ -106,7 +106,8 @@ pub struct Added {
     /// The segment as a piece of a path.
     #[serde(skip)]
     pub piece: Piece,
-    /// The sides of the control polygon, each to a few ulp of itself: what to differentiate where an end's tangent is short.
+    /// The sides of the control polygon, each to a few ulp of itself: what to differentiate where an end's tangent is
+    /// short.
     pub legs: Vec<[f64; 2]>,
     /// Direction of travel at the end, radians.
     pub end_direction: f64,
@@ -116,13 +117,14 @@ fn level_name<S: serde::Serializer>(level: &Level, serializer: S) -> Result<S::O
     serializer.serialize_str(level.name())
 }
 
-/// Adds a segment to the end of a line or circle; [`Added::level`] says whether it is a spiral. Where no segment of this
-/// family, angle and radius ends at the target, it names the condition that fails, with its numbers.
+/// Adds a segment to the end of a line or circle; [`Added::level`] says whether it is a spiral. Where no segment of
+/// this family, angle and radius ends at the target, it names the condition that fails, with its numbers.
 ///
 /// # Accuracy
-/// Levels are proved (see [`Added::level`]). Control points are within a few ulp of the largest coordinate difference; a given end
-/// point is met exactly, end directions of [`Added::legs`] to 1e-14, and curvatures times r to 1e-13 or, at a short flat end, 4 ulp of
-/// the next leg over the square of its own; those of control points to some 2^-50 over that square.
+/// Levels are proved (see [`Added::level`]). Control points are within a few ulp of the largest coordinate difference;
+/// a given end point is met exactly, end directions of [`Added::legs`] to 1e-14, and curvatures times r to 1e-13 or, at
+/// a short flat end, 4 ulp of the next leg over the square of its own; those of control points to some 2^-50 over that
+/// square.
 ///
 /// # Errors
 /// [`Error::Domain`] naming a value that is not finite, not positive where it must be, or outside the family's range.
@@ -136,7 +138,13 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
         return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
     }
     positive("radius", radius)?;
-    let frame = Frame { start, direction, along: [direction.cos(), direction.sin()], right: request.turn == Turn::Right, radius };
+    let frame = Frame {
+        start,
+        direction,
+        along: [direction.cos(), direction.sin()],
+        right: request.turn == Turn::Right,
+        radius,
+    };
     let case = if request.base == Base::Line { 1 } else { 2 };
     let (xi, eta, m, q, level) = match target {
         Target::Shape { m, q } => {
@@ -180,7 +188,20 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
         )));
     }
     let end_direction = direction + if frame.right { -theta } else { theta };
-    Ok(Ok(Added { case, xi, eta, m, q, level, control_points, local_control_points, length, piece, legs, end_direction }))
+    Ok(Ok(Added {
+        case,
+        xi,
+        eta,
+        m,
+        q,
+        level,
+        control_points,
+        local_control_points,
+        length,
+        piece,
+        legs,
+        end_direction,
+    }))
 }
 
 fn positive(name: &str, value: f64) -> Result<()> {
@@ -200,7 +221,9 @@ fn why(case: u8, theta: f64, point: Vector, [xi, eta]: Vector) -> String {
         "needs m <= 0: it lies too near, so that the flat end's tangent would run backwards".into()
     };
     let ([x, y], [xi, eta], theta) = (point.map(told), [xi, eta].map(told), degrees(theta));
-    format!("the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, {what}")
+    format!(
+        "the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, {what}"
+    )
 }
 
 /// The start's frame: radius 1, turning left from (0, 0) along (1, 0).

@@ -8,7 +8,8 @@ use serde::Serialize;
 /// Steps of Newton's method or of bisection, at most. Bisection alone needs 53 to exhaust a double.
 const STEPS: u32 = 60;
 
-/// A point of a path and what is known there, in the user's units. As JSON, heading and curvature are null where the path stands still.
+/// A point of a path and what is known there, in the user's units. As JSON, heading and curvature are null where the
+/// path stands still.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Station {
     /// Arc length from the start.
@@ -42,8 +43,9 @@ impl Station {
 /// `count` points at equal arc lengths, both ends included.
 ///
 /// # Accuracy
-/// A point's arc length is its `station` to 1e-13 of the path's length; PH quintics, lines and arcs have formulas, and the others are
-/// integrated to 1e-14 by [`arc_length`]. Both ends are exact. Headings and curvatures are those of [`Piece::at`].
+/// A point's arc length is its `station` to 1e-13 of the path's length; PH quintics, lines and arcs have formulas, and
+/// the others are integrated to 1e-14 by [`arc_length`]. Both ends are exact. Headings and curvatures are those of
+/// [`Piece::at`].
 ///
 /// # Errors
 /// [`Error::Domain`] for fewer than two points, or where a number leaves the range of doubles.
@@ -101,7 +103,8 @@ fn parameters(piece: &Piece, length: f64, wanted: &[f64]) -> Vec<f64> {
     wanted.iter().map(|s| next(*s)).collect()
 }
 
-/// From a parameter whose length is known to the one, not beyond the end, where it is `wanted`: that parameter, and the length there.
+/// From a parameter whose length is known to the one, not beyond the end, where it is `wanted`: that parameter, and the
+/// length there.
 fn advance(speed: impl Fn(f64) -> f64, [from, to]: [f64; 2], known: f64, wanted: f64, whole: f64) -> (f64, f64) {
     let (mut low, mut high, mut t) = (from, to, from + (wanted - known) / speed(from));
     let mut s = known;

@@ -48,7 +48,8 @@ pub enum Template {
         /// Towards the second circle.
         second: Segment,
     },
-    /// From a circle to a smaller one inside: the part of a spiral where the curvature has reached that of the outer circle.
+    /// From a circle to a smaller one inside: the part of a spiral where the curvature has reached that of the outer
+    /// circle.
     CircleInCircle {
         /// The spiral; its radius is that of the inner circle.
         inner: Segment,
@@ -128,18 +129,21 @@ impl Outcome {
 /// Builds a template.
 ///
 /// # Accuracy
-/// That parts are spirals is proved for the shapes as given. Places, directions and curvatures at the ends and between parts are those of
-/// [`Path::circles`] to 1e-12 of the path's size.
+/// That parts are spirals is proved for the shapes as given. Places, directions and curvatures at the ends and between
+/// parts are those of [`Path::circles`] to 1e-12 of the path's size.
 ///
 /// # Errors
-/// [`Error::Domain`] naming a value outside its domain; [`Error::Undecided`] at the precision cap. That the curves are no spirals is no error.
+/// [`Error::Domain`] naming a value outside its domain; [`Error::Undecided`] at the precision cap. That the curves are
+/// no spirals is no error.
 ///
 /// # Source
-/// Misro, Ramli and Ali, sections III to VII, with (9) scaled as [`Scaling`] says and, for circles in circles, the start moved to
-/// where the curvature is that of the outer circle.
+/// Misro, Ramli and Ali, sections III to VII, with (9) scaled as [`Scaling`] says and, for circles in circles, the
+/// start moved to where the curvature is that of the outer circle.
 pub fn path(request: &Request) -> Result<Outcome> {
     let Request { template, at, direction, turn: side, scaling } = *request;
-    if let Some((name, value)) = [("x", at[0]), ("y", at[1]), ("direction", direction)].iter().find(|(_, v)| !v.is_finite()) {
+    if let Some((name, value)) =
+        [("x", at[0]), ("y", at[1]), ("direction", direction)].iter().find(|(_, v)| !v.is_finite())
+    {
         return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
     }
     let (local, round) = local(&template, scaling)?;
@@ -170,8 +174,8 @@ fn circles(parts: &[Part], curvatures: &[f64; 3]) -> Vec<EndCircle> {
     places.into_iter().map(|(jet, curvature)| EndCircle::new(jet.point, jet.direction(), curvature)).collect()
 }
 
-/// The parts for a path that starts at the origin along (1, 0) (S and C: passes there) and turns left, with the curvatures asked for at
-/// its start, between its parts and at its end.
+/// The parts for a path that starts at the origin along (1, 0) (S and C: passes there) and turns left, with the
+/// curvatures asked for at its start, between its parts and at its end.
 fn local(template: &Template, scaling: Scaling) -> Result<(Vec<Part>, [f64; 3])> {
     let part = |segment: &Segment| -> Result<Part> {
         positive("radius", segment.radius)?;
@@ -183,7 +187,9 @@ fn local(template: &Template, scaling: Scaling) -> Result<(Vec<Part>, [f64; 3])>
         Template::LineLine { first, second } => {
             if first.radius != second.radius {
                 let (one, two) = (first.radius, second.radius);
-                return Err(Error::Domain(format!("the radii are {one:?} and {two:?}; between two lines they must be equal")));
+                return Err(Error::Domain(format!(
+                    "the radii are {one:?} and {two:?}; between two lines they must be equal"
+                )));
             }
             let (one, two) = (part(first)?, part(second)?);
             let back = flipped(&two.curve, [1.0, -1.0]).reversed();
@@ -263,14 +269,18 @@ fn why_not(template: &Template, scaling: Scaling) -> Result<Option<String>> {
         }
         if scaling == Scaling::AsPrinted {
             let end = 15.0 / (4.0 + q).powi(2);
-            return Ok(Some(format!("as printed: the end curvature is {end} / r, r = {}, and not 1 / r", told(*radius))));
+            return Ok(Some(format!(
+                "as printed: the end curvature is {end} / r, r = {}, and not 1 / r",
+                told(*radius)
+            )));
         }
     }
     Ok(None)
 }
 
 impl Path {
-    /// Points at equal steps of the parameter of each part, both ends included; `s` runs on from part to part, `t` is each part's own.
+    /// Points at equal steps of the parameter of each part, both ends included; `s` runs on from part to part, `t` is
+    /// each part's own.
     ///
     /// # Errors
     /// [`Error::Domain`] for fewer than 2 samples a part.

@@ -49,8 +49,8 @@ pub enum Why {
         a: f64,
         /// `κ1 d1² / (4 sin φ1)`; (A.9) asks `k > 1/3`.
         k: f64,
-        /// The discriminant `768a²k² - 256ak(a+k) + 96ak - 1` over `max(1,a)² max(1,k)²`: D of (A.4) but for a positive factor, to double
-        /// precision. (A.9) asks that it is not negative.
+        /// The discriminant `768a²k² - 256ak(a+k) + 96ak - 1` over `max(1,a)² max(1,k)²`: D of (A.4) but for a positive
+        /// factor, to double precision. (A.9) asks that it is not negative.
         discriminant: f64,
         /// What would help; empty unless asked for.
         remedies: Vec<Remedy>,
@@ -105,7 +105,8 @@ impl Why {
         }
     }
 
-    /// What forbids any C-shaped curve, before curvatures are looked at; [`crate::family::cubic::solve`] asks for data without it.
+    /// What forbids any C-shaped curve, before curvatures are looked at; [`crate::family::cubic::solve`] asks for data
+    /// without it.
     pub(super) fn no_convex_arc(ends: &Ends, datum: &Datum, placement: &Placement) -> Result<Option<Why>> {
         let turning = datum.phi0 + datum.phi1;
         let convex = datum.phi0 > 0.0 && datum.phi1 > 0.0;
@@ -117,15 +118,19 @@ impl Why {
         Ok(Some(NoSpiral::of(ends)?.map_or(arc, Why::NoSpiralOfAnyKind)))
     }
 
-    /// Explains a proved "no" of cubics, all of which are given. In double precision, so within rounding of a boundary it may name the
-    /// neighbouring reason.
+    /// Explains a proved "no" of cubics, all of which are given. In double precision, so within rounding of a boundary
+    /// it may name the neighbouring reason.
     pub(super) fn no_cubic(ends: &Ends, datum: &Datum, placement: &Placement, roots: Vec<NonSpiral>) -> Result<Why> {
         if let Some(none) = NoSpiral::of(ends)? {
             return Ok(Why::NoSpiralOfAnyKind(none));
         }
         if let Some((which, curvature)) = bends(ends, placement).next() {
             let turn = placement.turn();
-            return Ok(if curvature == 0.0 { Why::Straight { which } } else { Why::Inflection { which, curvature, turn } });
+            return Ok(if curvature == 0.0 {
+                Why::Straight { which }
+            } else {
+                Why::Inflection { which, curvature, turn }
+            });
         }
         Ok(if roots.is_empty() { no_root(datum) } else { Why::NotMonotone { roots, remedies: Vec::new() } })
     }
@@ -151,8 +156,8 @@ pub(super) fn bends(ends: &Ends, placement: &Placement) -> impl Iterator<Item = 
     both.into_iter().filter(move |(_, curvature)| with_turn(*curvature) <= 0.0)
 }
 
-/// The discriminant in the angle-free coordinates, each term divided by the largest it can be, so that none overflows; D of (A.4) is
-/// `27 / (k⁴ a⁸)` times it.
+/// The discriminant in the angle-free coordinates, each term divided by the largest it can be, so that none overflows;
+/// D of (A.4) is `27 / (k⁴ a⁸)` times it.
 fn no_root(datum: &Datum) -> Why {
     // Where d is very long, at tangents that all but run against each other, they may leave the range of doubles.
     let (a, k) = datum.normalised();
@@ -211,10 +216,17 @@ impl fmt::Display for Why {
                 write!(f, "no PH quintic with A, B > 0 has these ends and curvatures{}", told(remedies))
             }
             Why::NoPhSpiral { margins, remedies } => {
-                write!(f, "the curvature of no PH quintic with these ends is monotone{} (margins {margins:?})", told(remedies))
+                write!(
+                    f,
+                    "the curvature of no PH quintic with these ends is monotone{} (margins {margins:?})",
+                    told(remedies)
+                )
             }
             Why::TooLong { length, longest } => {
-                write!(f, "the shortest spiral of this family is {length:?} long, more than the {longest:?} that are allowed")
+                write!(
+                    f,
+                    "the shortest spiral of this family is {length:?} long, more than the {longest:?} that are allowed"
+                )
             }
         }
     }

@@ -79,7 +79,8 @@ fn every_verdict_is_true() {
     let (mut known, mut mixed) = ([0; 2], 0);
     for _ in 0..20_000 {
         let point = point(cells.grid(), &mut random);
-        let truth = solve(&Datum { phi0: point[0], phi1: point[1], kappa0: point[2], kappa1: point[3] }).unwrap().flags();
+        let truth =
+            solve(&Datum { phi0: point[0], phi1: point[1], kappa0: point[2], kappa1: point[3] }).unwrap().flags();
         assert_eq!(cells.verdict(&point, u8::MAX).unwrap(), truth, "{point:?}");
         assert_eq!(cells.verdict(&point, SPIRAL).unwrap(), truth & SPIRAL, "{point:?}");
         let cell = cells.lookup(&point).unwrap();
@@ -93,7 +94,9 @@ fn every_verdict_is_true() {
 #[test]
 fn outside_the_box_the_family_answers() {
     let cells = opened(&FILE);
-    for outside in [[0.6, 1.4, 0.4, 3.0], [0.69, 1.4, 0.4, 3.5], [f64::NAN, 1.4, 0.4, 3.0], [0.69, 1.4, f64::INFINITY, 3.0]] {
+    for outside in
+        [[0.6, 1.4, 0.4, 3.0], [0.69, 1.4, 0.4, 3.5], [f64::NAN, 1.4, 0.4, 3.0], [0.69, 1.4, f64::INFINITY, 3.0]]
+    {
         assert_eq!(cells.lookup(&outside), None);
     }
     let last = cells.grid().node(cells.grid().len() - 1);

@@ -61,7 +61,8 @@ fn flags(p0: f64, p1: f64, k0: f64, k1: f64) -> [bool; 5] {
     [any, roots.iter().any(spiral), roots.iter().any(theorem), theorem31, solvable]
 }
 
-const LABELS: [&str; 5] = ["any spiral at all", "exact cubic spiral", "Theorem 3.1, any root", "Theorem 3.1", "solvable (A.9)"];
+const LABELS: [&str; 5] =
+    ["any spiral at all", "exact cubic spiral", "Theorem 3.1, any root", "Theorem 3.1", "solvable (A.9)"];
 
 pub fn cubic_slice(p0: f64, p1: f64, x: AxisView, y: AxisView) -> Slice {
     let nodes = y.values.iter().flat_map(|k1| x.values.iter().map(|k0| flags(p0, p1, *k0, *k1)));
@@ -86,7 +87,8 @@ pub fn spaced(lo: f64, hi: f64, count: usize) -> Vec<f64> {
 pub fn curve_figure(p0: f64, p1: f64, k: (f64, f64), f: (f64, f64)) -> CurveFigure {
     let s = (p0 + p1).sin();
     let (l0, l1) = (2.0 * p1.sin() / s * f.0 / 3.0, 2.0 * p0.sin() / s * f.1 / 3.0);
-    let control = vec![[-1.0, 0.0], [-1.0 + l0 * p0.cos(), -l0 * p0.sin()], [1.0 - l1 * p1.cos(), -l1 * p1.sin()], [1.0, 0.0]];
+    let control =
+        vec![[-1.0, 0.0], [-1.0 + l0 * p0.cos(), -l0 * p0.sin()], [1.0 - l1 * p1.cos(), -l1 * p1.sin()], [1.0, 0.0]];
     let blend = |w: [f64; 4]| [0, 1].map(|c| (0..4).map(|i| w[i] * control[i][c]).sum::<f64>());
     let at = |t: f64| {
         let u = 1.0 - t;

@@ -314,7 +314,10 @@ fn hostile_headers_are_refused() {
     for (from, to, what) in cases {
         let message = complaint(&with_header(from, to));
         assert!(message.contains(what), "{to}: {message}");
-        assert!(!["expected", "invalid type", "struct", "variant"].iter().any(|word| message.contains(word)), "{to}: {message}");
+        assert!(
+            !["expected", "invalid type", "struct", "variant"].iter().any(|word| message.contains(word)),
+            "{to}: {message}"
+        );
     }
     assert!(Atlas::from_bytes(&with_header("sample", "sample")).is_ok(), "the tests' own editing breaks the file");
 }
@@ -375,8 +378,8 @@ fn look_at_everything(bytes: &[u8]) {
     }
 }
 
-/// Tensors of the largest size that counts its bits in 64 end just below 2^64 together: the end that they announce, plus
-/// the header, must not wrap around to the file's true length.
+/// Tensors of the largest size that counts its bits in 64 end just below 2^64 together: the end that they announce,
+/// plus the header, must not wrap around to the file's true length.
 #[test]
 fn offsets_that_wrap_around_are_refused() {
     let size = (1u64 << 61) - 8;

@@ -1,4 +1,5 @@
-//! Outlines: an atlas without its fields comes back from its metadata and axes, and parts of a grid have the whole's fields.
+//! Outlines: an atlas without its fields comes back from its metadata and axes, and parts of a grid have the whole's
+//! fields.
 
 use spiral_atlas::atlas::{Atlas, Outline, Spec, Writer};
 use spiral_atlas::eval::{Backend, Chunk, Job, evaluate};
@@ -63,7 +64,8 @@ fn an_atlas_comes_back_from_its_outline() {
     assert!(complaint("more", "0").contains("`more`"));
     assert!(complaint("kind", "cells").contains("cells"));
     assert!(complaint("axes", "[]").contains("no axes") || complaint("axes", "[]").contains("0 axes"));
-    let less = Outline::read("store", told.clone(), |name| values(name).filter(|_| name != "phi1")).unwrap_err().to_string();
+    let less =
+        Outline::read("store", told.clone(), |name| values(name).filter(|_| name != "phi1")).unwrap_err().to_string();
     assert!(less.contains("no values of the axis `phi1`"), "{less}");
     let moved = Outline::read("store", told.clone(), |name| values(name).map(|v| v.iter().map(|x| x + 1e-9).collect()));
     assert!(moved.unwrap_err().to_string().contains("value 1 of the axis `phi1`"));

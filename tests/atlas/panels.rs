@@ -1,5 +1,5 @@
-//! What a picture shows against what the atlas holds: every node of every panel has the colour of its flags, read from the atlas at the
-//! panel's own place. Nothing of the code that draws is used but the list of colours.
+//! What a picture shows against what the atlas holds: every node of every panel has the colour of its flags, read from
+//! the atlas at the panel's own place. Nothing of the code that draws is used but the list of colours.
 
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::plot::region_colors;
@@ -16,7 +16,8 @@ fn recipe(outer: [usize; 3], picture: &str) -> String {
         _ => format!("{name} = {{ linear = [{lo}, {hi}], count = {count} }}\n"),
     };
     let [ratio, theta, m] = outer;
-    let axes = axis("ratio", 3.0, 6.0, 6.0, ratio) + &axis("theta", 0.3, 1.3, 0.9, theta) + &axis("m", 0.4, 2.0, 0.6, m);
+    let axes =
+        axis("ratio", 3.0, 6.0, 6.0, ratio) + &axis("theta", 0.3, 1.3, 0.9, theta) + &axis("m", 0.4, 2.0, 0.6, m);
     format!(
         "family = \"trig-quintic\"\n[[atlas]]\nname = \"panels\"\n[atlas.axes]\n{axes}p = {{ linear = [-3.9, 1], count = 5 }}\n\
          q = {{ linear = [-1.5, 1], count = 7 }}\n[[atlas.picture]]\nregions = [\"END_RISES\", \"SPIRAL\"]\n{picture}"
@@ -34,21 +35,24 @@ fn made(recipe: &str, folder: &Path) -> (Atlas, image::RgbImage) {
     (Atlas::open(folder.join("panels.atlas.safetensors")).unwrap(), picture)
 }
 
-/// The insides of all frames at least 40 pixels wide and high, in reading order: left, top, right, bottom; the last two are beyond.
+/// The insides of all frames at least 40 pixels wide and high, in reading order: left, top, right, bottom; the last two
+/// are beyond.
 fn frames(picture: &image::RgbImage) -> Vec<[u32; 4]> {
     let (width, height) = picture.dimensions();
     let ink = |x: u32, y: u32| x < width && y < height && picture.get_pixel(x, y).0 == FRAME;
     let mut found = Vec::new();
     for y in 0..height {
         for x in 0..width {
-            // The corner at the top left: lines go on from it to the right and down, and ticks alone to the left and up.
+            // The corner at the top left: lines go on from it to the right and down, and ticks alone to the left and
+            // up.
             let run = |dx: u32, dy: u32| (0..).take_while(|i| ink(x + i * dx, y + i * dy)).count() as u32;
             if !ink(x, y) || ink(x + 1, y + 1) || (y > 0 && ink(x, y - 1)) {
                 continue;
             }
             let (wide, high) = (run(1, 0), run(0, 1));
-            let closed =
-                |wide: u32, high: u32| (0..wide).all(|i| ink(x + i, y + high - 1)) && (0..high).all(|i| ink(x + wide - 1, y + i));
+            let closed = |wide: u32, high: u32| {
+                (0..wide).all(|i| ink(x + i, y + high - 1)) && (0..high).all(|i| ink(x + wide - 1, y + i))
+            };
             // Ticks below go on from the corners.
             if let Some(high) = (40..=high).rev().find(|high| wide >= 40 && closed(wide, *high)) {
                 found.push([x + 1, y + 1, x + wide - 1, y + high - 1]);
@@ -58,7 +62,8 @@ fn frames(picture: &image::RgbImage) -> Vec<[u32; 4]> {
     found
 }
 
-/// Compares all panels, whose nodes of the outer axes are these in reading order, and gives the number of nodes that differ.
+/// Compares all panels, whose nodes of the outer axes are these in reading order, and gives the number of nodes that
+/// differ.
 fn wrong(atlas: &Atlas, picture: &image::RgbImage, outer: &[[usize; 3]]) -> usize {
     let colors = region_colors(2);
     let panels = frames(picture);

@@ -12,8 +12,12 @@ use std::time::Duration;
 fn run(sink: impl FnMut(spiral_atlas::eval::Chunk) -> Result<()>) -> Result<()> {
     let axis = |name: &str, lo: f64, hi: f64, count| Axis::new(name, Spacing::Linear { lo, hi, count }).unwrap();
     // Forty pieces: more than the gate lets through at once.
-    let axes =
-        vec![axis("phi0", 0.1, 0.9, 80), axis("phi1", 0.2, 1.6, 64), axis("kappa0", -0.5, 0.0, 32), axis("kappa1", 0.1, 1.0, 32)];
+    let axes = vec![
+        axis("phi0", 0.1, 0.9, 80),
+        axis("phi1", 0.2, 1.6, 64),
+        axis("kappa0", -0.5, 0.0, 32),
+        axis("kappa1", 0.1, 1.0, 32),
+    ];
     let grid = Grid::new(axes).unwrap();
     let job = Job { family: &Cubic, grid: &grid, scalars: &[] };
     evaluate(&job, &Backend::Cpu, 2, &AtomicBool::new(false), sink).map(drop)

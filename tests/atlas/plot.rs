@@ -113,7 +113,8 @@ fn a_mark_lies_at_its_coordinates() {
     let changed: Vec<(u32, u32)> =
         plain.enumerate_pixels().filter(|(x, y, p)| marked.get_pixel(*x, *y) != *p).map(|(x, y, _)| (x, y)).collect();
     assert!(changed.len() > 50, "nothing drawn");
-    let mean = |pick: fn(&(u32, u32)) -> u32| changed.iter().map(|p| f64::from(pick(p))).sum::<f64>() / changed.len() as f64;
+    let mean =
+        |pick: fn(&(u32, u32)) -> u32| changed.iter().map(|p| f64::from(pick(p))).sum::<f64>() / changed.len() as f64;
     let x = f64::from(left) + (9.0 + 0.5) / 13.0 * f64::from(right + 1 - left);
     let y = f64::from(bottom + 1) - (2.0 + 0.5) / 7.5 * f64::from(bottom + 1 - top);
     assert!((mean(|p| p.0) - x).abs() < 2.0 && (mean(|p| p.1) - y).abs() < 2.0, "{} {}", mean(|p| p.0), mean(|p| p.1));
@@ -275,7 +276,9 @@ fn overview(columns: usize, rows: usize) -> Multiples {
         note: "Each panel: which end curvatures κ₀ (right) and κ₁ (up) can be joined.".into(),
         shape: [rows, columns],
         columns: vec![Caption { name: "φ₁ =".into(), values: p1.iter().map(|p| (format!("{p:.3}"), 1)).collect() }],
-        rows: vec![Caption { name: "φ₀ =".into(), values: p0.iter().rev().map(|p| (format!("{p:.3}"), 1)).collect() }],
+        rows: vec![Caption {
+            name: "φ₀ =".into(), values: p0.iter().rev().map(|p| (format!("{p:.3}"), 1)).collect()
+        }],
         panels: p0.iter().rev().flat_map(|p0| p1.iter().map(|p1| panel(*p0, *p1))).collect(),
     }
 }
@@ -319,7 +322,12 @@ fn what_is_true_everywhere_is_outlined() {
     };
     let fresh = |before: &image::RgbImage, after: &image::RgbImage| {
         let known = colors(before);
-        colors(after).into_iter().filter(|(color, _)| !known.contains_key(color)).map(|(_, count)| count).max().unwrap_or(0)
+        colors(after)
+            .into_iter()
+            .filter(|(color, _)| !known.contains_key(color))
+            .map(|(_, count)| count)
+            .max()
+            .unwrap_or(0)
     };
     assert!(fresh(&none, &one) > 500 && fresh(&one, &two) > 500, "{} {}", fresh(&none, &one), fresh(&one, &two));
 }

@@ -85,25 +85,39 @@ fn pictures_choose_their_flags_and_unions_take_all_nodes() {
     let union = "kind = \"union\"\nregions = [\"ANY_SPIRAL\", \"SPIRAL\"]\noutlines = [\"SOLVABLE\"]\nx = \"kappa1\"";
     let recipe = Recipe::parse(&GOOD.replacen("kind = \"multiples\"\nx = \"kappa1\"", union, 1)).unwrap();
     let picture = &recipe.atlases[0].pictures[1];
-    assert_eq!((picture.kind, &picture.regions[..], &picture.outlines[..]), (PictureKind::Union, &[4, 3][..], &[0][..]));
+    assert_eq!(
+        (picture.kind, &picture.regions[..], &picture.outlines[..]),
+        (PictureKind::Union, &[4, 3][..], &[0][..])
+    );
     assert_eq!(picture.at, [(0, (0..12).collect()), (1, vec![0])]);
-    assert!(complaint("kind = \"multiples\"", "kind = \"union\"\nregions = [\"SPIRALS\"]").contains("did you mean `SPIRAL`?"));
     assert!(
-        complaint("kind = \"multiples\"", "kind = \"union\"\noutlines = [\"SPIRAL\"]").contains("`outlines` go with `regions`")
+        complaint("kind = \"multiples\"", "kind = \"union\"\nregions = [\"SPIRALS\"]")
+            .contains("did you mean `SPIRAL`?")
+    );
+    assert!(
+        complaint("kind = \"multiples\"", "kind = \"union\"\noutlines = [\"SPIRAL\"]")
+            .contains("`outlines` go with `regions`")
     );
 }
 
 #[test]
 fn levels_are_of_a_stored_scalar() {
     let with = |more: &str| format!("kind = \"multiples\"\n{more}");
-    let recipe = Recipe::parse(&GOOD.replacen("kind = \"multiples\"", &with("field = \"f0\"\nlevels = [0.5, 1]"), 1)).unwrap();
+    let recipe =
+        Recipe::parse(&GOOD.replacen("kind = \"multiples\"", &with("field = \"f0\"\nlevels = [0.5, 1]"), 1)).unwrap();
     let levels = recipe.atlases[0].pictures[1].levels.as_ref().unwrap();
     assert_eq!((levels.field, &levels.values[..]), ("f0", &[0.5, 1.0][..]));
     assert!(complaint("kind = \"multiples\"", &with("field = \"f1\"\nlevels = [1]")).contains("did you mean `f0`?"));
     assert!(complaint("kind = \"multiples\"", &with("field = \"f0\"")).contains("`field` goes with `levels`"));
     assert!(complaint("kind = \"multiples\"", &with("levels = [1]")).contains("`levels` go with `field`"));
-    assert!(complaint("kind = \"multiples\"", &with("field = \"f0\"\nlevels = [1, 1]")).contains("must be finite and increase"));
-    assert!(complaint("kind = \"multiples\"", "kind = \"union\"\nfield = \"f0\"\nlevels = [1]").contains("a slice or multiples"));
+    assert!(
+        complaint("kind = \"multiples\"", &with("field = \"f0\"\nlevels = [1, 1]"))
+            .contains("must be finite and increase")
+    );
+    assert!(
+        complaint("kind = \"multiples\"", "kind = \"union\"\nfield = \"f0\"\nlevels = [1]")
+            .contains("a slice or multiples")
+    );
 }
 
 #[test]
@@ -169,7 +183,11 @@ fn mistakes_are_named() {
         ("\"first-1\"", "\"second\"", "two atlases are named `second`"),
         ("kappa0 = { linear", "kapa0 = { linear", "line 10, column 1: unknown axis `kapa0`; did you mean `kappa0`?"),
         ("kappa0 = { linear", "zzzzzz = { linear", "known are `a`, `k`, `kappa0`"),
-        ("kappa0 = { linear", "a = { linear", "`cubic` takes phi0, phi1, kappa0, kappa1 (curvature) or phi0, phi1, a, k"),
+        (
+            "kappa0 = { linear",
+            "a = { linear",
+            "`cubic` takes phi0, phi1, kappa0, kappa1 (curvature) or phi0, phi1, a, k",
+        ),
         ("kappa0 = { linear", "kappa1 = { linear", "is given twice"),
         ("kappa0 = { linear", "kappa0 = { liner", "unknown key `liner`; did you mean `linear`?"),
         ("[0.02, 1.0], count = 3", "[0.02, 1.0]", "axis `kappa0` takes one of"),
@@ -204,7 +222,9 @@ fn mistakes_are_named() {
         let message = complaint(from, to);
         assert!(message.starts_with("line ") && message.contains(what), "{to}: {message}");
     }
-    let Err(Error::Recipe(message)) = Recipe::parse("family = \"cubic\"\natlas = []") else { panic!("no atlas was accepted") };
+    let Err(Error::Recipe(message)) = Recipe::parse("family = \"cubic\"\natlas = []") else {
+        panic!("no atlas was accepted")
+    };
     assert_eq!(message, "line 2, column 9: there is no atlas; add an `[[atlas]]`");
 }
 
@@ -245,7 +265,10 @@ fn wrong_values_are_told_in_words_of_the_recipe() {
     for (from, to, part) in cases {
         let what = complaint(from, to);
         assert!(what.contains(part), "{to}: {what}");
-        assert!(!["invalid type", "struct", "usize", "sequence"].iter().any(|word| what.contains(word)), "{to}: {what}");
+        assert!(
+            !["invalid type", "struct", "usize", "sequence"].iter().any(|word| what.contains(word)),
+            "{to}: {what}"
+        );
     }
 }
 
@@ -258,7 +281,8 @@ fn angles() {
     close("-90 °", -PI / 2.0);
     close("0.7", 0.7);
     close("7e-1rad", 0.7);
-    for bad in ["", "deg", "rad", "1grad", "1 deg rad", "inf", "NaN", "1e400", "infdeg", "0x1", "°", "1°°", "1°rad"] {
+    for bad in ["", "deg", "rad", "1grad", "1 deg rad", "inf", "NaN", "1e400", "infdeg", "0x1", "°", "1°°", "1°rad"]
+    {
         assert!(matches!(parse_angle(bad), Err(Error::Domain(_))), "{bad}");
     }
 }

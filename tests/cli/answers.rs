@@ -59,7 +59,8 @@ fn the_exit_status_is_the_answer() {
     }
 }
 
-/// JSON has no infinity: it would become null. A number beyond the range of doubles is named instead, and with it the datum.
+/// JSON has no infinity: it would become null. A number beyond the range of doubles is named instead, and with it the
+/// datum.
 #[test]
 fn numbers_beyond_the_range_of_doubles_are_told_in_a_sentence() {
     let data = [
@@ -68,7 +69,11 @@ fn numbers_beyond_the_range_of_doubles_are_told_in_a_sentence() {
         ("any-spiral", "--alpha -0.7 --beta 1.4 --k1 -1.7e308 --k2 1.7e308", "1e100"),
         ("reach-cubic", "--theta 0.7 --xi 1.5 --eta 1e-310", "m leaves the range of doubles"),
         ("reach-ph", "--theta 0.7 --xi 1e300 --eta 0.5", "m leaves the range of doubles"),
-        ("trig-quintic", "--ratio 1e160 --theta 42deg --m 1 --p 0 --q 0", "length of solution 0 leaves the range of doubles"),
+        (
+            "trig-quintic",
+            "--ratio 1e160 --theta 42deg --m 1 --p 0 --q 0",
+            "length of solution 0 leaves the range of doubles",
+        ),
         ("ph-equal-length", "--theta0 1 --theta1 1 --S 1e300", "S is 1e300"),
         ("ph-hermite", "--theta0 1 --theta1 1 --l0 1e160 --l1 1e-300", "l0 is 1e160"),
     ];
@@ -81,7 +86,8 @@ fn numbers_beyond_the_range_of_doubles_are_told_in_a_sentence() {
     }
 }
 
-/// Extreme data in each coordinate of each family: an answer of finite numbers, or a sentence; no row of digits longer than a double needs.
+/// Extreme data in each coordinate of each family: an answer of finite numbers, or a sentence; no row of digits longer
+/// than a double needs.
 #[test]
 fn extreme_data_are_answered_or_refused_in_readable_numbers() {
     let ordinary = [
@@ -124,7 +130,11 @@ fn the_papers_examples_have_the_papers_answers() {
         let data: Vec<String> = example[..4].iter().map(|v| v.to_string()).collect();
         let data = [&data[0][..], &data[1], &data[2], &data[3]];
         let json = query(data, &["--json"]).json();
-        assert!(["SOLVABLE", "THEOREM31", "THEOREM31_ANY", "SPIRAL", "ANY_SPIRAL"].iter().all(|f| json["flags"][*f] == true));
+        assert!(
+            ["SOLVABLE", "THEOREM31", "THEOREM31_ANY", "SPIRAL", "ANY_SPIRAL"]
+                .iter()
+                .all(|f| json["flags"][*f] == true)
+        );
         let chosen = &json["solutions"][json["chosen"].as_u64().unwrap() as usize];
         let off = |key: &str, value: f64| (chosen[key].as_f64().unwrap() - value).abs();
         assert!(off("f0", example[4]) < 1e-10 && off("f1", example[5]) < 1e-10, "{chosen}");
@@ -168,19 +178,34 @@ fn an_atlas_is_asked_too() {
 
 #[test]
 fn atlases_in_normalised_coordinates_are_asked_too() {
-    let recipe =
-        TINY.replace("kappa0 = { linear = [0.1, 0.6]", "a = { linear = [0.1, 1.6]").replace("kappa1 = { log", "k = { log");
+    let recipe = TINY
+        .replace("kappa0 = { linear = [0.1, 0.6]", "a = { linear = [0.1, 1.6]")
+        .replace("kappa1 = { log", "k = { log");
     let folder = Folder::new(&recipe[..recipe.find("[[atlas.picture]]").unwrap()]);
     folder.generate(&[]);
-    let json = query(["0.7", "1.4", "0.4", "4"], &["--atlas", &folder.text("out/tiny.atlas.safetensors"), "--json"]).json();
-    // a = 0.4 (sin 1.4 / sin 2.1)² / sin 0.7 = 0.809, nearest to 0.7 of 0.1, 0.4, ..; k = 4 (sin 0.7 / sin 2.1)² / sin 1.4 = 2.26, to 2.
+    let json =
+        query(["0.7", "1.4", "0.4", "4"], &["--atlas", &folder.text("out/tiny.atlas.safetensors"), "--json"]).json();
+    // a = 0.4 (sin 1.4 / sin 2.1)² / sin 0.7 = 0.809, nearest to 0.7 of 0.1, 0.4, ..; k = 4 (sin 0.7 / sin 2.1)² / sin
+    // 1.4 = 2.26, to 2.
     assert_eq!((&json["atlas"]["coordinates"]["a"], &json["atlas"]["coordinates"]["k"]), (&0.7.into(), &2.0.into()));
 }
 
 #[test]
 fn every_family_answers() {
-    let any =
-        fine(["query", "--family", "any-spiral", "--phi0", "0.7", "--phi1", "1.4", "--kappa0", "0.4", "--kappa1", "4", "--json"]);
+    let any = fine([
+        "query",
+        "--family",
+        "any-spiral",
+        "--phi0",
+        "0.7",
+        "--phi1",
+        "1.4",
+        "--kappa0",
+        "0.4",
+        "--kappa1",
+        "4",
+        "--json",
+    ]);
     let (any, cubic) = (any.json(), query(["0.7", "1.4", "0.4", "4"], &["--json"]).json());
     assert_eq!((&any["flags"]["EXISTS"], &cubic["flags"]["ANY_SPIRAL"]), (&true.into(), &true.into()));
     assert_eq!((&any["derived"]["alpha"], any["solutions"][0]["theta"].is_f64()), (&(-0.7).into(), true), "{any}");
@@ -208,7 +233,11 @@ fn every_family_answers() {
     let folder = Folder::new("");
     std::fs::write(folder.at("ends.csv"), "theta,xi,eta\n45deg,1.5,0.9\n4,1,1\n").unwrap();
     let said = run(["query", "--family", "reach-cubic", "--points", &folder.text("ends.csv")]);
-    assert!(said.code == Some(2) && said.out.contains("CASE2_EXACT\":true") && said.out.contains("theta is 4"), "{}", said.out);
+    assert!(
+        said.code == Some(2) && said.out.contains("CASE2_EXACT\":true") && said.out.contains("theta is 4"),
+        "{}",
+        said.out
+    );
 }
 
 #[test]
@@ -222,21 +251,29 @@ fn a_table_is_answered_line_by_line_in_order() {
     let lines: Vec<serde_json::Value> = said.out.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
     assert_eq!(lines.len(), 7);
     assert!(said.out.starts_with(r#"{"phi0":0.7,"phi1":1.4,"kappa0":0.4,"kappa1":4.0,"flags":{"SOLVABLE":true,"#));
-    assert_eq!((&lines[0]["chosen"], &lines[3]["kappa1"], &lines[5]["kappa0"]), (&0.into(), &100.0.into(), &(-1.0).into()));
-    for (at, line, part) in [(1, 4, "kappa1: \"x\""), (2, 5, "2 values"), (4, 7, "phi0 is 4"), (6, 9, "kappa1 is inf")] {
+    assert_eq!(
+        (&lines[0]["chosen"], &lines[3]["kappa1"], &lines[5]["kappa0"]),
+        (&0.into(), &100.0.into(), &(-1.0).into())
+    );
+    for (at, line, part) in [(1, 4, "kappa1: \"x\""), (2, 5, "2 values"), (4, 7, "phi0 is 4"), (6, 9, "kappa1 is inf")]
+    {
         assert_eq!(lines[at]["line"], line);
         assert!(lines[at]["error"].as_str().unwrap().contains(part), "{}", lines[at]);
     }
     // Every row has an answer: that the second is a no does not matter.
-    let good: String =
-        rows.lines().filter(|l| ["id", ",a,", ",e,"].iter().any(|part| l.contains(part))).map(|l| format!("{l}\n")).collect();
+    let good: String = rows
+        .lines()
+        .filter(|l| ["id", ",a,", ",e,"].iter().any(|part| l.contains(part)))
+        .map(|l| format!("{l}\n"))
+        .collect();
     std::fs::write(folder.at("good.csv"), good).unwrap();
     assert_eq!(fine(["query", "--points", &folder.text("good.csv")]).out.lines().count(), 2);
 }
 
 #[test]
 fn whoever_sends_a_row_gets_its_answer_before_the_next() {
-    let mut child = program().args(["query", "--points", "-"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut child =
+        program().args(["query", "--points", "-"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let (mut input, mut output) = (child.stdin.take().unwrap(), BufReader::new(child.stdout.take().unwrap()));
     input.write_all(b"phi0,phi1,kappa0,kappa1\n").unwrap();
     for kappa1 in [3.5, 4.5] {

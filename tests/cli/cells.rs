@@ -47,7 +47,8 @@ fn cells_are_made_told_asked_and_verified() {
         }
     }
     assert_eq!(rows[0]["cell"]["SPIRAL"], "INSIDE");
-    let plain = fine(["query", "--phi0", "0.69", "--phi1", "1.4", "--kappa0", "0.4", "--kappa1", "3.5", "--atlas", &file]);
+    let plain =
+        fine(["query", "--phi0", "0.69", "--phi1", "1.4", "--kappa0", "0.4", "--kappa1", "3.5", "--atlas", &file]);
     assert!(plain.out.contains("its cell: ") && plain.out.contains("SPIRAL = INSIDE"), "{}", plain.out);
     // The same place in other coordinates was rounded, so its cell says nothing of it.
     let other = run(["query", "--phi0", "0.69", "--phi1", "1.4", "--a", "0.8", "--k", "2", "--atlas", &file, "--json"]);
@@ -58,7 +59,10 @@ fn cells_are_made_told_asked_and_verified() {
     assert!(picture("again/few.png") == picture("out/few.png"));
 
     let verified = fine(["verify", &file, "--json"]).json();
-    assert_eq!((&verified["good"], &verified["differences"], &verified["attack"]["wrong"]), (&true.into(), &0.into(), &0.into()));
+    assert_eq!(
+        (&verified["good"], &verified["differences"], &verified["attack"]["wrong"]),
+        (&true.into(), &0.into(), &0.into())
+    );
     // One flag of one top cell, the last of the file.
     let mut bytes = std::fs::read(&file).unwrap();
     let last = bytes.chunks_exact(2).rposition(|known| known[0] & 8 != 0).unwrap() * 2;

@@ -71,7 +71,8 @@ fn curve(family: &str, asked: &[&str], more: &[&str]) -> Said {
 
 /// What a command says to an input.
 pub(super) fn piped(args: &[&str], input: &str) -> Said {
-    let mut child = program().args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut child =
+        program().args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
     child.wait_with_output().unwrap().into()
 }
@@ -88,8 +89,10 @@ fn samples_lie_at_equal_lengths() {
         let length = number(&json["paths"][0]["length"]);
         assert!(samples.len() == 1001 && samples[0][0] == 0.0 && samples[1000][0] == length, "{family}");
         let pieces = json["paths"][0]["pieces"].as_array().unwrap();
-        let least = samples.windows(2).map(|w| (w[1][1] - w[0][1]).hypot(w[1][2] - w[0][2])).fold(f64::INFINITY, f64::min);
-        // A chord is shorter than its arc by (curvature arc)²/24 of it, here 0.05 * 0.4 at most, and the heading turns by curvature arc.
+        let least =
+            samples.windows(2).map(|w| (w[1][1] - w[0][1]).hypot(w[1][2] - w[0][2])).fold(f64::INFINITY, f64::min);
+        // A chord is shorter than its arc by (curvature arc)²/24 of it, here 0.05 * 0.4 at most, and the heading turns
+        // by curvature arc.
         let step = length / 1000.0;
         assert!(step >= least && least > step * (1.0 - 1e-4), "{family}: {least} {step}");
         for w in samples.windows(2) {
@@ -100,7 +103,10 @@ fn samples_lie_at_equal_lengths() {
             let ([_, x, y, heading, curvature], last) = (samples[0], samples[1000]);
             assert_eq!(([x, y], [last[1], last[2]]), ([5.0, -3.0], [205.0, -3.0]), "{family}");
             let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
-            assert!(near(heading, -40f64.to_radians()) && near(last[3], 80f64.to_radians()), "{family}: {heading} {last:?}");
+            assert!(
+                near(heading, -40f64.to_radians()) && near(last[3], 80f64.to_radians()),
+                "{family}: {heading} {last:?}"
+            );
             assert!(near(curvature, 0.004) && near(last[4], 0.04), "{family}: {curvature} {last:?}");
         }
         assert_eq!(pieces.len(), if family == "trig-quintic" { 2 } else { 1 });
@@ -130,7 +136,9 @@ fn a_curve_that_is_too_long_is_none() {
         let json: Value = serde_json::from_str(&said.out).unwrap();
         let reason = json["reason"].as_str().unwrap();
         assert!(
-            said.code == Some(1) && json["paths"] == json!([]) && reason.contains(&format!(" long, more than the {less}")),
+            said.code == Some(1)
+                && json["paths"] == json!([])
+                && reason.contains(&format!(" long, more than the {less}")),
             "{reason}"
         );
         let said = curve(family, asked, &["--longest", &less]);
@@ -168,12 +176,16 @@ fn a_no_names_the_families_that_would_do() {
     assert!(json["reason"].as_str().unwrap().starts_with("no cubic spiral: the start curvature is 0"), "{json}");
 }
 
-/// Ends that a segment of `reach-cubic` and one of `reach-ph` join, and one that neither does: from a line to a circle, and back.
+/// Ends that a segment of `reach-cubic` and one of `reach-ph` join, and one that neither does: from a line to a circle,
+/// and back.
 #[test]
 fn a_straight_end_is_advised_the_segments_that_join_it() {
     let ask = |ends: [&str; 6], more: &[&str]| {
         let names = ["--from", "--to", "--start-direction", "--end-direction", "--start-curvature", "--end-curvature"];
-        run(["curve"].into_iter().chain(names.into_iter().zip(ends).flat_map(|(a, b)| [a, b])).chain(more.iter().copied()))
+        run(["curve"]
+            .into_iter()
+            .chain(names.into_iter().zip(ends).flat_map(|(a, b)| [a, b]))
+            .chain(more.iter().copied()))
     };
     let cases = [
         (["10,5", "35.4,28.9", "30°", "75°", "0", "0.05"], &["reach-cubic", "reach-ph"][..]),
@@ -184,17 +196,21 @@ fn a_straight_end_is_advised_the_segments_that_join_it() {
     for (ends, families) in cases {
         let said = ask(ends, &[]);
         let json: Value = serde_json::from_str(&ask(ends, &["--json"]).out).unwrap();
-        let commands: Vec<&str> = json["segments"].as_array().into_iter().flatten().map(|c| c.as_str().unwrap()).collect();
+        let commands: Vec<&str> =
+            json["segments"].as_array().into_iter().flatten().map(|c| c.as_str().unwrap()).collect();
         assert!(said.code == Some(1) && commands.len() == families.len(), "{}", said.out);
         for (command, family) in commands.iter().zip(families) {
             assert!(said.out.contains(&format!("`{command}`")), "{}", said.out);
             let words: Vec<&str> = command.split(' ').collect();
             assert_eq!(words[..4], ["spiral-atlas", "curve", "--family", family]);
             let found = run(words[1..].iter().chain(&["--json", "--samples", "2"])).json();
-            // It has the ends that were asked for: points exactly, the rest within the roundings of a chord's direction.
+            // It has the ends that were asked for: points exactly, the rest within the roundings of a chord's
+            // direction.
             let [first, last] = [0, 1].map(|i| row(&found["samples"][i]));
             let degrees = |text: &str| text.trim_end_matches('°').parse::<f64>().unwrap().to_radians();
-            for (at, point, heading, curvature) in [(first, ends[0], ends[2], ends[4]), (last, ends[1], ends[3], ends[5])] {
+            for (at, point, heading, curvature) in
+                [(first, ends[0], ends[2], ends[4]), (last, ends[1], ends[3], ends[5])]
+            {
                 assert_eq!(format!("{},{}", at[1], at[2]), point);
                 assert!((at[3] - degrees(heading)).sin().abs() < 1e-13, "{at:?} {heading}");
                 assert!((at[4] - curvature.parse::<f64>().unwrap()).abs() < 1e-13, "{at:?} {curvature}");
@@ -216,9 +232,14 @@ fn batches_have_a_line_for_each_row() {
         let lines: Vec<Value> = said.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         assert!(said.code == Some(0) && lines.len() == 2, "{family}: {} {}", said.out, said.err);
         assert_eq!(lines[0], curve(family, &ENDS, &["--json"]).json());
-        assert!(lines[1]["paths"] == json!([]) && lines[1]["reason"].as_str().unwrap().contains("must be above"), "{}", lines[1]);
+        assert!(
+            lines[1]["paths"] == json!([]) && lines[1]["reason"].as_str().unwrap().contains("must be above"),
+            "{}",
+            lines[1]
+        );
         assert_eq!(lines[1].get("families"), None);
-        let bad = piped(&args, &format!("{rows}0.04,-40°,5,x,205,-3,0.004,80deg\n1,2\n0.04,-40°,5,-3,205,-3,0.004,80deg\n"));
+        let bad =
+            piped(&args, &format!("{rows}0.04,-40°,5,x,205,-3,0.004,80deg\n1,2\n0.04,-40°,5,-3,205,-3,0.004,80deg\n"));
         let lines: Vec<Value> = bad.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         assert!(bad.code == Some(2) && lines.len() == 5, "{}", bad.out);
         assert_eq!((&lines[2]["line"], &lines[2]["error"]), (&json!(4), &json!("y0: \"x\" is no number")));
@@ -230,12 +251,18 @@ fn batches_have_a_line_for_each_row() {
     assert_eq!(measured.out.lines().map(|line| &line[..2]).collect::<Vec<_>>(), ["pa", "0,", "0,"], "{}", measured.err);
     assert_eq!(measured.err, "line 2 of standard input has no path; the reason stands there\n");
     assert_eq!(piped(&["export", "opendrive", "-"], &lines).out.matches("<road ").count(), 1);
-    let table =
-        piped(&["curve", "--points", "-", "--samples", "3", "--csv"], &format!("{rows}\n{}", rows.split_once('\n').unwrap().1));
+    let table = piped(
+        &["curve", "--points", "-", "--samples", "3", "--csv"],
+        &format!("{rows}\n{}", rows.split_once('\n').unwrap().1),
+    );
     let alone = curve("cubic", &ENDS, &["--samples", "3", "--csv"]).out;
     let rows_of = |row: &str| alone.lines().skip(1).map(|line| format!("{row},{line}\n")).collect::<String>();
     assert_eq!(table.out, format!("row,station,x,y,heading,curvature\n{}{}", rows_of("1"), rows_of("3")));
-    assert!(table.code == Some(0) && table.err.starts_with("row 2: ") && table.err.contains("row 4: "), "{}", table.err);
+    assert!(
+        table.code == Some(0) && table.err.starts_with("row 2: ") && table.err.contains("row 4: "),
+        "{}",
+        table.err
+    );
     let header = piped(&["curve", "--points", "-"], "x0,y0\n");
     assert!(header.code == Some(2) && header.err.contains("curvature1"), "{}", header.err);
 }

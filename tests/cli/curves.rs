@@ -3,7 +3,8 @@
 use super::{Folder, fine, run};
 
 fn curve(from: &str, to: &str, directions: [&str; 2], curvatures: [&str; 2], more: &[&str]) -> super::Said {
-    let all = ["curve", "--from", from, "--to", to, "--start-direction", directions[0], "--end-direction", directions[1]];
+    let all =
+        ["curve", "--from", from, "--to", to, "--start-direction", directions[0], "--end-direction", directions[1]];
     let rest = ["--start-curvature", curvatures[0], "--end-curvature", curvatures[1]];
     run(all.iter().chain(&rest).chain(more))
 }
@@ -15,7 +16,10 @@ fn curves_join_real_ends() {
     let json = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "4"], &["--json", "--figure", &figure]).json();
     assert_eq!(json["datum"]["phi0"], 0.7);
     let points = json["solutions"][0]["control_points"].as_array().unwrap();
-    assert_eq!((points.len(), &points[0], &points[3]), (4, &serde_json::json!([-1.0, 0.0]), &serde_json::json!([1.0, 0.0])));
+    assert_eq!(
+        (points.len(), &points[0], &points[3]),
+        (4, &serde_json::json!([-1.0, 0.0]), &serde_json::json!([1.0, 0.0]))
+    );
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     // The same curve ten times as large, mirrored, with vectors for directions.
     let large = curve("0,0", "20,0", ["0.764842187284,0.644217687237", "80.2140913183153deg"], ["-0.04", "-0.4"], &[]);
@@ -33,11 +37,16 @@ fn no_curve_is_an_answer_with_numbers() {
     assert_eq!(json.code, Some(1));
     let json: serde_json::Value = serde_json::from_str(&json.out).unwrap();
     assert_eq!((&json["why"]["condition"], &json["paths"]), (&"inflection".into(), &serde_json::json!([])));
-    assert!(json["reason"].as_str().unwrap().starts_with("no cubic spiral: the start curvature -0.4 is to the right"), "{json}");
+    assert!(
+        json["reason"].as_str().unwrap().starts_with("no cubic spiral: the start curvature -0.4 is to the right"),
+        "{json}"
+    );
     assert_eq!(json["families"], serde_json::json!(["involute"]));
     let wavy = curve("-1,0", "1,0", ["-0.7", "1.4"], ["0.4", "2.2"], &["--figure", &folder.text("wavy.png")]);
     assert!(
-        wavy.code == Some(1) && wavy.out.contains("is not monotone; ") && wavy.out.contains(" would give a spiral (root ("),
+        wavy.code == Some(1)
+            && wavy.out.contains("is not monotone; ")
+            && wavy.out.contains(" would give a spiral (root ("),
         "{}",
         wavy.out
     );
@@ -56,9 +65,18 @@ fn angles_may_be_written_in_many_ways() {
     };
     let (plain, mut others) = (ask("-40deg", "80deg"), 0);
     let radians = [format!("{:?}", -40f64.to_radians()), format!("{:?}rad", 80f64.to_radians())];
-    let starts =
-        ["-40°", "-40 deg", " -40.0° ", "-4e1deg", "320deg", "-400°", "0.766044443118978,-0.642787609686539", &radians[0]];
-    let ends = ["80°", "80 deg", "+80°", "80 °", "440deg", "-280deg", "1.736481776669303,9.84807753012208", &radians[1]];
+    let starts = [
+        "-40°",
+        "-40 deg",
+        " -40.0° ",
+        "-4e1deg",
+        "320deg",
+        "-400°",
+        "0.766044443118978,-0.642787609686539",
+        &radians[0],
+    ];
+    let ends =
+        ["80°", "80 deg", "+80°", "80 °", "440deg", "-280deg", "1.736481776669303,9.84807753012208", &radians[1]];
     for (start, end) in starts.into_iter().zip(ends) {
         // A turn more loses an ulp of itself, and vectors are given to 15 digits; 200 long.
         let off = ask(start, end).iter().zip(&plain).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -82,23 +100,31 @@ fn involutes_join_any_ends_with_a_spiral() {
     let folder = Folder::new("");
     let figure = folder.text("involute.png");
     let ends = ["--from", "3,1", "--to", "7,4", "--start-direction", "0.2", "--end-direction", "2.4"];
-    let curvatures = ["--start-curvature", "-0.1", "--end-curvature", "1.6", "--samples", "33", "--json", "--figure", &figure];
+    let curvatures =
+        ["--start-curvature", "-0.1", "--end-curvature", "1.6", "--samples", "33", "--json", "--figure", &figure];
     let all = ["curve", "--family", "involute"].into_iter().chain(ends).chain(curvatures);
     let json = fine(all.clone()).json();
     let samples = json["samples"].as_array().unwrap();
     let (first, last) = (&samples[0], &samples[32]);
     assert_eq!([point(first), point(last)], [[3.0, 1.0], [7.0, 4.0]]);
     let near = |value: &serde_json::Value, wanted: f64| (number(value) - wanted).abs() <= 1e-12 * wanted.abs();
-    assert!(near(&first["heading"], 0.2) && near(&last["heading"], 2.4) && near(&first["curvature"], -0.1), "{first} {last}");
+    assert!(
+        near(&first["heading"], 0.2) && near(&last["heading"], 2.4) && near(&first["curvature"], -0.1),
+        "{first} {last}"
+    );
     assert!(near(&last["curvature"], 1.6) && near(&last["station"], number(&json["length"])));
     assert!(samples.windows(2).all(|w| number(&w[0]["curvature"]) < number(&w[1]["curvature"])));
     assert!(samples.windows(2).all(|w| number(&w[0]["station"]) < number(&w[1]["station"])));
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     // A turn more about an end makes another curve; equal curvatures make none.
     let turned = fine(all.clone().chain(["--turns", "0,1"])).json();
-    assert!(number(&turned["length"]) > number(&json["length"]) && turned["turns"] == serde_json::json!([0, 1]), "{turned}");
-    let none =
-        run(all.filter(|a| *a != "--json" && *a != "--figure" && *a != figure).map(|a| if a == "1.6" { "-0.1" } else { a }));
+    assert!(
+        number(&turned["length"]) > number(&json["length"]) && turned["turns"] == serde_json::json!([0, 1]),
+        "{turned}"
+    );
+    let none = run(all
+        .filter(|a| *a != "--json" && *a != "--figure" && *a != figure)
+        .map(|a| if a == "1.6" { "-0.1" } else { a }));
     assert!(none.code == Some(1) && none.out.contains("the curvature is -0.1 at both ends"), "{}", none.out);
 }
 
@@ -113,7 +139,11 @@ fn ph_quintics_join_straight_ends_too() {
     };
     let json = straight(&["0.012", "--json", "--figure", &figure]).json();
     let chosen = &json["solutions"][json["chosen"].as_u64().unwrap() as usize];
-    assert_eq!((&chosen["control_points"][0], &chosen["spiral"]), (&serde_json::json!([0.0, 0.0]), &true.into()), "{json}");
+    assert_eq!(
+        (&chosen["control_points"][0], &chosen["spiral"]),
+        (&serde_json::json!([0.0, 0.0]), &true.into()),
+        "{json}"
+    );
     assert!(number(&chosen["length"]) > 200.0 && std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
     let none = straight(&["0.02"]);
     assert!(none.code == Some(1) && none.out.contains("no PH quintic spiral: "), "{}", none.out);
@@ -124,7 +154,19 @@ fn segments_are_added_to_lines_and_arcs() {
     let folder = Folder::new("");
     let figure = folder.text("segment.png");
     let segment = |family: &str, base: &str, more: &[&str]| {
-        let all = ["curve", "--family", family, "--base", base, "--from", "10,5", "--start-direction", "30deg", "--turn", "left"];
+        let all = [
+            "curve",
+            "--family",
+            family,
+            "--base",
+            base,
+            "--from",
+            "10,5",
+            "--start-direction",
+            "30deg",
+            "--turn",
+            "left",
+        ];
         run(all.into_iter().chain(["--radius", "20", "--angle", "45deg"]).chain(more.iter().copied()))
     };
     for (family, points) in [("reach-cubic", 4), ("reach-ph", 6)] {
@@ -139,12 +181,17 @@ fn segments_are_added_to_lines_and_arcs() {
             let end = control[points - 1].as_array().unwrap();
             let json = segment(family, base, &["--to", &format!("{},{}", end[0], end[1]), "--json"]).json();
             assert!(
-                (number(&json["segment"]["m"]) - 0.8).abs() < 1e-12 && (number(&json["segment"]["q"]) - 1.9).abs() < 1e-12,
+                (number(&json["segment"]["m"]) - 0.8).abs() < 1e-12
+                    && (number(&json["segment"]["q"]) - 1.9).abs() < 1e-12,
                 "{json}"
             );
         }
         let near = segment(family, "line", &["--to", "30,30"]);
-        assert!(near.code == Some(1) && near.out.contains(&format!("no segment of `{family}`: the end point")), "{}", near.out);
+        assert!(
+            near.code == Some(1) && near.out.contains(&format!("no segment of `{family}`: the end point")),
+            "{}",
+            near.out
+        );
     }
 }
 
@@ -161,19 +208,46 @@ fn options_of_other_families_are_refused() {
     let usage = "Usage: spiral-atlas curve --family reach-ph --from <X,Y> --start-direction <ANGLE|DX,DY> --base <BASE> --turn <TURN> \
                  --radius <NUMBER> --angle <ANGLE> [--to <X,Y>] [--m <NUMBER>] [--q <NUMBER>] [OPTIONS]";
     refused(&["curve", "--family", "reach-ph", "--m", "1"], &[usage, "'spiral-atlas curve --help'"]);
-    let template =
-        ["curve", "--family", "trig-quintic", "--template", "circle-in-circle", "--from", "0,0", "--second", "1,1,1,1,1,1"];
+    let template = [
+        "curve",
+        "--family",
+        "trig-quintic",
+        "--template",
+        "circle-in-circle",
+        "--from",
+        "0,0",
+        "--second",
+        "1,1,1,1,1,1",
+    ];
     refused(
         &template,
-        &["`--template circle-in-circle` needs", "`--outer`", "--family trig-quintic --template circle-in-circle --from"],
+        &[
+            "`--template circle-in-circle` needs",
+            "`--outer`",
+            "--family trig-quintic --template circle-in-circle --from",
+        ],
     );
     refused(&["curve", "--points", "-", "--from", "0,0"], &["`--from` means nothing to `--points`", "--points <FILE>"]);
     refused(&["curve", "--family", "clothoid"], &["clothoid", "involute"]);
-    let ends =
-        ["curve", "--from", "0,0", "--to", "1,0", "--start-direction", "0", "--end-direction", "1", "--start-curvature", "1"];
+    let ends = [
+        "curve",
+        "--from",
+        "0,0",
+        "--to",
+        "1,0",
+        "--start-direction",
+        "0",
+        "--end-direction",
+        "1",
+        "--start-curvature",
+        "1",
+    ];
     let all: Vec<&str> = ends.into_iter().chain(["--end-curvature", "2", "--turns", "1,0"]).collect();
     refused(&all, &["`--turns` means nothing to `--family cubic`"]);
-    refused(&["query", "--family", "reach-ph", "--phi0", "1"], &["a datum of `reach-ph` needs `--theta --xi --eta`", "`--phi0`"]);
+    refused(
+        &["query", "--family", "reach-ph", "--phi0", "1"],
+        &["a datum of `reach-ph` needs `--theta --xi --eta`", "`--phi0`"],
+    );
 }
 
 /// `query` tells a segment's length in radii, `curve` in the user's unit.
@@ -189,8 +263,20 @@ fn lengths_of_added_segments_agree() {
         let case = if base == "line" { 1 } else { 2 };
         let segment = json["solutions"].as_array().unwrap().iter().find(|s| s["case"] == case).unwrap();
         let [m, q] = ["m", "q"].map(|name| segment[name].to_string());
-        let shape =
-            ["--base", base, "--from", "0,0", "--start-direction", "0", "--turn", "left", "--radius", "20", "--angle", theta];
+        let shape = [
+            "--base",
+            base,
+            "--from",
+            "0,0",
+            "--start-direction",
+            "0",
+            "--turn",
+            "left",
+            "--radius",
+            "20",
+            "--angle",
+            theta,
+        ];
         let rest = ["--m", &m, "--q", &q, "--json"];
         let curve: serde_json::Value =
             serde_json::from_str(&run(["curve", "--family", family].iter().chain(&shape).chain(&rest)).out).unwrap();

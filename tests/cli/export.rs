@@ -13,7 +13,11 @@ fn a_road_goes_to_a_file_or_to_standard_output() {
     std::fs::write(folder.at("road.json"), ROAD).unwrap();
     let (input, out) = (folder.text("road.json"), folder.text("road.xodr"));
     let printed = fine(["export", "opendrive", &input]);
-    assert!(printed.out.contains(r#"<arc curvature="0.02"/>"#) && printed.out.contains(r#"length="70.0""#), "{}", printed.out);
+    assert!(
+        printed.out.contains(r#"<arc curvature="0.02"/>"#) && printed.out.contains(r#"length="70.0""#),
+        "{}",
+        printed.out
+    );
     assert!(printed.err.is_empty(), "{}", printed.err);
     let silent = fine(["export", "opendrive", &input, "--out", &out]);
     assert!(silent.out.is_empty() && std::fs::read_to_string(out).unwrap() == printed.out);
@@ -27,7 +31,8 @@ fn what_no_road_can_be_is_refused_and_leaves_no_file() {
     let curvatures = ["--start-curvature", "0.004", "--end-curvature", "0.04", "--json", "--family"];
     let curve = |family: &str| fine(options.iter().chain(&curvatures).copied().chain([family])).out;
     let none = r#"{"paths": []}"#.to_owned();
-    let still = r#"{"paths": [{"pieces": [{"kind": "cubic", "control_points": [[0, 0], [0, 0], [1, 1], [2, 0]]}]}]}"#.to_owned();
+    let still = r#"{"paths": [{"pieces": [{"kind": "cubic", "control_points": [[0, 0], [0, 0], [1, 1], [2, 0]]}]}]}"#
+        .to_owned();
     let cases: [(String, &[&str], &[&str]); 6] = [
         (curve("involute"), &[], &["pieces[0]", "`involute`", "ph-quintic"]),
         (curve("ph-quintic"), &["--tolerance", "1e-300"], &["tolerance", "2000"]),

@@ -9,7 +9,8 @@ use std::sync::atomic::AtomicBool;
 fn a_recipe_becomes_an_atlas_a_report_and_pictures() {
     let folder = Folder::new(TINY);
     let said = folder.generate(&["--check", "sample"]);
-    for part in ["phi0 2 x phi1 3 x kappa0 6 x kappa1 5 = 180 nodes", "by the CPU", "THEOREM31_ANY", "f64", "all agree"] {
+    for part in ["phi0 2 x phi1 3 x kappa0 6 x kappa1 5 = 180 nodes", "by the CPU", "THEOREM31_ANY", "f64", "all agree"]
+    {
         assert!(said.out.contains(part), "{part}: {}", said.out);
     }
     let expected = ["tiny-1.png", "tiny-2.png", "tiny.atlas.safetensors", "tiny.report.json"];
@@ -24,7 +25,8 @@ fn a_recipe_becomes_an_atlas_a_report_and_pictures() {
     atlas.check_hashes().unwrap();
     assert_eq!(atlas.scalar_names().collect::<Vec<_>>(), ["margin", "f0"]);
     assert_eq!(atlas.recipe_text(), TINY);
-    let report: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.at("out/tiny.report.json")).unwrap()).unwrap();
+    let report: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.at("out/tiny.report.json")).unwrap()).unwrap();
     let spirals = atlas.flags().iter().filter(|f| **f & 8 != 0).count();
     assert!(spirals > 5);
     assert_eq!((&report["nodes"], &report["yes"]["SPIRAL"]), (&180.into(), &spirals.into()));
@@ -118,7 +120,10 @@ fn render_draws_what_generate_draws_and_keeps_nothing_else() {
     let plain = folder.text("plain");
     fine(["render", &with_recipe(&folder, ""), "--out", &plain]);
     assert_eq!(names(plain.as_ref()), ["tiny.png"]);
-    assert_ne!(std::fs::read(folder.at("plain/tiny.png")).unwrap(), std::fs::read(folder.at("out/tiny-1.png")).unwrap());
+    assert_ne!(
+        std::fs::read(folder.at("plain/tiny.png")).unwrap(),
+        std::fs::read(folder.at("out/tiny-1.png")).unwrap()
+    );
 }
 
 #[test]
@@ -138,7 +143,8 @@ fn info_tells_what_an_atlas_holds() {
     folder.generate(&[]);
     let file = folder.text("out/tiny.atlas.safetensors");
     let text = fine(["info", &file]).out;
-    for part in ["180 nodes", "kappa1", "log", "bit 3 SPIRAL", "bits 2-3 spirals", "margin", "half chord", "[[atlas]]"] {
+    for part in ["180 nodes", "kappa1", "log", "bit 3 SPIRAL", "bits 2-3 spirals", "margin", "half chord", "[[atlas]]"]
+    {
         assert!(text.contains(part), "{part}: {text}");
     }
     let json = fine(["info", &file, "--json"]).json();
@@ -177,5 +183,27 @@ fn pictures_that_cannot_be_drawn_are_refused_before_the_work() {
         let said = run(args);
         let place = format!("line {}: `tiny-1.png`: the font has no letter `螺`", line - 3);
         assert!(said.code == Some(2) && said.err.contains(&place), "{}", said.err);
+    }
+}
+
+#[test]
+fn a_damaged_bit_is_seen_by_all_that_read_an_atlas() {
+    let folder = Folder::new(TINY);
+    folder.generate(&[]);
+    let (file, out) = (folder.text("out/tiny.atlas.safetensors"), folder.text("pictures"));
+    let datum = ["--phi0", "0.7", "--phi1", "1.4", "--kappa0", "0.4", "--kappa1", "4"];
+    let query: Vec<&str> = ["query", "--atlas", &file].into_iter().chain(datum).collect();
+    let readers = [vec!["info", &file], vec!["render", &file, "--out", &out], query];
+    for args in &readers {
+        fine(args);
+    }
+    let mut bytes = std::fs::read(&file).unwrap();
+    let last = bytes.len() - 1;
+    bytes[last] ^= 1;
+    std::fs::write(&file, bytes).unwrap();
+    for args in &readers {
+        let said = run(args);
+        assert_eq!((said.code, &said.out[..]), (Some(2), ""), "{args:?}");
+        assert!(said.err.contains("the BLAKE3 of `solutions` is"), "{args:?}: {}", said.err);
     }
 }

@@ -17,7 +17,10 @@ fn every_adapter_writes_the_file_of_the_cpu() {
 
         let file = cpu.text("out/tiny.atlas.safetensors");
         let json = fine(["verify", &file, "--adapter", &label, "--json"]).json();
-        assert_eq!((&json["comparisons"][0]["with"], &json["comparisons"][0]["nodes"]), (&label.clone().into(), &180.into()));
+        assert_eq!(
+            (&json["comparisons"][0]["with"], &json["comparisons"][0]["nodes"]),
+            (&label.clone().into(), &180.into())
+        );
         assert!(json["comparisons"][0]["undecided_f32"].as_u64().is_some_and(|n| n < 90), "{json}");
         let mut bytes = read(&cpu);
         let last = bytes.len() - 1;
@@ -35,7 +38,9 @@ fn verify_takes_all_there_is_and_a_full_check_what_is_left() {
     let said = folder.generate(&["--check", "full"]);
     let verified = fine(["verify", &folder.text("out/tiny.atlas.safetensors")]).out;
     assert!(verified.contains("against the CPU"));
-    assert!(labels.iter().all(|l| said.out.contains(&format!("against {l}")) && verified.contains(&format!("against {l}"))));
+    assert!(
+        labels.iter().all(|l| said.out.contains(&format!("against {l}")) && verified.contains(&format!("against {l}")))
+    );
 }
 
 #[test]
@@ -66,9 +71,17 @@ fn verify_says_when_nothing_was_compared_with_a_gpu() {
         (&json["no_gpu"], json["comparisons"].as_array().map(Vec::len)),
         (&Value::Null, Some(1 + adapters::labels().len()))
     );
-    assert!(fine(["verify", &file, "--backend", "cpu"]).out.contains("NOT compared with any GPU (only the CPU was asked for)"));
+    assert!(
+        fine(["verify", &file, "--backend", "cpu"])
+            .out
+            .contains("NOT compared with any GPU (only the CPU was asked for)")
+    );
     let said = run(["verify", &file, "--backend", "cpu", "--require-adapter"]);
-    assert!(said.code == Some(2) && said.err.contains("--require-adapter") && said.err.contains("Usage"), "{}", said.err);
+    assert!(
+        said.code == Some(2) && said.err.contains("--require-adapter") && said.err.contains("Usage"),
+        "{}",
+        said.err
+    );
 }
 
 /// Mesa's layer for displays and the library of Wayland have nothing to say on a machine without a display.

@@ -27,12 +27,15 @@ fn states_lines_and_circles_are_joined() {
     assert_eq!(said["samples"].as_array().unwrap().len(), 11);
     assert_eq!(said["samples"][10]["station"], said["paths"][0]["length"]);
     let arc = said["paths"][0]["pieces"].as_array().unwrap().iter().find(|piece| piece["kind"] == "arc").unwrap();
-    assert!(arc["start"].is_array() && arc["direction"].is_number() && arc["curvature"] == 0.5 && arc["length"].is_number());
+    assert!(
+        arc["start"].is_array() && arc["direction"].is_number() && arc["curvature"] == 0.5 && arc["length"].is_number()
+    );
     let u = with_limit(&["--from-line", "0,0,0", "--to-line", "0,9,100deg", "--family", "ph-quintic"]).json();
     assert_eq!(kinds(&u), ["ph-quintic", "arc", "ph-quintic"]);
     let j = with_limit(&["--from-line=-3,0,0", "--to-circle", "0,4.2,4,left", "--most-pieces", "1"]).json();
     assert_eq!(kinds(&j), ["cubic"]);
-    let s = with_limit(&["--from-circle", "0,0,4,left", "--to-circle", "12,0,3,right", "--objective", "greatest-rate"]).json();
+    let s = with_limit(&["--from-circle", "0,0,4,left", "--to-circle", "12,0,3,right", "--objective", "greatest-rate"])
+        .json();
     let [low, high] = [0, 1].map(|i| s["paths"][0]["curvature_range"][i].as_f64().unwrap());
     assert!((low + 1.0 / 3.0).abs() < 1e-12 && (high - 0.25).abs() < 1e-12, "{low} {high}");
 }
@@ -40,7 +43,10 @@ fn states_lines_and_circles_are_joined() {
 #[test]
 fn samples_come_as_a_table() {
     let csv = with_limit(&["--from", "0,0,0", "--to", "5,0,0", "--samples", "3", "--csv"]);
-    assert_eq!(csv.out, "station,x,y,heading,curvature\n0.0,0.0,0.0,0.0,0.0\n2.5,2.5,0.0,0.0,0.0\n5.0,5.0,0.0,0.0,0.0\n");
+    assert_eq!(
+        csv.out,
+        "station,x,y,heading,curvature\n0.0,0.0,0.0,0.0,0.0\n2.5,2.5,0.0,0.0,0.0\n5.0,5.0,0.0,0.0,0.0\n"
+    );
     assert_eq!(csv.code, Some(0));
     let none = with_limit(&["--from", "0,0,0", "--to", "5,0,0", "--samples", "3", "--csv", "--longest", "4"]);
     assert_eq!((none.code, none.out.as_str()), (Some(1), ""));
@@ -132,7 +138,9 @@ fn joins_are_read_by_what_reads_paths() {
                 0,0,0,0,8,6,90deg,0\n";
     let lines = piped(&["join", "--points", "-", "--greatest-curvature", "0.5"], rows).out;
     let alone = lines.lines().next().unwrap();
-    for (input, count, note) in [(&one[..], 1, ""), (&lines, 2, "lines 2, 3 of standard input have no path"), (alone, 1, "")] {
+    for (input, count, note) in
+        [(&one[..], 1, ""), (&lines, 2, "lines 2, 3 of standard input have no path"), (alone, 1, "")]
+    {
         let said = piped(&["path", "measure", "-"], input);
         assert!(said.err.contains(note) && said.err.is_empty() == note.is_empty(), "{}", said.err);
         let paths = said.json()["paths"].as_array().unwrap().clone();
@@ -154,14 +162,20 @@ fn mistakes_are_told() {
         (vec!["--from", "0,0", "--to", "1,0,0"], "\"0,0\" is no state `x,y,angle`"),
         (vec!["--from", "0,0,nan", "--to", "1,0,0"], "nan"),
         (vec!["--from-circle", "0,0,1,up", "--to-line", "1,0,0"], "is no circle"),
-        (vec!["--from-circle", "0,0,-1,left", "--to-line", "1,0,0"], "the start radius is -1.0; it must be finite and above 0"),
+        (
+            vec!["--from-circle", "0,0,-1,left", "--to-line", "1,0,0"],
+            "the start radius is -1.0; it must be finite and above 0",
+        ),
         (vec!["--from", "0,0,0", "--to-line", "1,0,0"], "one end is a state and the other is not"),
         (vec!["--from", "0,0,0", "--from-line", "0,0,0", "--to-line", "1,0,0"], "cannot be used with"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--most-pieces", "0"], "the most pieces are 0"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--longest=-1"], "the longest length is -1.0"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "would be a PNG picture"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--csv"], "--samples"),
-        (vec!["--from", "0,0,0", "--to", "4e12,0,0"], "the ends are 2000000000000 least radii apart, where no join is sought"),
+        (
+            vec!["--from", "0,0,0", "--to", "4e12,0,0"],
+            "the ends are 2000000000000 least radii apart, where no join is sought",
+        ),
         (vec!["--from-circle", "0,0,1e13,left", "--to-circle", "0,0,4,left"], "check the unit of length"),
         (vec!["request.toml"], "cannot be used with"),
     ] {
@@ -169,7 +183,8 @@ fn mistakes_are_told() {
         assert!(said.code == Some(2) && said.err.contains(what) && said.out.is_empty(), "{arguments:?}: {}", said.err);
     }
     let limit = |limit: &str| join(&["--from", "0,0,0", "--to", "1,0,0", &format!("--greatest-curvature={limit}")]);
-    for (given, what) in [("0", "is 0.0; it must"), ("-1", "is -1.0"), ("nan", "is NaN"), ("1e200", "change the unit of length")]
+    for (given, what) in
+        [("0", "is 0.0; it must"), ("-1", "is -1.0"), ("nan", "is NaN"), ("1e200", "change the unit of length")]
     {
         let said = limit(given);
         assert!(said.code == Some(2) && said.err.contains(what), "{}", said.err);

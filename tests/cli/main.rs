@@ -15,6 +15,7 @@ mod files;
 mod gpu;
 mod join;
 mod path;
+mod path_mistakes;
 mod snapshots;
 
 use std::ffi::OsStr;

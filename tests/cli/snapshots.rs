@@ -1,5 +1,5 @@
-//! What the program prints, word for word. A change on purpose is taken over with `INSTA_UPDATE=always cargo test --test cli snapshots`; then
-//! look at what has changed in the folder of the same name.
+//! What the program prints, word for word. A change on purpose is taken over with
+//! `INSTA_UPDATE=always cargo test --test cli snapshots`; then look at what has changed in the folder of the same name.
 //!
 //! Only outputs whose digits do not depend on a machine's library of sines stand here.
 

@@ -40,12 +40,14 @@ impl<const N: usize> Subject<N> {
     /// The flags of all nodes of a product of values, by the ladder.
     fn flags(&self, values: &[Vec<f64>; N]) -> Vec<u8> {
         let names = self.family.about().charts[self.chart].axes;
-        let axes = names.iter().zip(values).map(|(name, values)| Axis::new(name, Spacing::Values(values.clone())).unwrap());
+        let axes =
+            names.iter().zip(values).map(|(name, values)| Axis::new(name, Spacing::Values(values.clone())).unwrap());
         let grid = Grid::new(axes.collect()).unwrap();
         let table = self.family.table(&grid).unwrap_or_else(|e| panic!("{values:?}: {e}"));
         let mut codes = vec![Code::UNDECIDED; grid.len() as usize];
         table.filter(0, &mut codes);
-        let exact = |(i, code): (usize, Code)| if code == Code::UNDECIDED { table.exact(i as u64).unwrap().0 } else { code };
+        let exact =
+            |(i, code): (usize, Code)| if code == Code::UNDECIDED { table.exact(i as u64).unwrap().0 } else { code };
         codes.into_iter().enumerate().map(exact).map(|code| code.flags()).collect()
     }
 
@@ -74,7 +76,10 @@ impl<const N: usize> Subject<N> {
             }
             points += found.len();
         }
-        println!("{}: {points} points; {boxes} boxes, inside {inside:?}, outside {outside:?}", self.family.about().name);
+        println!(
+            "{}: {points} points; {boxes} boxes, inside {inside:?}, outside {outside:?}",
+            self.family.about().name
+        );
         assert!(points >= least && inside.iter().chain(&outside).all(|n| *n > each), "{points} {inside:?} {outside:?}");
     }
 }

@@ -159,11 +159,14 @@ fn grids() {
         assert_eq!(piece, codes[start as usize..][..39], "a piece of the grid from {start} differs from the whole");
         for node in 0..grid.len() {
             let [phi0, phi1, x, y, _] = grid.node(node);
-            let ends = if normalised { Ends::Normalised { a: x, k: y } } else { Ends::Curvature { kappa0: x, kappa1: y } };
+            let ends =
+                if normalised { Ends::Normalised { a: x, k: y } } else { Ends::Curvature { kappa0: x, kappa1: y } };
             let want = judge_ends(phi0, phi1, ends);
             let exact = table.exact(node).expect("decided").0;
             compared += 1;
-            wrong.extend(code_faults(&want, exact).into_iter().map(|f| format!("exact at {}: {f}", grid.describe(node))));
+            wrong.extend(
+                code_faults(&want, exact).into_iter().map(|f| format!("exact at {}: {f}", grid.describe(node))),
+            );
             if codes[node as usize] == Code::UNDECIDED {
                 abstained += 1;
             } else {

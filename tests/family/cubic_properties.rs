@@ -20,18 +20,27 @@ fn nested(flags: u8, solutions: u8) -> bool {
 
 #[test]
 fn conditions_are_nested() {
-    let linear = |name: &str, lo: f64, hi: f64, count| Axis::new(name, Spacing::Linear { lo, hi, count }).expect("an axis");
+    let linear =
+        |name: &str, lo: f64, hi: f64, count| Axis::new(name, Spacing::Linear { lo, hi, count }).expect("an axis");
     let plain = vec![
         linear("phi0", 0.05, 0.9, 7),
         linear("phi1", 0.1, 2.2, 11),
         linear("kappa0", -0.2, 1.0, 13),
         linear("kappa1", 0.1, 9.0, 17),
     ];
-    let normalised =
-        vec![linear("phi0", 0.02, 1.0, 11), linear("phi1", 0.1, 2.1, 7), linear("a", 0.01, 1.0, 13), linear("k", 0.05, 3.0, 17)];
+    let normalised = vec![
+        linear("phi0", 0.02, 1.0, 11),
+        linear("phi1", 0.1, 2.1, 7),
+        linear("a", 0.01, 1.0, 13),
+        linear("k", 0.05, 3.0, 17),
+    ];
     // Where Theorem 3.1 misses most spirals: nearly equal angles.
-    let equal =
-        vec![linear("phi0", 0.7, 0.8, 5), linear("phi1", 0.9, 1.4, 7), linear("a", 0.45, 0.65, 11), linear("k", 0.54, 1.1, 29)];
+    let equal = vec![
+        linear("phi0", 0.7, 0.8, 5),
+        linear("phi1", 0.9, 1.4, 7),
+        linear("a", 0.45, 0.65, 11),
+        linear("k", 0.54, 1.1, 29),
+    ];
     let mut met = [0; 32];
     for axes in [plain, normalised, equal] {
         let grid = Grid::new(axes).expect("a grid");
@@ -109,7 +118,10 @@ impl Legs {
     fn falls_and_rises(&self, leg_error: f64, steps: usize) -> (usize, usize) {
         let samples: Vec<_> = (0..=steps).map(|i| self.curvature(i as f64 / steps as f64, leg_error)).collect();
         let certain = |w: &[(f64, f64)], sign: f64| sign * (w[1].0 - w[0].0) > w[0].1 + w[1].1;
-        (samples.windows(2).filter(|w| certain(w, -1.0)).count(), samples.windows(2).filter(|w| certain(w, 1.0)).count())
+        (
+            samples.windows(2).filter(|w| certain(w, -1.0)).count(),
+            samples.windows(2).filter(|w| certain(w, 1.0)).count(),
+        )
     }
 }
 

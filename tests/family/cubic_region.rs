@@ -87,7 +87,9 @@ fn the_oracle_confirms_boxes() {
 fn nothing_is_said_outside_the_domain() {
     let all = [[0.7, 0.71], [1.4, 1.41], [0.4, 0.41], [4.0, 4.1]];
     assert_eq!((SUBJECT.facts(&all).inside | SUBJECT.facts(&all).outside).count_ones(), 5);
-    for (which, side) in [(0, [-0.1, 0.6]), (0, [0.0, 0.6]), (1, [0.9, 2.7]), (2, [f64::NAN, 0.2]), (3, [4.0, f64::INFINITY])] {
+    for (which, side) in
+        [(0, [-0.1, 0.6]), (0, [0.0, 0.6]), (1, [0.9, 2.7]), (2, [f64::NAN, 0.2]), (3, [4.0, f64::INFINITY])]
+    {
         let mut sides = all;
         sides[which] = side;
         let facts = SUBJECT.facts(&sides);

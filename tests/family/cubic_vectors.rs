@@ -2,7 +2,9 @@
 
 use crate::oracle::compare::Tally;
 use crate::oracle::data::Case;
-use crate::oracle::{ANY_SPIRAL, Ends, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY, Verdict, h_values, in_domain, judge};
+use crate::oracle::{
+    ANY_SPIRAL, Ends, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY, Verdict, h_values, in_domain, judge,
+};
 use serde::Deserialize;
 
 #[derive(Debug, Clone, Deserialize)]

@@ -1,4 +1,5 @@
-//! Every family against independent oracles, published numbers and reference data; and what places its curves in the user's plane.
+//! Every family against independent oracles, published numbers and reference data; and what places its curves in the
+//! user's plane.
 
 mod any_spiral;
 mod boxes;

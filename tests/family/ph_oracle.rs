@@ -1,4 +1,5 @@
-//! PH quintics with given ends against the oracle: random data, folds between neighbouring doubles, grids. Nothing may be wrong.
+//! PH quintics with given ends against the oracle: random data, folds between neighbouring doubles, grids. Nothing may
+//! be wrong.
 
 use crate::oracle::data::Random;
 use crate::oracle::ph::{Curve, Verdict, judge};
@@ -169,7 +170,9 @@ fn near_symmetric_data() {
 fn forks() {
     let mut tally = Tally::default();
     let tiny = [1e-4, 1e-5, 1e-7, 1e-9].map(|x| (x, x));
-    for (phi, kappa) in tiny.into_iter().chain([(1.0, 0.5835894701), (0.3, 0.2867208939305582), (0.01, 0.009999500030548204)]) {
+    for (phi, kappa) in
+        tiny.into_iter().chain([(1.0, 0.5835894701), (0.3, 0.2867208939305582), (0.01, 0.009999500030548204)])
+    {
         // The oracle cannot tell that mirror images have one energy; that they are such images can be seen.
         let symmetric = solved([phi, phi, kappa, kappa]);
         let curves = symmetric.all();
@@ -194,8 +197,8 @@ fn forks_of_tiny_angles() {
             let datum = match i % 4 {
                 0 => [0; 4].map(|_| [x, x.next_up(), x.next_down()][r.below(3) as usize]),
                 1 => [0; 4].map(|_| x * (1.0 + r.decades(-16.0, -1.0))),
-                // Where the curvatures exceed the angle by a share, three solutions are the root of that apart, and a share of its power of 3/2
-                // in a difference of both ends makes two of them merge.
+                // Where the curvatures exceed the angle by a share, three solutions are the root of that apart, and a
+                // share of its power of 3/2 in a difference of both ends makes two of them merge.
                 _ => {
                     let share = r.decades(-9.0, -1.0);
                     let apart = 0.3 * share.powf(1.5) * r.uniform(-1.0, 1.0);
@@ -276,7 +279,8 @@ fn boundaries_between_neighbouring_doubles() {
     assert!(folds >= 10 && rims >= 5 && outer >= 10);
 }
 
-/// Both curvatures 0: `w1 = 0`, so `AB + 6 cos Φ B² = 30 sin φ0 / sin Φ` and the same with the ends exchanged; by hand, one solution.
+/// Both curvatures 0: `w1 = 0`, so `AB + 6 cos Φ B² = 30 sin φ0 / sin Φ` and the same with the ends exchanged; by hand,
+/// one solution.
 #[test]
 fn no_curvature_at_both_ends() {
     for (phi0, phi1) in [(0.7, 1.4), (0.3, 0.3), (0.2, 2.5)] {

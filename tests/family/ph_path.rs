@@ -108,7 +108,10 @@ fn lengths_agree_with_sampling() {
         }
     }
     println!("{kinds:?} {quick}");
-    assert!(kinds[1..].iter().all(|k| *k > 5 && u64::from(*k) < count - 5) && quick * 10 > count * 7, "{kinds:?} {quick}");
+    assert!(
+        kinds[1..].iter().all(|k| *k > 5 && u64::from(*k) < count - 5) && quick * 10 > count * 7,
+        "{kinds:?} {quick}"
+    );
 }
 
 #[test]
@@ -128,7 +131,10 @@ fn speeds_agree_with_sampling() {
         }
     }
     println!("{kinds:?} {quick}");
-    assert!(kinds[1..].iter().all(|k| *k > 5 && u64::from(*k) < count - 5) && quick * 10 > count * 7, "{kinds:?} {quick}");
+    assert!(
+        kinds[1..].iter().all(|k| *k > 5 && u64::from(*k) < count - 5) && quick * 10 > count * 7,
+        "{kinds:?} {quick}"
+    );
 }
 
 /// Both ends of such curves bend alike to the last bit of doubles, and beyond.
@@ -153,7 +159,8 @@ fn neighbours_of_symmetric_data_are_decided() {
     }
     // Two doubles leave some of these to intervals.
     assert!(slow > 0, "{slow}");
-    // Directions within rounding of straight back: the peak is next to an end, nearer than doubles tell parameters from 1.
+    // Directions within rounding of straight back: the peak is next to an end, nearer than doubles tell parameters from
+    // 1.
     for (l0, l1) in [(4.0, 1.0), (2.0, 0.5), (1.0, 4.0), (0.25, 1.0), (4.000000000000001, 1.0)] {
         for theta in [PI, -PI] {
             node(SPEEDS, &[theta, theta, l0, l1]);
@@ -222,11 +229,14 @@ fn figures_are_reproduced() {
     assert!(kappa(at - 0.01) > kappa(at) && kappa(at + 0.01) > kappa(at));
 }
 
-/// The largest curvature of the paper's better path, of 44 published ones; it has least rotation, so another may bend less.
+/// The largest curvature of the paper's better path, of 44 published ones; it has least rotation, so another may bend
+/// less.
 #[test]
 fn published_paths_bend_no_less() {
     let (mut equal, mut less) = (0, 0);
-    for row in ["equal_arc", "equal_arc_special"].iter().flat_map(|key| published(key)["rows"].as_array().unwrap().clone()) {
+    for row in
+        ["equal_arc", "equal_arc_special"].iter().flat_map(|key| published(key)["rows"].as_array().unwrap().clone())
+    {
         let x = |v: &Value| v.as_f64().unwrap();
         let chord = [0, 1].map(|i| x(&row[1][i]) - x(&row[0][i]));
         let (size, along) = (chord[0].hypot(chord[1]), chord[1].atan2(chord[0]));
@@ -248,7 +258,10 @@ fn both_angles_zero() {
     assert_eq!(found, Node { flags: REGULAR | ONE_WAY | PAPER, scalars: [0.0; 2], quick: true });
     // At l0 = l1 = 5 the line stops for a moment; loops with w2 < 0 are left.
     let stops = node(SPEEDS, &[0.0, 0.0, 5.0, 5.0]);
-    assert!(stops.scalars[0] > 1.0 && stops.scalars[1] == NO_VALUE && stops.flags & (REGULAR | PAPER) == REGULAR, "{stops:?}");
+    assert!(
+        stops.scalars[0] > 1.0 && stops.scalars[1] == NO_VALUE && stops.flags & (REGULAR | PAPER) == REGULAR,
+        "{stops:?}"
+    );
     assert_eq!(node(SPEEDS, &[0.0, 0.0, 5f64.next_down(), 5.0]).scalars, [0.0; 2]);
     // Nothing but lines that turn back.
     assert_eq!(node(SPEEDS, &[0.0, 0.0, 6.0, 0.001]), Node { flags: 0, scalars: [NO_VALUE; 2], quick: true });

@@ -66,7 +66,9 @@ fn small_boxes_are_decided() {
             continue;
         }
         counted += 1;
-        let left = |facts: spiral_atlas::family::Facts| (facts.inside | facts.outside) & (SPIRAL | SOLVABLE) != SPIRAL | SOLVABLE;
+        let left = |facts: spiral_atlas::family::Facts| {
+            (facts.inside | facts.outside) & (SPIRAL | SOLVABLE) != SPIRAL | SOLVABLE
+        };
         open += u32::from(left(facts));
         coarse += u32::from(left(SUBJECT.facts(&side(1.0))));
     }
@@ -78,7 +80,9 @@ fn small_boxes_are_decided() {
 fn nothing_is_said_outside_the_domain() {
     let all = [[0.7, 0.7001], [1.4, 1.4001], [0.4, 0.4001], [4.0, 4.001]];
     assert_eq!((SUBJECT.facts(&all).inside | SUBJECT.facts(&all).outside).count_ones(), 3);
-    for (which, side) in [(0, [-0.1, 0.6]), (0, [0.0, 0.6]), (1, [0.9, 2.7]), (2, [f64::NAN, 0.2]), (3, [4.0, f64::INFINITY])] {
+    for (which, side) in
+        [(0, [-0.1, 0.6]), (0, [0.0, 0.6]), (1, [0.9, 2.7]), (2, [f64::NAN, 0.2]), (3, [4.0, f64::INFINITY])]
+    {
         let mut sides = all;
         sides[which] = side;
         let facts = SUBJECT.facts(&sides);

@@ -28,9 +28,12 @@ fn faults(want: &[Row], got: &[Quintic]) -> Vec<String> {
     }
     let mut faults = Vec::new();
     for (want, got) in want.iter().zip(got) {
-        for (name, want, got) in
-            [("A", want[0], got.a), ("B", want[1], got.b), ("length", want[3], got.length), ("energy", want[4], got.energy)]
-        {
+        for (name, want, got) in [
+            ("A", want[0], got.a),
+            ("B", want[1], got.b),
+            ("length", want[3], got.length),
+            ("energy", want[4], got.energy),
+        ] {
             if (want - got).abs() > DIGITS * want {
                 faults.push(format!("{name} is {got}, must be {want}"));
             }
@@ -70,8 +73,10 @@ fn codes(family: &dyn Family, grid: &Grid) -> (Vec<Code>, usize) {
 #[test]
 fn every_published_solution() {
     let fixture: Value = serde_json::from_str(include_str!("../fixtures/ph_g2.json")).expect("JSON");
-    let one = fixture["g2"]["rows"].as_array().expect("rows").iter().map(|r| (&r[0], &r[1], &r[3], Some(number(&r[2]))));
-    let several = fixture["g2_multi"].as_array().expect("rows").iter().map(|r| (&r["phi"], &r["kappa"], &r["all"], None));
+    let one =
+        fixture["g2"]["rows"].as_array().expect("rows").iter().map(|r| (&r[0], &r[1], &r[3], Some(number(&r[2]))));
+    let several =
+        fixture["g2_multi"].as_array().expect("rows").iter().map(|r| (&r["phi"], &r["kappa"], &r["all"], None));
     let (mut compared, mut spirals) = (0, 0);
     for (phi, kappa, all, any) in one.chain(several) {
         let pair = |v: &Value| [number(&v[0]), number(&v[1])];

@@ -90,7 +90,8 @@ fn ends_of_ranges_agree_with_the_oracle() {
             for (side, outwards) in [(0, -1e-9), (1, 1e-9)] {
                 let end = range.ends[side];
                 let judged = |x: f64| {
-                    in_domain(point[0], point[1]) && judge(point[0], point[1], point[2], x).flags & family::cubic::SPIRAL != 0
+                    in_domain(point[0], point[1])
+                        && judge(point[0], point[1], point[2], x).flags & family::cubic::SPIRAL != 0
                 };
                 if end < 20.0 {
                     assert!(judged(end - outwards * end) && !judged(end + outwards * end), "{point:?} {range:?}");
@@ -111,7 +112,8 @@ fn nothing_is_nearer_than_said() {
         let chart = usize::from(family == "any-spiral");
         let Asked { property, holds } = asked(family, chart, flag);
         for k in 0..count {
-            let point: Vec<f64> = vec![r.uniform(0.2, 1.4), r.uniform(0.2, 1.4), r.uniform(0.5, 2.0), r.uniform(0.0, 2.0)];
+            let point: Vec<f64> =
+                vec![r.uniform(0.2, 1.4), r.uniform(0.2, 1.4), r.uniform(0.5, 2.0), r.uniform(0.0, 2.0)];
             // Of half of them the directions stay.
             let weights = if k % 2 == 0 { [f64::INFINITY, f64::INFINITY, 1.0, 0.5] } else { [1.0, 2.0, 1.0, 0.5] };
             let answer = nearest(&property, &point, &weights).unwrap();
@@ -126,8 +128,15 @@ fn nothing_is_nearer_than_said() {
             }
             let reach = answer.at_least.min(1e3);
             for _ in 0..300 {
-                let step: Vec<f64> = (0..4).map(|i| if weights[i].is_finite() { r.uniform(-1.0, 1.0) } else { 0.0 }).collect();
-                let size = step.iter().zip(weights).filter(|(s, _)| **s != 0.0).map(|(s, w)| (s * w).powi(2)).sum::<f64>().sqrt();
+                let step: Vec<f64> =
+                    (0..4).map(|i| if weights[i].is_finite() { r.uniform(-1.0, 1.0) } else { 0.0 }).collect();
+                let size = step
+                    .iter()
+                    .zip(weights)
+                    .filter(|(s, _)| **s != 0.0)
+                    .map(|(s, w)| (s * w).powi(2))
+                    .sum::<f64>()
+                    .sqrt();
                 let share = reach * r.uniform(0.5, 0.9999) / size;
                 let moved: Vec<f64> = point.iter().zip(&step).map(|(x, s)| x + share * s).collect();
                 assert!(reach == 0.0 || !holds(&moved), "{moved:?} {place}");
@@ -195,6 +204,8 @@ fn what_cannot_be_asked_is_refused() {
     assert!(told(nearest(&spiral, &[f64::NAN, 1.4, 0.4, 4.0], &[1.0; 4]).unwrap_err()).contains("phi0 is NaN"));
     assert!(told(nearest(&spiral, &point, &[1.0, 0.0, 1.0, 1.0]).unwrap_err()).contains("weight of phi1"));
     assert!(told(boundary(&spiral, &point, [2, 2], [[0.0, 1.0]; 2], 64).unwrap_err()).contains("numbers 2 and 2"));
-    assert!(told(boundary(&spiral, &point, [2, 3], [[0.0, 1.0], [0.0, f64::INFINITY]], 64).unwrap_err()).contains("kappa1"));
+    assert!(
+        told(boundary(&spiral, &point, [2, 3], [[0.0, 1.0], [0.0, f64::INFINITY]], 64).unwrap_err()).contains("kappa1")
+    );
     assert!(told(boundary(&spiral, &point, [2, 3], [[0.0, 1.0]; 2], 65).unwrap_err()).contains("65"));
 }

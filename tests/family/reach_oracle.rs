@@ -1,4 +1,5 @@
-//! The reachable regions against the oracle: random end points, and every place where a verdict is hard. Nothing may be wrong.
+//! The reachable regions against the oracle: random end points, and every place where a verdict is hard. Nothing may be
+//! wrong.
 
 use crate::oracle::data::Random;
 use crate::oracle::reach::{Verdict, judge};
@@ -44,7 +45,8 @@ fn scalar_faults(want: &Verdict, got: [f32; 4]) -> Vec<String> {
 }
 
 fn segment_faults(want: &Verdict, got: [Option<Segment>; 2]) -> Vec<String> {
-    let level = |flags: u8| [Level::Exists, Level::Exact, Level::Theorem, Level::Paper][flags.count_ones() as usize - 1];
+    let level =
+        |flags: u8| [Level::Exists, Level::Exact, Level::Theorem, Level::Paper][flags.count_ones() as usize - 1];
     let same = (0..2).all(|i| want[i].map(|s| Segment { m: s.m, q: s.q, level: level(s.flags) }) == got[i]);
     if same { vec![] } else { vec![format!("solved {got:?}, must be {want:?}")] }
 }
@@ -64,7 +66,10 @@ impl Tally {
         for case in want {
             self.levels[case.map_or(0, |s| s.flags.count_ones() as usize)] += 1;
             // Each level contains the next.
-            assert!(case.is_none_or(|s| [1, 3, 7, 15].contains(&s.flags)), "{kind:?} {theta:?} {xi:?} {eta:?}: {want:?}");
+            assert!(
+                case.is_none_or(|s| [1, 3, 7, 15].contains(&s.flags)),
+                "{kind:?} {theta:?} {xi:?} {eta:?}: {want:?}"
+            );
         }
         let mut report = |step: &str, found: Vec<String>| {
             self.faults.extend(found.into_iter().map(|f| format!("{step}, {kind:?} at {theta:?} {xi:?} {eta:?}: {f}")));

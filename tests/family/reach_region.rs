@@ -1,4 +1,5 @@
-//! Verdicts over boxes for the reachable end points of both curves: no point contradicts its box, and the oracle agrees.
+//! Verdicts over boxes for the reachable end points of both curves: no point contradicts its box, and the oracle
+//! agrees.
 
 use crate::boxes::{Subject, place};
 use crate::oracle::random::Random;
@@ -6,7 +7,8 @@ use crate::oracle::reach::judge;
 use spiral_atlas::family::reach::{Kind, Reach};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const CUBIC: Subject<3> = Subject { family: &Reach(Kind::Cubic), chart: 0, draw: |r, round| draw(Kind::Cubic, r, round) };
+const CUBIC: Subject<3> =
+    Subject { family: &Reach(Kind::Cubic), chart: 0, draw: |r, round| draw(Kind::Cubic, r, round) };
 const PH: Subject<3> = Subject { family: &Reach(Kind::Ph), chart: 0, draw: |r, round| draw(Kind::Ph, r, round) };
 
 /// The end point (ξ, η) of a segment of a case (0 or 1) by its shape; u over where c0 is 0.
@@ -102,7 +104,9 @@ fn nothing_is_said_outside_the_domain() {
     let all = [[0.7, 0.7], end(Kind::Cubic, 0, 0.7, 1.0, 0.8), [0.0; 2]];
     let all = [all[0], [all[1][0]; 2], [all[1][1]; 2]];
     assert_eq!(CUBIC.facts(&all).inside & 0xf, 0xf);
-    for (which, side) in [(0, [0.0, 0.7]), (0, [0.7, 1.6]), (0, [f64::NAN; 2]), (1, [1.0, f64::INFINITY]), (2, [f64::NAN, 1.0])] {
+    for (which, side) in
+        [(0, [0.0, 0.7]), (0, [0.7, 1.6]), (0, [f64::NAN; 2]), (1, [1.0, f64::INFINITY]), (2, [f64::NAN, 1.0])]
+    {
         let mut sides = all;
         sides[which] = side;
         let facts = CUBIC.facts(&sides);

@@ -42,7 +42,9 @@ fn row_faults(kind: Kind, case: usize, row: &[Option<f64>]) -> Vec<String> {
     let found = segment(&at(kind, theta, xi, eta), case);
     let is = match found {
         None => 0,
-        Some(s) => 1 + [Level::Exists, Level::Exact, Level::Theorem, Level::Paper].iter().position(|l| *l == s.level).unwrap(),
+        Some(s) => {
+            1 + [Level::Exists, Level::Exact, Level::Theorem, Level::Paper].iter().position(|l| *l == s.level).unwrap()
+        }
     };
     if is != level as usize {
         faults.push(format!("level {is}, must be {level}"));
@@ -55,9 +57,10 @@ fn row_faults(kind: Kind, case: usize, row: &[Option<f64>]) -> Vec<String> {
     if fast != Code::UNDECIDED && fast != exact {
         faults.push(format!("filter {fast:?} against {exact:?}"));
     }
-    for (name, want, got, single) in
-        [("m", m, found.map(|s| s.m), scalars[2 * (case - 1)]), ("q", q, found.map(|s| s.q), scalars[2 * (case - 1) + 1])]
-    {
+    for (name, want, got, single) in [
+        ("m", m, found.map(|s| s.m), scalars[2 * (case - 1)]),
+        ("q", q, found.map(|s| s.q), scalars[2 * (case - 1) + 1]),
+    ] {
         match (want, got) {
             (None, None) if single == NO_VALUE => {}
             (Some(w), Some(g)) if (w - g).abs() <= room(kind, theta, w, q) && single == g as f32 => {}
@@ -67,8 +70,9 @@ fn row_faults(kind: Kind, case: usize, row: &[Option<f64>]) -> Vec<String> {
     faults
 }
 
-/// What a row's number may be off: it has 15 digits, and was made from the decimal coordinates, which the doubles miss by half a
-/// unit; small m come from a difference with 1 (cubic) or 3 + 24 L/q (PH), and so does what one unit moves them.
+/// What a row's number may be off: it has 15 digits, and was made from the decimal coordinates, which the doubles miss
+/// by half a unit; small m come from a difference with 1 (cubic) or 3 + 24 L/q (PH), and so does what one unit moves
+/// them.
 fn room(kind: Kind, theta: f64, value: f64, q: Option<f64>) -> f64 {
     let size = match kind {
         Kind::Cubic => 1.0,
@@ -136,8 +140,12 @@ fn walton_and_meeks_points_have_m_1_and_lie_on_the_rim() {
                     Kind::Ph => 3.5 * (t / 2.0).tan(),
                 };
                 let found = segment(&at(kind, t, xi, eta), case).unwrap();
-                assert!((found.m - 1.0).abs() < 1e-12 && (found.q - q).abs() < 1e-13 * q, "{kind:?} {case} {t}: {found:?}");
-                // A little more of q is drawn, a little less is no spiral: the ends move by (1 ± 1e-9) from the base point.
+                assert!(
+                    (found.m - 1.0).abs() < 1e-12 && (found.q - q).abs() < 1e-13 * q,
+                    "{kind:?} {case} {t}: {found:?}"
+                );
+                // A little more of q is drawn, a little less is no spiral: the ends move by (1 ± 1e-9) from the base
+                // point.
                 let near = |f: f64| {
                     let (m, q) = (1.0, q * f);
                     let (x, y) = end(kind, case, t, m, q);
@@ -200,15 +208,19 @@ fn areas_in_the_window() {
     for (kind, theta, shares) in SHARES {
         for (counts, shares) in areas(kind, theta, N).iter().zip(shares) {
             let exact = counts[0] as f64;
-            // The regions are bounded by curves of length 6 at most, which pass 6 N/4 cells. Each is miscounted by half a cell at
-            // most, here too many and there too few: as of so many fair coins, four standard deviations of the sum.
+            // The regions are bounded by curves of length 6 at most, which pass 6 N/4 cells. Each is miscounted by half
+            // a cell at most, here too many and there too few: as of so many fair coins, four standard deviations of
+            // the sum.
             let cells = 4.0 * 0.5 * (6.0 * N as f64 / 4.0).sqrt();
             let tolerance = 0.0005 + 2.0 * cells / exact;
             assert!(tolerance < 0.003, "{exact} cells, {tolerance}");
             for (share, count) in shares.into_iter().zip([counts[2], counts[1]]) {
                 let ours = count as f64 / exact;
                 println!("{kind:?} {theta:.4}: {ours:.5}, published {share}, tolerance {tolerance:.5}");
-                assert!((ours - share).abs() <= tolerance, "{kind:?} {theta}: {ours} is not {share} within {tolerance}");
+                assert!(
+                    (ours - share).abs() <= tolerance,
+                    "{kind:?} {theta}: {ours} is not {share} within {tolerance}"
+                );
                 // And would notice a wrong digit in the second place.
                 assert!((ours - share - 0.01).abs() > tolerance);
             }

@@ -1,4 +1,5 @@
-//! Quintic trigonometric spirals against the oracle: random shapes, and places where a verdict is hard. Nothing may be wrong.
+//! Quintic trigonometric spirals against the oracle: random shapes, and places where a verdict is hard. Nothing may be
+//! wrong.
 
 use crate::oracle::data::Random;
 use crate::oracle::trig::{END_CURVATURE_AS_PRINTED, END_RISES, PRINTED_RATIO, SPIRAL, judge};
@@ -214,7 +215,12 @@ fn values_outside_the_domain_are_named() {
         }
     }
     assert_eq!(
-        [trig_quintic::END_RISES, trig_quintic::SPIRAL, trig_quintic::PRINTED_RATIO, trig_quintic::END_CURVATURE_AS_PRINTED],
+        [
+            trig_quintic::END_RISES,
+            trig_quintic::SPIRAL,
+            trig_quintic::PRINTED_RATIO,
+            trig_quintic::END_CURVATURE_AS_PRINTED
+        ],
         [END_RISES, SPIRAL, PRINTED_RATIO, END_CURVATURE_AS_PRINTED]
     );
 }

@@ -1,5 +1,5 @@
-//! Quintic trigonometric curves against independent numbers: basis, printed curves, general polygons, monotonicity, thresholds, the
-//! five templates, and the paper's own parameters.
+//! Quintic trigonometric curves against independent numbers: basis, printed curves, general polygons, monotonicity,
+//! thresholds, the five templates, and the paper's own parameters.
 
 use serde_json::Value;
 use spiral_atlas::curve::TrigBezier;
@@ -59,7 +59,10 @@ fn printed_curves_have_the_known_points_and_curvatures() {
         let (at, end) = (curve.jet(t), curve.jet(1.0));
         let [x, y, dx, dy, k, dk, k1, dk1, x1, y1, length] = row[7..].try_into().unwrap();
         let size = curve.length_between(0.0, 1.0);
-        assert!(all_close(&[at.point[0], at.point[1], at.first[0], at.first[1]], &[x, y, dx, dy], 1e-4 * size), "{row:?} {at:?}");
+        assert!(
+            all_close(&[at.point[0], at.point[1], at.first[0], at.first[1]], &[x, y, dx, dy], 1e-4 * size),
+            "{row:?} {at:?}"
+        );
         let got = [at.curvature(), at.curvature_dt(), end.curvature(), end.curvature_dt()];
         assert!(all_close(&got, &[k, dk, k1, dk1], 1e-2 * k1), "{row:?} {got:?}");
         assert!(all_close(&[end.point[0], end.point[1], size], &[x1, y1, length], 0.0), "{row:?}");
@@ -157,7 +160,8 @@ fn at_origin(template: Template) -> Request {
     Request { template, at: [0.0, 0.0], direction: 0.0, turn: Turn::Left, scaling: Scaling::Corrected }
 }
 
-/// Whether every part is what it claims, told by the curves alone: it joins the next, it meets its circles, and its curvature is monotone.
+/// Whether every part is what it claims, told by the curves alone: it joins the next, it meets its circles, and its
+/// curvature is monotone.
 fn check(request: &Request) -> Vec<Part> {
     let outcome = path(request).unwrap();
     let Outcome::Spirals(path) = outcome else { panic!("{request:?}: {outcome:?}") };
@@ -185,8 +189,9 @@ fn check(request: &Request) -> Vec<Part> {
         }
     }
     for part in &path.parts {
-        let signs: Vec<f64> =
-            (1..400).map(|i| part.curve.jet(part.from + (part.to - part.from) * f64::from(i) / 400.0).curvature_dt()).collect();
+        let signs: Vec<f64> = (1..400)
+            .map(|i| part.curve.jet(part.from + (part.to - part.from) * f64::from(i) / 400.0).curvature_dt())
+            .collect();
         assert!(part.spiral && (signs.iter().all(|s| *s > 0.0) || signs.iter().all(|s| *s < 0.0)), "{request:?}");
     }
     path.parts
@@ -202,7 +207,9 @@ fn the_five_templates_have_the_known_places() {
     let one = segment(&templates["line_line"], 0);
     let parts = check(&at_origin(Template::LineLine { first: one, second: one }));
     let known = &templates["line_line"];
-    assert!(near(parts[1].ends()[0].point, point(&known["join"])) && near(parts[1].ends()[1].point, point(&known["end"])));
+    assert!(
+        near(parts[1].ends()[0].point, point(&known["join"])) && near(parts[1].ends()[1].point, point(&known["end"]))
+    );
 
     // Not both of these are spirals, but the curves are known.
     let known = &templates["line_line_pq"];
@@ -210,7 +217,9 @@ fn the_five_templates_have_the_known_places() {
     let outcome = path(&at_origin(Template::LineLine { first: one, second: one })).unwrap();
     assert!(matches!(outcome, Outcome::NoSpirals { .. }));
     let parts = &outcome.path().parts;
-    assert!(near(parts[1].ends()[0].point, point(&known["join"])) && near(parts[1].ends()[1].point, point(&known["end"])));
+    assert!(
+        near(parts[1].ends()[0].point, point(&known["join"])) && near(parts[1].ends()[1].point, point(&known["end"]))
+    );
     assert!(near(parts[1].curve.jet(0.3).point, point(&known["mid2"])));
     assert_eq!((parts[1].curve.p, parts[1].curve.q), (-0.5, 0.5));
 
@@ -218,8 +227,11 @@ fn the_five_templates_have_the_known_places() {
     for (name, other) in [("s_shape", -1.0), ("c_shape", 1.0)] {
         let known = &templates[name];
         let [first, second] = [0, 1].map(|which| segment(known, which));
-        let template =
-            if other < 0.0 { Template::S { first: second, second: first } } else { Template::C { first: second, second: first } };
+        let template = if other < 0.0 {
+            Template::S { first: second, second: first }
+        } else {
+            Template::C { first: second, second: first }
+        };
         let turn = if other < 0.0 { Turn::Right } else { Turn::Left };
         let parts = check(&Request { turn, ..at_origin(template) });
         let ends = known["ends"].as_array().unwrap();

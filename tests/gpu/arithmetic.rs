@@ -71,8 +71,18 @@ struct Case {
 
 impl Case {
     fn new(a: f32, b: f32, c: f32) -> Case {
-        let answers =
-            [a + b, a - b, a * b, (a + b) - a, a * b + c, a.mul_add(b, c), a / b, a.abs().sqrt(), (a + b) + c, a + (b + c)];
+        let answers = [
+            a + b,
+            a - b,
+            a * b,
+            (a + b) - a,
+            a * b + c,
+            a.mul_add(b, c),
+            a / b,
+            a.abs().sqrt(),
+            (a + b) + c,
+            a + (b + c),
+        ];
         let mut words = [0.0; WORDS];
         words[..3].copy_from_slice(&[a, b, c]);
         words[3..].copy_from_slice(&answers);

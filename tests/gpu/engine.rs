@@ -24,7 +24,8 @@ fn evaluate(index: vec4<u32>) -> u32 {
 ";
 const SALT: u32 = 2166136261;
 
-/// Hashes indices and a table per axis. The first axis's table is cut to the chunk, so that inputs differ from chunk to chunk.
+/// Hashes indices and a table per axis. The first axis's table is cut to the chunk, so that inputs differ from chunk to
+/// chunk.
 struct Hash<'g> {
     grid: &'g Grid,
     salt: u32,
@@ -127,8 +128,17 @@ fn settings(words_per_thread: u32, chunk_nodes: u64, groups_per_dimension: u32) 
 #[test]
 fn codes_equal_the_cpu_twin_in_all_shapes_and_cuts() {
     // Counts that differ, that are no multiple of a thread's or a group's nodes, and 1 in every place.
-    let shapes: [&[usize]; 9] =
-        [&[7], &[10_007], &[13, 5], &[1, 997], &[997, 1], &[11, 3, 7], &[19, 11, 3, 7], &[2, 3, 1, 1001], &[129, 1, 127, 2]];
+    let shapes: [&[usize]; 9] = [
+        &[7],
+        &[10_007],
+        &[13, 5],
+        &[1, 997],
+        &[997, 1],
+        &[11, 3, 7],
+        &[19, 11, 3, 7],
+        &[2, 3, 1, 1001],
+        &[129, 1, 127, 2],
+    ];
     let cuts = [settings(1, 1000, 65535), settings(3, 127, 2), settings(8, 1 << 23, 65535), settings(16, 2048, 1)];
     for label in labels() {
         for (shape, cut) in shapes.iter().flat_map(|s| cuts.iter().map(move |c| (s, c))) {
@@ -251,7 +261,8 @@ fn a_driver_that_cuts_loops_short_leaves_nodes_undecided_never_wrong() {
         let mut engine = Engine::new(Some(&label), &table, &grid, &Settings::default()).unwrap();
         let (seen, _) = run(&mut engine, 0..grid.len());
         let open = seen.codes.iter().filter(|code| **code == Code::UNDECIDED).count();
-        let wrong = (0..).zip(&seen.codes).filter(|(node, code)| **code != Code::UNDECIDED && **code != truth(*node)).count();
+        let wrong =
+            (0..).zip(&seen.codes).filter(|(node, code)| **code != Code::UNDECIDED && **code != truth(*node)).count();
         println!("{label}: {open} of {} nodes left open", grid.len());
         assert_eq!(wrong, 0, "{label}");
         assert!(seen.times.iter().all(|n| *n == 1) && open < seen.codes.len(), "{label}: {open} open");
@@ -337,16 +348,11 @@ fn auto_never_takes_a_software_adapter() {
 #[test]
 fn a_wrong_shader_is_an_error_at_its_own_line() {
     let grid = grid(&[4]);
-    let table = Hash { shader: "\n\nfn evaluate(index: vec4<u32>) -> u32 {\n    return jndex.x;\n}\n", ..Hash::new(&grid) };
-    let error = Engine::new(Some(&labels()[0]), &table, &grid, &Settings::default()).err().expect("the shader is wrong");
+    let table =
+        Hash { shader: "\n\nfn evaluate(index: vec4<u32>) -> u32 {\n    return jndex.x;\n}\n", ..Hash::new(&grid) };
+    let error =
+        Engine::new(Some(&labels()[0]), &table, &grid, &Settings::default()).err().expect("the shader is wrong");
     assert!(error.to_string().contains("hash.wgsl:4:"), "{error}");
-}
-
-/// Seconds of CPU time of this process: what a software adapter costs, however busy the machine is.
-fn cpu_seconds() -> f64 {
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
-    fields.get(11..13).map_or(f64::NAN, |ticks| ticks.iter().map(|t| t.parse::<f64>().unwrap_or(f64::NAN)).sum::<f64>() / 100.0)
 }
 
 /// By hand: `cargo test --release --test gpu -- --ignored --nocapture measure`.
@@ -372,7 +378,7 @@ fn evaluate(index: vec4<u32>) -> u32 {
             for words in [1, 2, 4, 8, 16, 32] {
                 let table = Hash { shader, ..Hash::new(&grid) };
                 let mut engine = Engine::new(Some(&label), &table, &grid, &settings(words, 1 << 23, 65535)).unwrap();
-                let (begin, cpu) = (std::time::Instant::now(), cpu_seconds());
+                let begin = std::time::Instant::now();
                 let runs = 3;
                 let mut stats = RunStats::default();
                 for _ in 0..runs {
@@ -380,10 +386,9 @@ fn evaluate(index: vec4<u32>) -> u32 {
                 }
                 let rate = |seconds: f64| grid.len() as f64 / seconds / 1e6;
                 let wall = rate(begin.elapsed().as_secs_f64() / f64::from(runs));
-                let cpu = rate((cpu_seconds() - cpu) / f64::from(runs));
                 let device = stats.device_seconds.map_or(f64::NAN, rate);
                 println!(
-                    "{label} {kind} {words:2} words: Mnodes a second {wall:6.1} of wall, {device:6.1} of device, {cpu:6.1} of CPU \
+                    "{label} {kind} {words:2} words: Mnodes a second {wall:6.1} of wall, {device:6.1} of device \
                      (largest chunk {})",
                     stats.largest_chunk
                 );

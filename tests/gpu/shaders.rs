@@ -4,7 +4,8 @@ use spiral_atlas::eval::gpu::{assemble, validate};
 use spiral_atlas::family::{self, Shader};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 
-const GOOD: &str = "fn evaluate(index: vec4<u32>) -> u32 {\n    return index.x + u32(inputs[params.offsets.y]) + SALT;\n}\n";
+const GOOD: &str =
+    "fn evaluate(index: vec4<u32>) -> u32 {\n    return index.x + u32(inputs[params.offsets.y]) + SALT;\n}\n";
 
 fn shader(fragments: &[(&'static str, &'static str)]) -> Shader {
     Shader { constants: "const SALT: u32 = 7u;".into(), fragments: fragments.to_vec() }
@@ -31,10 +32,13 @@ fn every_family_is_valid_in_every_chart() {
         for chart in family.about().charts {
             // A length in chords is above 1.
             let from = |name: &str| if name == "S" { 1.0 } else { 0.0 };
-            let axis = |name: &&'static str| Axis::new(name, Spacing::Values(vec![0.25 + from(name), 0.5 + from(name)])).unwrap();
+            let axis = |name: &&'static str| {
+                Axis::new(name, Spacing::Values(vec![0.25 + from(name), 0.5 + from(name)])).unwrap()
+            };
             let grid = Grid::new(chart.axes.iter().map(axis).collect()).unwrap();
             let table = family.table(&grid).unwrap();
-            validate(&assemble(&table.shader())).unwrap_or_else(|e| panic!("{}, {}: {e}", family.about().name, chart.name));
+            validate(&assemble(&table.shader()))
+                .unwrap_or_else(|e| panic!("{}, {}: {e}", family.about().name, chart.name));
             seen += 1;
         }
     }
@@ -43,7 +47,8 @@ fn every_family_is_valid_in_every_chart() {
 
 #[test]
 fn a_syntax_error_is_told_at_its_own_line() {
-    let text = message(&[("good.wgsl", GOOD), ("lib/bad.wgsl", "// Grün: two bytes a letter.\n\nfn f() {\n  let x = ;\n}")]);
+    let text =
+        message(&[("good.wgsl", GOOD), ("lib/bad.wgsl", "// Grün: two bytes a letter.\n\nfn f() {\n  let x = ;\n}")]);
     assert!(text.contains("lib/bad.wgsl:4:11: "), "{text}");
     assert!(text.contains("    let x = ;"), "{text}");
     assert!(!text.contains("good.wgsl"), "{text}");
@@ -60,8 +65,10 @@ fn unknown_names_types_and_missing_functions_are_told() {
     let text = message(&[("bad.wgsl", "fn evaluate(index: vec4<u32>) -> u32 {\n    return SALTY;\n}\n")]);
     assert!(text.contains("bad.wgsl:2:12: ") && text.contains("SALTY"), "{text}");
     // A wrong return type passes the parser; the validator tells the function.
-    let text =
-        message(&[("good.wgsl", GOOD), ("bad.wgsl", "\n\nfn g() -> u32 {\n    var x: f32;\n    x = 1.0;\n    return x;\n}\n")]);
+    let text = message(&[
+        ("good.wgsl", GOOD),
+        ("bad.wgsl", "\n\nfn g() -> u32 {\n    var x: f32;\n    x = 1.0;\n    return x;\n}\n"),
+    ]);
     assert!(text.contains("bad.wgsl:3:1: "), "{text}");
     let text = message(&[("empty.wgsl", "")]);
     assert!(text.contains("lib/main.wgsl:") && text.contains("evaluate"), "{text}");
@@ -69,7 +76,8 @@ fn unknown_names_types_and_missing_functions_are_told() {
 
 #[test]
 fn generated_constants_have_a_name_too() {
-    let bad = Shader { constants: "const SALT: u32 = 1u;\nconst B: u32 = -1;".into(), fragments: vec![("good.wgsl", GOOD)] };
+    let bad =
+        Shader { constants: "const SALT: u32 = 1u;\nconst B: u32 = -1;".into(), fragments: vec![("good.wgsl", GOOD)] };
     let text = validate(&assemble(&bad)).unwrap_err().to_string();
     assert!(text.contains("constants (generated):2:"), "{text}");
 }

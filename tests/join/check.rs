@@ -39,7 +39,11 @@ pub fn check(request: &Request, join: &Join) -> Result<Checked, String> {
         let apart = (a.point[0] - b.point[0]).hypot(a.point[1] - b.point[1]) * limit;
         let turned = (a.direction - b.direction).sin().hypot(1.0 - (a.direction - b.direction).cos());
         let bent = (a.curvature - b.curvature).abs() / limit;
-        if apart.max(turned).max(bent) <= TOLERANCE * size { Ok(()) } else { Err(format!("{apart:e} {turned:e} {bent:e}")) }
+        if apart.max(turned).max(bent) <= TOLERANCE * size {
+            Ok(())
+        } else {
+            Err(format!("{apart:e} {turned:e} {bent:e}"))
+        }
     };
     let given = |end: &End, at: &Place| match *end {
         End::State(State { point, direction, curvature }) => Place { point, direction, curvature },

@@ -69,7 +69,12 @@ fn random_states_are_joined() {
         }
         ratios.sort_by(f64::total_cmp);
         let at = |share: f64| ratios[(share * (ratios.len() - 1) as f64) as usize];
-        println!("{family:?}: {joined} of {count}; over Dubins: median {}, 90 % {}, 99 % {}", at(0.5), at(0.9), at(0.99));
+        println!(
+            "{family:?}: {joined} of {count}; over Dubins: median {}, 90 % {}, 99 % {}",
+            at(0.5),
+            at(0.9),
+            at(0.99)
+        );
         assert!(joined * 1000 >= count * 995, "{family:?}: {joined} of {count}");
         // Trigonometric spirals are long for what they turn.
         let most = if family == Family::TrigQuintic { 1.7 } else { 1.2 };
@@ -127,7 +132,8 @@ fn corners_with_unequal_legs() {
         for degrees in [1.0f64, 30.0, 60.0, 100.0, -60.0, -120.0] {
             for leg in [100.0, 105.0, 120.0] {
                 let (sin, cos) = degrees.to_radians().sin_cos();
-                let (from, to) = (state(0.0, 0.0, 0.0, 0.0), state(100.0 + leg * cos, leg * sin, degrees.to_radians(), 0.0));
+                let (from, to) =
+                    (state(0.0, 0.0, 0.0, 0.0), state(100.0 + leg * cos, leg * sin, degrees.to_radians(), 0.0));
                 let request = Request { family, most_pieces: 2, ..Request::new(from, to, 0.1) };
                 let join = found(&request);
                 check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}"));

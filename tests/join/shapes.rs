@@ -72,7 +72,8 @@ fn j() {
         for gap in [1.001, 1.01, 1.1, 1.5, 2.0, 2.2] {
             for (turn, side) in [(Turn::Left, 1.0), (Turn::Right, -1.0)] {
                 let given = [line(3.0, 4.0, 0.0), circle(70.0, 4.0 + side * 20.0 * gap, 20.0, turn)];
-                for (from, to) in [(given[0], given[1]), (line(3.0, 4.0, PI), circle(-70.0, 4.0 - side * 20.0 * gap, 20.0, turn))]
+                for (from, to) in
+                    [(given[0], given[1]), (line(3.0, 4.0, PI), circle(-70.0, 4.0 - side * 20.0 * gap, 20.0, turn))]
                 {
                     let request = Request { family, most_pieces: 1, ..Request::new(from, to, 0.05) };
                     assert_eq!(kinds(&found(&request)).len(), 1);
@@ -80,7 +81,8 @@ fn j() {
                 let back = Request { family, most_pieces: 1, ..Request::new(given[1], line(3.0, 4.0, PI), 0.05) };
                 // Back along the line it turns to the other side.
                 assert!(join(&back).unwrap().join().is_none(), "{gap}");
-                let other = circle(70.0, 4.0 + side * 20.0 * gap, 20.0, if side > 0.0 { Turn::Right } else { Turn::Left });
+                let other =
+                    circle(70.0, 4.0 + side * 20.0 * gap, 20.0, if side > 0.0 { Turn::Right } else { Turn::Left });
                 found(&Request { from: other, ..back });
             }
         }
@@ -91,9 +93,12 @@ fn j() {
 #[test]
 fn u() {
     for family in FAMILIES {
-        for (degrees, x) in [(30.0f64, 0.0), (90.0, 5.0), (-100.0, 5.0), (150.0, 3.0), (179.0, -2.0), (1e-3, 0.0), (-1e-7, 0.0)] {
+        for (degrees, x) in
+            [(30.0f64, 0.0), (90.0, 5.0), (-100.0, 5.0), (150.0, 3.0), (179.0, -2.0), (1e-3, 0.0), (-1e-7, 0.0)]
+        {
             let (from, to) = (line(0.0, 0.0, 0.5), line(x, 200.0, 0.5 + degrees.to_radians()));
-            for objective in [Objective::Length, Objective::GreatestRate, Objective::BendingEnergy, Objective::GreatestCurvature]
+            for objective in
+                [Objective::Length, Objective::GreatestRate, Objective::BendingEnergy, Objective::GreatestCurvature]
             {
                 found(&Request { family, objective, ..Request::new(from, to, 1.0 / 60.0) });
             }
@@ -116,7 +121,8 @@ fn u() {
             found(&Request { family, ..Request::new(from, to, 0.1) });
         }
     }
-    let alone = found(&Request { most_pieces: 2, ..Request::new(line(0.0, 0.0, 0.0), line(50.0, 0.0, FRAC_PI_2), 1.0 / 60.0) });
+    let alone =
+        found(&Request { most_pieces: 2, ..Request::new(line(0.0, 0.0, 0.0), line(50.0, 0.0, FRAC_PI_2), 1.0 / 60.0) });
     assert_eq!(kinds(&alone), ["cubic", "cubic"]);
 }
 
@@ -213,7 +219,8 @@ fn templates_are_special_joins() {
     ];
     for template in all {
         let at = ([10.0, 5.0], 0.5, Turn::Left);
-        let request = templates::Request { template, at: at.0, direction: at.1, turn: at.2, scaling: Scaling::Corrected };
+        let request =
+            templates::Request { template, at: at.0, direction: at.1, turn: at.2, scaling: Scaling::Corrected };
         let made = templates::path(&request).unwrap();
         let ends = [made.path().parts[0].ends()[0], made.path().parts[made.path().parts.len() - 1].ends()[1]];
         let end = |jet: &spiral_atlas::curve::Jet| {

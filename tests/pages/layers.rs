@@ -1,7 +1,8 @@
-//! The layers of ARCHITECTURE.md: no room imports one above it, and no two files import each other, directly or in a circle.
+//! The layers of ARCHITECTURE.md: no room imports one above it, and no two files import each other, directly or in a
+//! circle.
 //!
-//! An import is what a `use` line names, or a path that begins with `crate::`, followed through re-exports to the file that defines the name. A
-//! re-export itself is none, and neither is what tests inside a file use.
+//! An import is what a `use` line names, or a path that begins with `crate::`, followed through re-exports to the file
+//! that defines the name. A re-export itself is none, and neither is what tests inside a file use.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -138,7 +139,10 @@ fn read(path: &Path) -> Source {
         let line = statement.trim_start().trim_end_matches(';');
         // What stands before it, such as an attribute.
         let start = ["pub use ", "pub(crate) use ", "pub(super) use ", "use "].iter().find_map(|word| {
-            line.match_indices(word).map(|(at, _)| at).find(|at| *at == 0 || line[..*at].ends_with('\n')).map(|at| (at, *word))
+            line.match_indices(word)
+                .map(|(at, _)| at)
+                .find(|at| *at == 0 || line[..*at].ends_with('\n'))
+                .map(|at| (at, *word))
         });
         let Some((at, word)) = start else {
             rest += statement;
@@ -205,9 +209,13 @@ fn no_import_goes_up() {
     let mut wrong = Vec::new();
     let mut across = 0;
     for (source, targets) in sources.iter().zip(&edges) {
-        let Some(room) = source.module.first().filter(|room| !["main", "noise"].contains(&room.as_str())) else { continue };
-        let allowed =
-            ROOMS.iter().find(|(name, _)| name == room).unwrap_or_else(|| panic!("the room `{room}` is not in the list"));
+        let Some(room) = source.module.first().filter(|room| !["main", "noise"].contains(&room.as_str())) else {
+            continue;
+        };
+        let allowed = ROOMS
+            .iter()
+            .find(|(name, _)| name == room)
+            .unwrap_or_else(|| panic!("the room `{room}` is not in the list"));
         for target in targets.iter().map(|t| &sources[*t].module).filter(|t| t[0] != *room) {
             across += 1;
             if !allowed.1.contains(&target[0].as_str()) {

@@ -12,17 +12,19 @@ fn pages() -> Vec<PathBuf> {
     [Path::new(ROOT).join("README.md")].into_iter().chain(pages).collect()
 }
 
-/// A line of shell: what `printf` writes in front, the arguments of each command, whose output the next one reads, and the exit status of
-/// the last: 0, or 1 where the page says so in a comment that begins with `exit 1`.
+/// A line of shell: what `printf` writes in front, the arguments of each command, whose output the next one reads, and
+/// the exit status of the last: 0, or 1 where the page says so in a comment that begins with `exit 1`.
 type Line = (String, Vec<Vec<String>>, i32);
 
-/// Every line of `query`, `curve`, `join`, `path` and `export` in the shell blocks of a page; `generate` is the business of `shipped.rs`.
+/// Every line of `query`, `curve`, `join`, `path` and `export` in the shell blocks of a page; `generate` is the
+/// business of `shipped.rs`.
 fn commands(text: &str) -> Vec<Line> {
     let blocks = text.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     let lines = blocks.flat_map(|block| block.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
     let arguments = lines.filter_map(|line| {
         let one = |command: &str| {
-            let rest = command.strip_prefix("cargo run --release -- ").or_else(|| command.strip_prefix("spiral-atlas "))?;
+            let rest =
+                command.strip_prefix("cargo run --release -- ").or_else(|| command.strip_prefix("spiral-atlas "))?;
             Some(rest.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
         };
         let (command, comment) = line.split_once(" #").unwrap_or((&line, ""));
@@ -33,7 +35,9 @@ fn commands(text: &str) -> Vec<Line> {
         let commands = command.split(" | ").map(|command| one(command.trim())).collect::<Option<Vec<_>>>()?;
         Some((written, commands, i32::from(comment.trim_start().starts_with("exit 1"))))
     });
-    arguments.filter(|(_, line, _)| ["query", "curve", "join", "path", "export"].contains(&line[0][0].as_str())).collect()
+    arguments
+        .filter(|(_, line, _)| ["query", "curve", "join", "path", "export"].contains(&line[0][0].as_str()))
+        .collect()
 }
 
 /// Runs a line in a folder.
@@ -52,13 +56,15 @@ fn run((written, line, status): &Line, folder: &Path) {
     }
 }
 
-/// The share of pixels that differ clearly. Libraries of mathematics may differ in a last bit, and so may a pixel of a curve's rim.
+/// The share of pixels that differ clearly. Libraries of mathematics may differ in a last bit, and so may a pixel of a
+/// curve's rim.
 fn difference(a: &[u8], b: &[u8]) -> f64 {
     let [a, b] = [a, b].map(|png| image::load_from_memory(png).unwrap().to_rgb8());
     if a.dimensions() != b.dimensions() {
         return 1.0;
     }
-    let differ = a.pixels().zip(b.pixels()).filter(|(p, q)| p.0.iter().zip(q.0).any(|(x, y)| x.abs_diff(y) > 64)).count();
+    let differ =
+        a.pixels().zip(b.pixels()).filter(|(p, q)| p.0.iter().zip(q.0).any(|(x, y)| x.abs_diff(y) > 64)).count();
     differ as f64 / a.pixels().len() as f64
 }
 

@@ -1,4 +1,5 @@
-//! An auditor of planned paths that shares nothing with the library: interval arithmetic on the power basis of `start + ∫ w²`.
+//! An auditor of planned paths that shares nothing with the library: interval arithmetic on the power basis of
+//! `start + ∫ w²`.
 
 use super::*;
 use spiral_atlas::path::{Plan, Scene};
@@ -73,7 +74,8 @@ impl Powers {
 
 /// Of `start + ∫ w²`.
 fn integral(start: Pair, [a, b, c]: [Pair; 3]) -> [Pair; 6] {
-    let squares = [mul(a, a), scaled(mul(a, b), 2.0), add(mul(b, b), scaled(mul(a, c), 2.0)), scaled(mul(b, c), 2.0), mul(c, c)];
+    let squares =
+        [mul(a, a), scaled(mul(a, b), 2.0), add(mul(b, b), scaled(mul(a, c), 2.0)), scaled(mul(b, c), 2.0), mul(c, c)];
     std::array::from_fn(|i| if i == 0 { start } else { squares[i - 1].map(|r| r.over(i as f64)) })
 }
 
@@ -107,7 +109,8 @@ pub fn inside(p: [f64; 2], ring: &[[f64; 2]]) -> bool {
     steps.sum::<f64>().abs() > 1.0
 }
 
-/// Whether a curve from t on for a step keeps the distance and the curvature: interval arithmetic, halved up to a depth.
+/// Whether a curve from t on for a step keeps the distance and the curvature: interval arithmetic, halved up to a
+/// depth.
 fn kept(powers: &Powers, from: f64, step: f64, depth: u32, scene: &Scene) -> bool {
     let local = powers.from(from);
     let t = Range(0.0, step);
@@ -139,14 +142,18 @@ pub fn audit(scene: &Scene, spans: &[PhQuintic]) -> Result<(), String> {
         check(a[5] == b[0], format!("gap after span {i}"))?;
         let (p, q) = (bezier(&w[0], 1.0).first, bezier(&w[1], 0.0).first);
         let (sizes, across) = (p[0].hypot(p[1]) * q[0].hypot(q[1]), p[0] * q[1] - p[1] * q[0]);
-        check(across.abs() < 1e-7 * sizes && p[0] * q[0] + p[1] * q[1] > 0.0, format!("kink after span {i}: {p:?} {q:?}"))?;
+        check(
+            across.abs() < 1e-7 * sizes && p[0] * q[0] + p[1] * q[1] > 0.0,
+            format!("kink after span {i}: {p:?} {q:?}"),
+        )?;
         check(w[0].curvature(1.0) == 0.0 && w[1].curvature(0.0) == 0.0, format!("curvature jumps after span {i}"))?;
     }
     for (i, span) in spans.iter().enumerate() {
         let powers = Powers::new(span);
         let off = at(&powers.r, Range::point(1.0));
         let off = [off[0].0 - span.end[0], off[1].0 - span.end[1]];
-        let size = scene.obstacles.iter().flatten().chain([&scene.goal]).flatten().fold(1e-300f64, |m, x| m.max(x.abs()));
+        let size =
+            scene.obstacles.iter().flatten().chain([&scene.goal]).flatten().fold(1e-300f64, |m, x| m.max(x.abs()));
         check(off[0].hypot(off[1]) < 1e-13 * size, format!("span {i} ends elsewhere: {off:?}"))?;
         check(kept(&powers, 0.0, 1.0, 36, scene), format!("span {i} is not proved by intervals"))?;
         let hit = scene.obstacles.iter().position(|ring| inside(bezier(span, 0.37).point, ring));
@@ -178,7 +185,13 @@ pub fn audit_plan(scene: &Scene, plan: &Plan) -> Result<(), String> {
     let most = samples.iter().fold(0.0f64, |m, s| m.max(s.1));
     let Some(c) = plan.proof.clearance else { return check(scene.obstacles.is_empty(), "no clearance") };
     check(c.at_least >= scene.clearance && c.at_least <= least && c.at_most >= c.at_least, "clearance")?;
-    check(least - c.at_most < 1e-2 && (apart_from_all(c.point, &scene.obstacles) - c.at_most).abs() < 1e-9, "nearest point")?;
+    check(
+        least - c.at_most < 1e-2 && (apart_from_all(c.point, &scene.obstacles) - c.at_most).abs() < 1e-9,
+        "nearest point",
+    )?;
     check(plan.proof.curvature_at_most <= scene.greatest_curvature, "curvature")?;
-    check(most <= plan.proof.curvature_at_most * (1.0 + 1e-9) + 1e-9 && most >= 0.999 * plan.proof.curvature_at_most, "bound")
+    check(
+        most <= plan.proof.curvature_at_most * (1.0 + 1e-9) + 1e-9 && most >= 0.999 * plan.proof.curvature_at_most,
+        "bound",
+    )
 }

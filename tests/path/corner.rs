@@ -71,7 +71,8 @@ fn curvature_rises_to_the_middle_and_joins_straight_lines() {
     }
 }
 
-/// Whether a polyline around a right-angled or other vertex at the origin, its legs `offset` from the sides, keeps a clearance when rounded.
+/// Whether a polyline around a right-angled or other vertex at the origin, its legs `offset` from the sides, keeps a
+/// clearance when rounded.
 fn keeps(theta: f64, offset: f64, clearance: f64, most: f64) -> bool {
     let turn = of_angle(theta);
     let reach = turn.reach_for_curvature(most);

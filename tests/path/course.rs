@@ -11,16 +11,25 @@ fn courses() -> Vec<Course> {
         let points = [[0.0, 0.0], [1.0, 1.0], [2.0, 1.0], [3.0, -1.0], [4.0, -1.0], [5.0, 0.0]];
         Piece::TrigQuintic(TrigPart { curve: TrigBezier::new(points, -0.5, 0.75).unwrap(), from, to })
     };
-    let cubics = ["[[0, 0], [1, 0], [2, 1], [1.5, 2]]", "[[0, 0], [1, 1], [2, -1], [3, 0]]", "[[0, 0], [3, 2], [-2, 2], [1, 0]]"];
-    let cubic = |points: &str| serde_json::from_str(&format!(r#"{{"kind": "cubic", "control_points": {points}}}"#)).unwrap();
+    let cubics = [
+        "[[0, 0], [1, 0], [2, 1], [1.5, 2]]",
+        "[[0, 0], [1, 1], [2, -1], [3, 0]]",
+        "[[0, 0], [3, 2], [-2, 2], [1, 0]]",
+    ];
+    let cubic =
+        |points: &str| serde_json::from_str(&format!(r#"{{"kind": "cubic", "control_points": {points}}}"#)).unwrap();
     let others = cubics.map(cubic).into_iter().chain([waving(0.0, 1.0), waving(0.0625, 0.7)]);
     piece::all().into_iter().chain(others).map(|piece| Course::new(vec![piece]).unwrap()).collect()
 }
 
 /// Where a list of numbers begins to fall after rising, or to rise after falling.
 fn turns(values: &[f64]) -> Vec<usize> {
-    let signed: Vec<(usize, bool)> =
-        values.windows(2).enumerate().filter(|(_, w)| (w[1] - w[0]).abs() > 1e-9).map(|(i, w)| (i, w[1] > w[0])).collect();
+    let signed: Vec<(usize, bool)> = values
+        .windows(2)
+        .enumerate()
+        .filter(|(_, w)| (w[1] - w[0]).abs() > 1e-9)
+        .map(|(i, w)| (i, w[1] > w[0]))
+        .collect();
     signed.windows(2).filter(|w| w[0].1 != w[1].1).map(|w| w[1].0).collect()
 }
 

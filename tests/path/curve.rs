@@ -84,7 +84,8 @@ fn random_curves_agree_with_their_bezier_form() {
         let ends: Vec<f64> = [0.0].into_iter().chain(inflections).chain([1.0]).collect();
         let rotation: f64 = ends.windows(2).map(|w| quadrature(&c, w[0], w[1])[2]).sum();
         assert_near("rotation", &[c.absolute_rotation()], &[rotation], 1e-10);
-        // No sample is bent more than the greatest curvature, and some nearly as much; the bound is no less, and not much more.
+        // No sample is bent more than the greatest curvature, and some nearly as much; the bound is no less, and not
+        // much more.
         let sampled = (0..=4000).map(|i| bezier(&c, f64::from(i) / 4000.0).curvature().abs()).fold(0.0, f64::max);
         let (_, greatest) = c.greatest_curvature();
         assert!(sampled <= greatest * (1.0 + 1e-9) && sampled >= greatest * 0.999, "{sampled} {greatest}");
@@ -97,7 +98,10 @@ fn random_curves_agree_with_their_bezier_form() {
 #[test]
 fn curves_that_stand_still_or_run_straight() {
     let straight = PhQuintic::new([1.0, 1.0], [[1.0, 0.5], [2.0, 1.0], [0.5, 0.25]]);
-    assert_eq!((straight.bending_energy(), straight.absolute_rotation(), straight.greatest_curvature().1), (0.0, 0.0, 0.0));
+    assert_eq!(
+        (straight.bending_energy(), straight.absolute_rotation(), straight.greatest_curvature().1),
+        (0.0, 0.0, 0.0)
+    );
     // w = 1 - 2t: it slows down to nothing and goes on, straight.
     let pause = PhQuintic::new([0.0, 0.0], [[1.0, 0.0], [0.0, 0.0], [-1.0, 0.0]]);
     assert!(!pause.is_regular() && straight.is_regular());
@@ -125,7 +129,12 @@ fn any_unit_of_length() {
     for root in [1e-60, 1e-3, 1e50] {
         let size: f64 = root * root;
         let d = PhQuintic::new([0.0, 0.0], w.map(|z| z.map(|x| x * root)));
-        let got = [d.length() / size, d.bending_energy() * size, d.greatest_curvature().1 * size, d.curvature_bound(6) * size];
+        let got = [
+            d.length() / size,
+            d.bending_energy() * size,
+            d.greatest_curvature().1 * size,
+            d.curvature_bound(6) * size,
+        ];
         let want = [c.length(), c.bending_energy(), c.greatest_curvature().1, c.curvature_bound(6)];
         assert_near("measures", &got, &want, 1e-8);
         assert_near("rotation", &[d.absolute_rotation()], &[c.absolute_rotation()], 1e-14);
@@ -139,8 +148,9 @@ fn of_roots(a: [f64; 2], b: [f64; 2]) -> PhQuintic {
     PhQuintic::new([0.0, 0.0], w.map(|z| [z.re, z.im]))
 }
 
-/// Absolute rotation and greatest curvature, reckoned from the roots without cancellation near t = 1/2: the argument of w is monotone between
-/// the roots of a quadratic polynomial, and the curvature is sampled at distances from there that grow by the hundredth.
+/// Absolute rotation and greatest curvature, reckoned from the roots without cancellation near t = 1/2: the argument of
+/// w is monotone between the roots of a quadratic polynomial, and the curvature is sampled at distances from there that
+/// grow by the hundredth.
 fn told_by_roots(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     let [a, b] = [a, b].map(|[re, im]| num_complex::Complex64::new(re, im));
     // The slope of the argument is Im a / |s - a|² + Im b / |s - b|².

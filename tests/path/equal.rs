@@ -21,7 +21,12 @@ fn check(row: &Value) {
     assert_near("the paper's", &first(paper), &flat(&points(&row[5])), DIGITS);
     let rotation = |i: usize| choice.candidates[i].absolute_rotation;
     assert_near("the paper's rotations", &[rotation(paper), rotation(1 - paper)], &numbers(&row[6]), DIGITS);
-    assert_near("greatest curvature", &[choice.candidates[paper].curve.greatest_curvature().1], &[number(&row[7])], DIGITS);
+    assert_near(
+        "greatest curvature",
+        &[choice.candidates[paper].curve.greatest_curvature().1],
+        &[number(&row[7])],
+        DIGITS,
+    );
     let mut all: Vec<f64> = (0..4).map(rotation).collect();
     all.sort_by(f64::total_cmp);
     assert_near("all rotations", &all, &numbers(&row[8]), DIGITS);
@@ -46,14 +51,18 @@ fn mirror_images_tie() {
     for row in published("equal_arc_mirror_tie").as_array().unwrap() {
         let (start_direction, end_direction, length) = (number(&row["th0"]), number(&row["th1"]), number(&row["S"]));
         let choice =
-            equal_length(&EqualLength { start: [0.0, 0.0], end: [1.0, 0.0], start_direction, end_direction, length }).unwrap();
+            equal_length(&EqualLength { start: [0.0, 0.0], end: [1.0, 0.0], start_direction, end_direction, length })
+                .unwrap();
         let [first, second] = [0, 1].map(|i| choice.candidates[i]);
         assert_near("rotations", &[first.absolute_rotation, second.absolute_rotation], &[number(&row["R"]); 2], DIGITS);
         assert_near("|w0|²", &[first.curve.speed(0.0)], &[number(&row["w0_sq"])], DIGITS);
         let want = points(&row["p2_either"]);
         let got = [first, second].map(|c| c.curve.control_points()[2]);
         let swapped = [got[1], got[0]];
-        assert!(apart(&flat(&got), &flat(&want)) < DIGITS || apart(&flat(&swapped), &flat(&want)) < DIGITS, "{got:?} {want:?}");
+        assert!(
+            apart(&flat(&got), &flat(&want)) < DIGITS || apart(&flat(&swapped), &flat(&want)) < DIGITS,
+            "{got:?} {want:?}"
+        );
     }
 }
 
@@ -61,8 +70,13 @@ fn mirror_images_tie() {
 #[test]
 fn greatest_curvature_by_length() {
     let kmax = |length: f64| {
-        let ends =
-            EqualLength { start: [0.0, 0.0], end: [1.0, 0.0], start_direction: PI / 3.0, end_direction: -0.75 * PI, length };
+        let ends = EqualLength {
+            start: [0.0, 0.0],
+            end: [1.0, 0.0],
+            start_direction: PI / 3.0,
+            end_direction: -0.75 * PI,
+            length,
+        };
         let choice = equal_length(&ends).unwrap();
         choice.candidates[EqualLength::paper(&choice)].curve.greatest_curvature()
     };
@@ -111,7 +125,8 @@ fn random_ends_have_the_length_asked_for() {
             let legs = c.curve.preimage.iter().flatten().map(|x| x * x).sum::<f64>();
             assert!(off < 1e-14 * (legs + 2.0), "{off} {data:?}");
         }
-        let least = choice.candidates.iter().filter(|c| c.regular).map(|c| c.absolute_rotation).fold(f64::INFINITY, f64::min);
+        let least =
+            choice.candidates.iter().filter(|c| c.regular).map(|c| c.absolute_rotation).fold(f64::INFINITY, f64::min);
         assert!(choice.candidates[choice.best].absolute_rotation <= least * (1.0 + 1e-11));
     }
     assert!(others > 10, "{others}");
@@ -119,7 +134,8 @@ fn random_ends_have_the_length_asked_for() {
 
 #[test]
 fn what_has_no_solution_is_named() {
-    let fine = EqualLength { start: [0.0, 0.0], end: [3.0, 4.0], start_direction: 0.3, end_direction: -1.0, length: 6.0 };
+    let fine =
+        EqualLength { start: [0.0, 0.0], end: [3.0, 4.0], start_direction: 0.3, end_direction: -1.0, length: 6.0 };
     assert!(equal_length(&fine).is_ok());
     let says = |ends: EqualLength, parts: &[&str]| {
         let error = equal_length(&ends).unwrap_err().to_string();

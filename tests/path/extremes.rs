@@ -76,7 +76,8 @@ fn measures() {
         let measures = |unit: f64| {
             let course = Course::new(vec![each(unit)[i].clone()])?;
             let stations = course.stations(5)?;
-            let told = stations.iter().flat_map(|s| [s.station / unit, s.x / unit, s.y / unit, s.heading, s.curvature * unit]);
+            let told =
+                stations.iter().flat_map(|s| [s.station / unit, s.x / unit, s.y / unit, s.heading, s.curvature * unit]);
             Ok(told.chain([course.length() / unit, course.greatest_curvature() * unit]).collect())
         };
         holds(&answered(each(1.0)[i].kind().name(), measures), 1e-145, 1e145);

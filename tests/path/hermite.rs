@@ -29,7 +29,8 @@ fn greatest_curvature_by_end_speed() {
     let kmax = |l: f64| {
         let at = |angle: f64| [l * angle.cos(), l * angle.sin()];
         let [start_derivative, end_derivative] = [std::f64::consts::FRAC_PI_6, std::f64::consts::FRAC_PI_4].map(at);
-        let choice = hermite(&Hermite { start: [0.0, 0.0], end: [1.0, 0.0], start_derivative, end_derivative }).unwrap();
+        let choice =
+            hermite(&Hermite { start: [0.0, 0.0], end: [1.0, 0.0], start_derivative, end_derivative }).unwrap();
         choice.best().greatest_curvature()
     };
     let printed = [4.066457, 3.140970, 3.764156, 4.950836, 6.597532, 8.619074, 10.828017];
@@ -51,7 +52,8 @@ fn random_ends_are_met_by_four_different_curves() {
     for i in 0..300 {
         let size = 10f64.powi(i % 7 - 3);
         let start_derivative = noise.point().map(|x| x * size);
-        let ends = Hermite { start: noise.point(), end: noise.point(), start_derivative, end_derivative: noise.point() };
+        let ends =
+            Hermite { start: noise.point(), end: noise.point(), start_derivative, end_derivative: noise.point() };
         let choice = hermite(&ends).unwrap();
         let all: Vec<_> = choice.candidates.iter().map(|c| c.curve).collect();
         for (i, c) in all.iter().enumerate() {
@@ -61,7 +63,8 @@ fn random_ends_are_met_by_four_different_curves() {
             assert_eq!((p[0], p[5]), (ends.start, ends.end));
             let near = |got: [f64; 2], want: [f64; 2]| (got[0] - want[0]).hypot(got[1] - want[1]) < 1e-14 * scale * 5.0;
             assert!(near(leg(0), ends.start_derivative) && near(leg(4), ends.end_derivative), "{ends:?}");
-            // The middle leg, which joins what was built from both ends, is that of the pre-image; and the speed is a quartic.
+            // The middle leg, which joins what was built from both ends, is that of the pre-image; and the speed is a
+            // quartic.
             let integral = PhQuintic::new(c.start, c.preimage).end;
             assert!(near(integral, ends.end), "{integral:?} {ends:?}");
             let speeds: Vec<f64> = (0..=5).map(|i| bezier(c, f64::from(i) / 5.0).speed()).collect();

@@ -22,8 +22,12 @@ pub fn each(unit: f64) -> Vec<Piece> {
     let [a, b, c, d, ..] = all([[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [3.0, 1.0], [0.0; 2], [0.0; 2]]);
     let six = all([[0.0, 0.0], [0.2, 0.0], [0.5, 0.1], [0.9, 0.2], [1.3, 0.6], [1.4, 1.1]]);
     // Past the checks of its making, which refuse numbers that are none.
-    let curve =
-        TrigBezier { start: six[0], sides: std::array::from_fn(|i| [0, 1].map(|k| six[i + 1][k] - six[i][k])), p: 0.5, q: -0.5 };
+    let curve = TrigBezier {
+        start: six[0],
+        sides: std::array::from_fn(|i| [0, 1].map(|k| six[i + 1][k] - six[i][k])),
+        p: 0.5,
+        q: -0.5,
+    };
     let root = unit.sqrt();
     vec![
         cubic([a, b, c, d]),
@@ -71,7 +75,12 @@ fn random(noise: &mut Noise, kind: usize) -> Piece {
             let from = 0.4 * p()[0].abs();
             trig(points, shape, [from, from + 0.6])
         }
-        2 => Piece::Arc(Arc { start: p(), start_direction: 4.0 * p()[0], curvature: 3.0 * p()[0] + 0.01, length: 1.5 + p()[0] }),
+        2 => Piece::Arc(Arc {
+            start: p(),
+            start_direction: 4.0 * p()[0],
+            curvature: 3.0 * p()[0] + 0.01,
+            length: 1.5 + p()[0],
+        }),
         3 => Piece::Line(Line { start: p(), end: p() }),
         _ => PhQuintic::new(p(), [p(), p(), p()]).into(),
     }
@@ -117,7 +126,12 @@ fn in_step_with_a_line_or_a_circle() {
     let beside = Piece::Line(Line { start: [0.0, 1.0], end: [10.0, 1.0] });
     let turned_beside = Piece::Line(Line { start: [-0.8, 0.6], end: [5.2, 8.6] });
     let arc = |radius: f64| {
-        Piece::Arc(Arc { start: [radius, 0.0], start_direction: FRAC_PI_2, curvature: 1.0 / radius, length: 2.0 * radius })
+        Piece::Arc(Arc {
+            start: [radius, 0.0],
+            start_direction: FRAC_PI_2,
+            curvature: 1.0 / radius,
+            length: 2.0 * radius,
+        })
     };
     let pairs = [
         (cubic(uneven), 1.0, beside.clone(), 1.0),

@@ -70,7 +70,8 @@ fn straight_ahead_is_straight() {
     assert!((found.greatest_curvature / 6e-5 - 1.0).abs() < 1e-3 && found.length - 1.0 < 2e-10, "{found:?}");
 }
 
-/// Random ends, unit and place: nothing sampled is below the proved bound, and no sampled path is better than what was found.
+/// Random ends, unit and place: nothing sampled is below the proved bound, and no sampled path is better than what was
+/// found.
 #[test]
 fn nothing_sampled_is_below_the_bound() {
     let mut noise = Noise(3);
@@ -102,12 +103,20 @@ fn nothing_sampled_is_below_the_bound() {
                     let l0 = x(&mut noise);
                     let l1 = if free == Free::Length { l0 } else { x(&mut noise) };
                     let along = |l: f64, angle: f64| [l * angle.cos(), l * angle.sin()];
-                    hermite(&Hermite { start, end, start_derivative: along(l0, first), end_derivative: along(l1, last) })
+                    hermite(&Hermite {
+                        start,
+                        end,
+                        start_derivative: along(l0, first),
+                        end_derivative: along(l1, last),
+                    })
                 }
             };
             for c in choice.unwrap().candidates.iter().filter(|c| c.regular && c.curve.length() <= greatest_length) {
                 let most = c.curve.greatest_curvature().1;
-                assert!(most >= found.at_least && most >= found.greatest_curvature * (1.0 - 1e-6), "{data:?} {found:?} {most}");
+                assert!(
+                    most >= found.at_least && most >= found.greatest_curvature * (1.0 - 1e-6),
+                    "{data:?} {found:?} {most}"
+                );
                 compared += 1;
             }
         }
@@ -116,8 +125,8 @@ fn nothing_sampled_is_below_the_bound() {
     assert!(compared > 5000 && close == 18, "{compared} {close}");
 }
 
-/// Mirrored, opposite, nearly straight and turning ends, short and long: the bound is as near as is promised, with one and with two free numbers, and two
-/// are never worse than one.
+/// Mirrored, opposite, nearly straight and turning ends, short and long: the bound is as near as is promised, with one
+/// and with two free numbers, and two are never worse than one.
 #[test]
 fn the_proof_closes_for_degenerate_ends() {
     let directions = [

@@ -50,7 +50,8 @@ fn points(value: &Value) -> Vec<[f64; 2]> {
 /// How far two lists of numbers are apart, relative to the largest; infinite for different lengths.
 fn apart(got: &[f64], want: &[f64]) -> f64 {
     let size = want.iter().fold(1e-3f64, |size, x| size.max(x.abs()));
-    let off = got.iter().zip(want).map(|(g, w)| (g - w).abs()).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a });
+    let off =
+        got.iter().zip(want).map(|(g, w)| (g - w).abs()).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a });
     if got.len() == want.len() { off / size } else { f64::INFINITY }
 }
 
@@ -69,8 +70,9 @@ fn bezier(curve: &PhQuintic, t: f64) -> Jet {
 
 /// Arc length, bending energy and absolute rotation by quadrature of the Bézier curve, between parameters.
 fn quadrature(curve: &PhQuintic, from: f64, to: f64) -> [f64; 3] {
-    let integral =
-        |power: i32| arc_length(|t| bezier(curve, t).curvature().abs().powi(power) * bezier(curve, t).speed(), from, to);
+    let integral = |power: i32| {
+        arc_length(|t| bezier(curve, t).curvature().abs().powi(power) * bezier(curve, t).speed(), from, to)
+    };
     [integral(0), integral(2), integral(1)]
 }
 

@@ -8,8 +8,10 @@ use spiral_atlas::transition::{Arc, Cubic, Ends, InvoluteBetween, Line, Piece, T
 pub fn all() -> Vec<Piece> {
     let start = [300.1, -200.3];
     let points = CubicBezier { p: [start, [300.4, -200.25], [300.8, -200.0], [301.0, -199.3]] };
-    let legs = std::array::from_fn(|i| [0, 1].map(|k| points.p[i + 1][k] - points.p[i][k] + if k == 0 { 1e-15 } else { 0.0 }));
-    let six = [[0.0, 0.0], [0.2, 0.0], [0.5, 0.1], [0.9, 0.2], [1.3, 0.6], [1.4, 1.1]].map(|[x, y]| [start[0] + x, start[1] + y]);
+    let legs =
+        std::array::from_fn(|i| [0, 1].map(|k| points.p[i + 1][k] - points.p[i][k] + if k == 0 { 1e-15 } else { 0.0 }));
+    let six = [[0.0, 0.0], [0.2, 0.0], [0.5, 0.1], [0.9, 0.2], [1.3, 0.6], [1.4, 1.1]]
+        .map(|[x, y]| [start[0] + x, start[1] + y]);
     let ends = Ends {
         start,
         end: [302.1, -200.9],
@@ -37,7 +39,10 @@ fn pieces_come_back_from_json_as_they_were() {
         assert_eq!(back, piece, "{text}");
         assert_eq!(serde_json::to_string(&back).unwrap(), text);
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
-        assert_eq!((value["kind"].as_str(), value["length"].as_f64()), (Some(piece.kind().name()), Some(piece.length())));
+        assert_eq!(
+            (value["kind"].as_str(), value["length"].as_f64()),
+            (Some(piece.kind().name()), Some(piece.length()))
+        );
         assert!(text.starts_with("{\"kind\":"), "{text}");
     }
     // The same curve by its control points, or by its ends and pre-image alone.
@@ -92,7 +97,8 @@ fn what_is_wrong_with_a_piece_is_told() {
     }
 }
 
-/// A curve's heading is the direction from point to point, its curvature how that turns, its speed how fast points follow.
+/// A curve's heading is the direction from point to point, its curvature how that turns, its speed how fast points
+/// follow.
 #[test]
 fn directions_curvatures_and_speeds_are_those_of_the_points() {
     for piece in all() {

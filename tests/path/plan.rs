@@ -55,7 +55,9 @@ fn random_scenes_pass_the_audit() {
         let obstacles = field(&mut noise, 4);
         let clearance = [0.0, 0.02, 0.05, 0.1][i % 4];
         // From outside, or from somewhere in the middle.
-        let free = |p: &[f64; 2]| apart_from_all(*p, &obstacles) > 0.11 && !obstacles.iter().any(|ring| audit::inside(*p, ring));
+        let free = |p: &[f64; 2]| {
+            apart_from_all(*p, &obstacles) > 0.11 && !obstacles.iter().any(|ring| audit::inside(*p, ring))
+        };
         let middle = (0..1000).map(|_| noise.point().map(|x| 1.5 + x)).find(free).unwrap();
         let start = if i < 30 { [-1.0, -0.8] } else { middle };
         let scene = scene(start, [4.0, 3.7], obstacles, clearance, [1.0, 8.0, 30.0][i % 3]);
@@ -105,7 +107,8 @@ fn the_audit_can_fail() {
 /// The shortest path among polygons themselves: Dijkstra's algorithm on all vertices, by exhaustive sight.
 fn shortest(scene: &Scene) -> f64 {
     let side = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    let points: Vec<[f64; 2]> = [scene.start, scene.goal].into_iter().chain(scene.obstacles.iter().flatten().copied()).collect();
+    let points: Vec<[f64; 2]> =
+        [scene.start, scene.goal].into_iter().chain(scene.obstacles.iter().flatten().copied()).collect();
     // Properly crossed, or a diagonal inside: its middle, and points near its ends, are then inside.
     let blocked = |a: [f64; 2], b: [f64; 2]| {
         let at = |t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];

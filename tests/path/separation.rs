@@ -44,7 +44,11 @@ fn published_closest_approaches() {
         assert!((found.closest.time - number(&case["s_at_min"])).abs() < 1e-4, "{found:?} {case}");
         // A hair to either side is decided.
         let verdict = |minimum: f64| separation(&a, &b, minimum).unwrap().verdict;
-        assert_eq!((verdict(least * (1.0 - 1e-9)), verdict(least * (1.0 + 1e-9))), (Verdict::Kept, Verdict::Violated), "{case}");
+        assert_eq!(
+            (verdict(least * (1.0 - 1e-9)), verdict(least * (1.0 + 1e-9))),
+            (Verdict::Kept, Verdict::Violated),
+            "{case}"
+        );
         assert!(!enclosed(&found, least * 1.001 + 1e-6, 1e-8));
     }
 }
@@ -58,7 +62,9 @@ const FINE: i32 = 4000;
 impl Polygon {
     /// On the Bézier form.
     fn new(spans: &[PhQuintic]) -> Polygon {
-        Polygon::through(spans.iter().flat_map(|span| (0..=FINE).map(|i| bezier(span, f64::from(i) / f64::from(FINE)).point)))
+        Polygon::through(
+            spans.iter().flat_map(|span| (0..=FINE).map(|i| bezier(span, f64::from(i) / f64::from(FINE)).point)),
+        )
     }
 
     pub fn through(points: impl IntoIterator<Item = [f64; 2]>) -> Polygon {
@@ -94,7 +100,10 @@ pub fn sampled([a, b]: [&Motion; 2], [p, q]: [&Polygon; 2], [v1, v2, t2]: [f64; 
     let closest = found.closest;
     // Samples lie `2 (to - from) / n` apart at worst; the polygon is short by 1e-6 or so.
     assert!(closest.at_least <= least + 2e-5 && least <= closest.at_most + 1e-3, "{least} {closest:?}");
-    assert!(closest.at_most - closest.at_least <= 1e-8 && (gap(closest.time) - closest.at_most).abs() < 2e-5, "{closest:?}");
+    assert!(
+        closest.at_most - closest.at_least <= 1e-8 && (gap(closest.time) - closest.at_most).abs() < 2e-5,
+        "{closest:?}"
+    );
     closest
 }
 
@@ -105,7 +114,9 @@ fn random_motions_agree_with_dense_sampling() {
     for i in 0..40 {
         let mut spans = || match i % 2 {
             0 => vec![PhQuintic::new(noise.point(), [noise.point(), noise.point(), noise.point()])],
-            _ => spline(&[0.0, 1.0, 2.0, 3.0, 4.0].map(|x| [x + 0.3 * noise.next(), noise.next()]), false).unwrap().spans,
+            _ => {
+                spline(&[0.0, 1.0, 2.0, 3.0, 4.0].map(|x| [x + 0.3 * noise.next(), noise.next()]), false).unwrap().spans
+            }
         };
         let (one, two) = (spans(), spans());
         let (v1, v2, t2) = (1.0 + 0.5 * noise.next(), 1.0 + 0.5 * noise.next(), 0.1 * noise.next());
@@ -167,10 +178,13 @@ fn vehicles_that_wait_or_have_arrived_are_in_the_way() {
     let found = |from: [f64; 2], to: [f64; 2], start: f64| {
         let b = Motion::new(line(from, to), 1.0, start).unwrap();
         let found = [separation(&a, &b, 0.3).unwrap(), separation(&b, &a, 0.3).unwrap()];
-        assert!((found[0].closest.at_most - found[1].closest.at_most).abs() < 1e-9 && found[0].verdict == found[1].verdict);
+        assert!(
+            (found[0].closest.at_most - found[1].closest.at_most).abs() < 1e-9 && found[0].verdict == found[1].verdict
+        );
         found[0]
     };
-    // It waits 0.1 beside the way, 7 from its start; it leaves before the other comes; it has arrived there; it is not there yet.
+    // It waits 0.1 beside the way, 7 from its start; it leaves before the other comes; it has arrived there; it is not
+    // there yet.
     let waits = found([7.0, 0.1], [7.0, 5.0], 100.0);
     assert!(
         waits.verdict == Verdict::Violated && enclosed(&waits, 0.1, 1e-8) && (waits.closest.time - 3.5).abs() < 1e-3,
@@ -186,7 +200,10 @@ fn vehicles_that_wait_or_have_arrived_are_in_the_way() {
     let relay = found([10.0, 0.25], [20.0, 0.25], 5.1);
     assert!(relay.verdict == Verdict::Violated && enclosed(&relay, 0.25, 1e-8), "{relay:?}");
     let apart = found([10.0, 4.0], [20.0, 4.0], 5.1);
-    assert!(apart.verdict == Verdict::Kept && enclosed(&apart, 4.0, 1e-8) && !enclosed(&apart, 4.001, 1e-8), "{apart:?}");
+    assert!(
+        apart.verdict == Verdict::Kept && enclosed(&apart, 4.0, 1e-8) && !enclosed(&apart, 4.001, 1e-8),
+        "{apart:?}"
+    );
     // A corner on its way does not matter to one that stands.
     let corner = [line([7.0, 1.0], [7.0, 2.0]), line([7.0, 2.0], [9.0, 2.0])].concat();
     let b = Motion::new(corner, 1.0, 50.0).unwrap();
@@ -219,7 +236,12 @@ fn motions_that_make_no_sense_are_named() {
     says(fine(), f64::NAN, 0.0, &["`speed`", "NaN"]);
     says(fine(), 1.0, f64::INFINITY, &["`start_time`", "inf"]);
     says(vec![], 1.0, 0.0, &["`pieces` is empty"]);
-    says(vec![PhQuintic::new([0.0, 0.0], [[0.0; 2]; 3])], 1.0, 0.0, &["pieces[0] is 0.0 long", "change the unit of length"]);
+    says(
+        vec![PhQuintic::new([0.0, 0.0], [[0.0; 2]; 3])],
+        1.0,
+        0.0,
+        &["pieces[0] is 0.0 long", "change the unit of length"],
+    );
     says([fine(), line([1.0, 1e-9], [2.0, 0.0])].concat(), 1.0, 0.0, &["pieces[0] ends at [1.0, 0.0]", "[1.0, 1e-9]"]);
     // It is never under way, or no number says when it arrives.
     says(fine(), 1.0, 1e200, &["from time 1e200 to 1e200", "change the unit of time"]);

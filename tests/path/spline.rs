@@ -6,8 +6,9 @@ use spiral_atlas::path::{Spline, spline};
 /// By how much neighbours differ in point, first or second derivative, relative to the largest at any joint.
 fn jumps(spline: &Spline, closed: bool) -> f64 {
     let n = spline.spans.len();
-    let joints: Vec<(Jet, Jet)> =
-        (0..n - usize::from(!closed)).map(|i| (bezier(&spline.spans[i], 1.0), bezier(&spline.spans[(i + 1) % n], 0.0))).collect();
+    let joints: Vec<(Jet, Jet)> = (0..n - usize::from(!closed))
+        .map(|i| (bezier(&spline.spans[i], 1.0), bezier(&spline.spans[(i + 1) % n], 0.0)))
+        .collect();
     let values = |jets: Vec<&Jet>| jets.iter().flat_map(|j| [j.point, j.first, j.second]).flatten().collect::<Vec<_>>();
     apart(&values(joints.iter().map(|j| &j.0).collect()), &values(joints.iter().map(|j| &j.1).collect()))
 }
@@ -40,7 +41,8 @@ fn published_splines() {
         let mut slopes: Vec<_> = spans.iter().map(|c| c.jet(0.0).first).collect();
         slopes.push(spans[spans.len() - 1].jet(1.0).first);
         assert_near("derivatives", &flat(&slopes), &flat(&points(&row["node_deriv"])), DIGITS);
-        let sign = |c: &PhQuintic, d: &PhQuintic| c.preimage[2][0] * d.preimage[0][0] + c.preimage[2][1] * d.preimage[0][1];
+        let sign =
+            |c: &PhQuintic, d: &PhQuintic| c.preimage[2][0] * d.preimage[0][0] + c.preimage[2][1] * d.preimage[0][1];
         assert_eq!(sign(&spans[spans.len() - 1], &spans[0]) < 0.0 && closed, row["anti_periodic"].as_bool().unwrap());
         assert!(jumps(&found, closed) < 1e-13 && missed(&found) < 1e-14);
         // An open end is cubic: its third derivative is constant.

@@ -85,13 +85,13 @@ SpiralStatus spiral_family_flag(const char *family, const char *name, uint8_t *m
 // The proved verdicts of `count` data: flags and packed counts, as an atlas has them at its nodes.
 //
 // `threads` are the workers; 0 stands for as many as the machine has cores. A datum outside the family's domain is
-// SPIRAL_DOMAIN and one that is not decided SPIRAL_UNDECIDED; the last error names the first such row, and no result is
-// written.
+// SPIRAL_DOMAIN and one that is not decided SPIRAL_UNDECIDED; the last error names the first such row, and no result
+// is written.
 //
 // # Safety
-// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `data` holds
-// `count` rows of as many numbers as the chart has axes; `flags` and `solutions` are null, when they are not wanted, or
-// have room for `count` values.
+// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `data`
+// holds `count` rows of as many numbers as the chart has axes; `flags` and `solutions` are null, when they are not
+// wanted, or have room for `count` values.
 SpiralStatus spiral_solve_batch(const char *family,
                                 const char *chart,
                                 const double *data,
@@ -103,8 +103,8 @@ SpiralStatus spiral_solve_batch(const char *family,
 // The exact answer for one datum, with its curves. Close it with spiral_answer_close.
 //
 // # Safety
-// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `datum` holds
-// as many numbers as the chart has axes; `answer` is null or valid for a write.
+// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `datum`
+// holds as many numbers as the chart has axes; `answer` is null or valid for a write.
 SpiralStatus spiral_solve(const char *family,
                           const char *chart,
                           const double *datum,
@@ -130,18 +130,19 @@ SpiralStatus spiral_answer_verdict(const SpiralAnswer *answer,
 // or 1. The index -1 stands for what follows from the datum itself. SPIRAL_NONE where there is no such number.
 //
 // # Safety
-// `answer` is null or open; `name` is null or a text that ends with a zero byte; `number` is null or valid for a write.
+// `answer` is null or open; `name` is null or a text that ends with a zero byte; `number` is null or valid for a
+// write.
 SpiralStatus spiral_answer_number(const SpiralAnswer *answer,
                                   int64_t solution,
                                   const char *name,
                                   double *number);
 
-// Points of a solution by their name, "control_points" above all, as x, y, x, y, ...: writes at most `room` points, and
-// always how many there are. SPIRAL_NONE where there are none of that name.
+// Points of a solution by their name, "control_points" above all, as x, y, x, y, ...: writes at most `room` points,
+// and always how many there are. SPIRAL_NONE where there are none of that name.
 //
 // # Safety
-// `answer` is null or open; `name` is null or a text that ends with a zero byte; `xy` is null or has room for `2 * room`
-// numbers; `count` is null or valid for a write.
+// `answer` is null or open; `name` is null or a text that ends with a zero byte; `xy` is null or has room for
+// `2 * room` numbers; `count` is null or valid for a write.
 SpiralStatus spiral_answer_points(const SpiralAnswer *answer,
                                   int64_t solution,
                                   const char *name,
@@ -152,9 +153,9 @@ SpiralStatus spiral_answer_points(const SpiralAnswer *answer,
 // Opens an atlas file and checks its header and axes.
 //
 // # Safety
-// `path` is a text that ends with a zero byte; `atlas` is valid for a write. Both may be null, which is SPIRAL_ARGUMENT.
-SpiralStatus spiral_atlas_open(const char *path,
-                               SpiralAtlas **atlas);
+// `path` is a text that ends with a zero byte; `atlas` is valid for a write. Both may be null, which is
+// SPIRAL_ARGUMENT.
+SpiralStatus spiral_atlas_open(const char *path, SpiralAtlas **atlas);
 
 // Closes an atlas. Null is allowed.
 //
@@ -201,8 +202,8 @@ SpiralStatus spiral_atlas_data(const SpiralAtlas *atlas,
                                const uint8_t **solutions,
                                size_t *count);
 
-// The nearest node of each of `count` points: its flat index, flags and solutions. A point outside the grid by more than
-// half a step has the index -1, and 0 in both bytes. A verdict holds at its node.
+// The nearest node of each of `count` points: its flat index, flags and solutions. A point outside the grid by more
+// than half a step has the index -1, and 0 in both bytes. A verdict holds at its node.
 //
 // # Safety
 // `atlas` is null or open; `points` holds `count` rows of as many numbers as there are axes; each of the others is
@@ -246,20 +247,20 @@ SpiralStatus spiral_cells_flag(const SpiralCells *cells,
                                const char *name,
                                uint8_t *mask);
 
-// What the cell of each of `count` points says, as two masks: flags that hold at every point of the cell, and flags that
-// hold at none. A flag in neither is not known; outside the box of the file none is.
+// What the cell of each of `count` points says, as two masks: flags that hold at every point of the cell, and flags
+// that hold at none. A flag in neither is not known; outside the box of the file none is.
 //
 // # Safety
-// `cells` is null or open; `points` holds `count` rows of as many numbers as there are axes; `inside` and `outside` are
-// null, when they are not wanted, or have room for `count` values.
+// `cells` is null or open; `points` holds `count` rows of as many numbers as there are axes; `inside` and `outside`
+// are null, when they are not wanted, or have room for `count` values.
 SpiralStatus spiral_cells_lookup(const SpiralCells *cells,
                                  const double *points,
                                  size_t count,
                                  uint8_t *inside,
                                  uint8_t *outside);
 
-// The truth about the wanted flags at each of `count` points: from its cell where that says it, or else from the family
-// itself, also outside the box. A point outside the family's domain is SPIRAL_DOMAIN, naming the row.
+// The truth about the wanted flags at each of `count` points: from its cell where that says it, or else from the
+// family itself, also outside the box. A point outside the family's domain is SPIRAL_DOMAIN, naming the row.
 //
 // # Safety
 // `cells` is null or open; `points` holds `count` rows of as many numbers as there are axes; `holds` has room for
@@ -272,10 +273,10 @@ SpiralStatus spiral_cells_verdict(const SpiralCells *cells,
 
 // The curve of monotone curvature between two ends anywhere in the plane.
 //
-// `kind` is "cubic" (of several spirals the one with the largest margin), "ph-quintic" (that of least bending energy) or
-// "involute" (the image of an involute of a circle, which exists whenever any spiral does); null stands for "cubic". A
-// curve longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where there is no spiral: the last error
-// says which condition fails.
+// `kind` is "cubic" (of several spirals the one with the largest margin), "ph-quintic" (that of least bending energy)
+// or "involute" (the image of an involute of a circle, which exists whenever any spiral does); null stands for
+// "cubic". A curve longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where there is no spiral:
+// the last error says which condition fails.
 //
 // # Safety
 // `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
@@ -286,9 +287,9 @@ SpiralStatus spiral_fit(const SpiralEnd *start,
                         SpiralCurve **curve);
 
 // A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
-// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic", "trig-quintic" or
-// "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where none was
-// found: the last error says why.
+// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic",
+// "trig-quintic" or "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no
+// limit. SPIRAL_NONE where none was found: the last error says why.
 //
 // # Safety
 // `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
@@ -305,14 +306,15 @@ SpiralStatus spiral_join(const SpiralEnd *start,
 // `curve` comes from spiral_fit or spiral_join and is not used any more, nor are pointers that it gave.
 void spiral_curve_close(SpiralCurve *curve);
 
-// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null pointer. It lives as long as the curve.
+// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null
+// pointer. It lives as long as the curve.
 //
 // # Safety
 // `curve` is null or open.
 const char *spiral_curve_kind(const SpiralCurve *curve);
 
-// All that rebuilds the curve exactly, in JSON: the piece as `curve --json` has it, or {"pieces": [..]} of several; null
-// for a null pointer. It lives as long as the curve.
+// All that rebuilds the curve exactly, in JSON: the piece as `curve --json` has it, or {"pieces": [..]} of several;
+// null for a null pointer. It lives as long as the curve.
 //
 // # Safety
 // `curve` is null or open.
@@ -324,8 +326,8 @@ const char *spiral_curve_json(const SpiralCurve *curve);
 // `curve` is null or open.
 double spiral_curve_length(const SpiralCurve *curve);
 
-// Control points: writes at most `room` of them, and always how many there are: 0 for what has none, an involute, a line,
-// an arc, or a curve of several pieces.
+// Control points: writes at most `room` of them, and always how many there are: 0 for what has none, an involute, a
+// line, an arc, or a curve of several pieces.
 //
 // # Safety
 // `curve` is null or open; `xy` is null or has room for `room` points; `count` is null or valid for a write.

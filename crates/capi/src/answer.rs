@@ -36,7 +36,11 @@ unsafe fn known(family: *const c_char, chart: *const c_char) -> Result<(&'static
 /// # Safety
 /// `family` and `chart` are null or texts that end with a zero byte; `count` is null or valid for a write.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn spiral_family_axes(family: *const c_char, chart: *const c_char, count: *mut usize) -> SpiralStatus {
+pub unsafe extern "C" fn spiral_family_axes(
+    family: *const c_char,
+    chart: *const c_char,
+    count: *mut usize,
+) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
         let ((family, chart), slot) = unsafe { (known(family, chart)?, place(count, "count")?) };
@@ -53,7 +57,8 @@ pub unsafe extern "C" fn spiral_family_axes(family: *const c_char, chart: *const
 pub unsafe extern "C" fn spiral_family_flag(family: *const c_char, name: *const c_char, mask: *mut u8) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
-        let ((family, _), name, slot) = unsafe { (known(family, std::ptr::null())?, text(name, "name")?, place(mask, "mask")?) };
+        let ((family, _), name, slot) =
+            unsafe { (known(family, std::ptr::null())?, text(name, "name")?, place(mask, "mask")?) };
         *slot = self::mask(family.about().flags.iter().map(|flag| flag.name), name)?;
         Ok(())
     })
@@ -62,13 +67,13 @@ pub unsafe extern "C" fn spiral_family_flag(family: *const c_char, name: *const 
 /// The proved verdicts of `count` data: flags and packed counts, as an atlas has them at its nodes.
 ///
 /// `threads` are the workers; 0 stands for as many as the machine has cores. A datum outside the family's domain is
-/// SPIRAL_DOMAIN and one that is not decided SPIRAL_UNDECIDED; the last error names the first such row, and no result is
-/// written.
+/// SPIRAL_DOMAIN and one that is not decided SPIRAL_UNDECIDED; the last error names the first such row, and no result
+/// is written.
 ///
 /// # Safety
-/// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `data` holds
-/// `count` rows of as many numbers as the chart has axes; `flags` and `solutions` are null, when they are not wanted, or
-/// have room for `count` values.
+/// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `data`
+/// holds `count` rows of as many numbers as the chart has axes; `flags` and `solutions` are null, when they are not
+/// wanted, or have room for `count` values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_solve_batch(
     family: *const c_char,
@@ -98,8 +103,8 @@ pub unsafe extern "C" fn spiral_solve_batch(
 /// The exact answer for one datum, with its curves. Close it with spiral_answer_close.
 ///
 /// # Safety
-/// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `datum` holds
-/// as many numbers as the chart has axes; `answer` is null or valid for a write.
+/// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `datum`
+/// holds as many numbers as the chart has axes; `answer` is null or valid for a write.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_solve(
     family: *const c_char,
@@ -167,7 +172,8 @@ fn values(answer: &Answer, solution: i64) -> Result<&Values> {
 /// or 1. The index -1 stands for what follows from the datum itself. SPIRAL_NONE where there is no such number.
 ///
 /// # Safety
-/// `answer` is null or open; `name` is null or a text that ends with a zero byte; `number` is null or valid for a write.
+/// `answer` is null or open; `name` is null or a text that ends with a zero byte; `number` is null or valid for a
+/// write.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_answer_number(
     answer: *const SpiralAnswer,
@@ -196,12 +202,12 @@ fn as_number(value: &Value) -> Option<f64> {
     }
 }
 
-/// Points of a solution by their name, "control_points" above all, as x, y, x, y, ...: writes at most `room` points, and
-/// always how many there are. SPIRAL_NONE where there are none of that name.
+/// Points of a solution by their name, "control_points" above all, as x, y, x, y, ...: writes at most `room` points,
+/// and always how many there are. SPIRAL_NONE where there are none of that name.
 ///
 /// # Safety
-/// `answer` is null or open; `name` is null or a text that ends with a zero byte; `xy` is null or has room for `2 * room`
-/// numbers; `count` is null or valid for a write.
+/// `answer` is null or open; `name` is null or a text that ends with a zero byte; `xy` is null or has room for
+/// `2 * room` numbers; `count` is null or valid for a write.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_answer_points(
     answer: *const SpiralAnswer,
@@ -213,14 +219,15 @@ pub unsafe extern "C" fn spiral_answer_points(
 ) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises; a point is two numbers.
-        let (answer, name, xy, slot) =
-            unsafe { (given(answer, "answer")?, text(name, "name")?, results(xy, room, "xy")?, place(count, "count")?) };
+        let (answer, name, xy, slot) = unsafe {
+            (given(answer, "answer")?, text(name, "name")?, results(xy, room, "xy")?, place(count, "count")?)
+        };
         let points = values(&answer.0, solution)?.iter().find_map(|(n, value)| match value {
             Value::Points(points) if *n == name => Some(points),
             _ => None,
         });
-        let points =
-            points.ok_or_else(|| Fault(SpiralStatus::SPIRAL_NONE, format!("solution {solution} has no points `{name}`")))?;
+        let points = points
+            .ok_or_else(|| Fault(SpiralStatus::SPIRAL_NONE, format!("solution {solution} has no points `{name}`")))?;
         *slot = points.len();
         xy.iter_mut().zip(points).for_each(|(slot, point)| *slot = *point);
         Ok(())

@@ -14,7 +14,8 @@ pub struct SpiralAtlas {
 /// Opens an atlas file and checks its header and axes.
 ///
 /// # Safety
-/// `path` is a text that ends with a zero byte; `atlas` is valid for a write. Both may be null, which is SPIRAL_ARGUMENT.
+/// `path` is a text that ends with a zero byte; `atlas` is valid for a write. Both may be null, which is
+/// SPIRAL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_atlas_open(path: *const c_char, atlas: *mut *mut SpiralAtlas) -> SpiralStatus {
     guard(|| {
@@ -81,7 +82,8 @@ pub unsafe extern "C" fn spiral_atlas_axis(
         // SAFETY: the caller's promise.
         let atlas = unsafe { given(atlas, "atlas")? };
         let axes = atlas.atlas.grid().axes();
-        let axis = axes.get(index).ok_or_else(|| Fault::domain(format!("axis {index}: the atlas has {}", axes.len())))?;
+        let axis =
+            axes.get(index).ok_or_else(|| Fault::domain(format!("axis {index}: the atlas has {}", axes.len())))?;
         // SAFETY: the caller's promises; one value each.
         unsafe {
             results(name, 1, "name")?.fill(atlas.names[index].as_ptr());
@@ -97,7 +99,11 @@ pub unsafe extern "C" fn spiral_atlas_axis(
 /// # Safety
 /// `atlas` is null or open; `name` is null or a text that ends with a zero byte; `mask` is null or valid for a write.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn spiral_atlas_flag(atlas: *const SpiralAtlas, name: *const c_char, mask: *mut u8) -> SpiralStatus {
+pub unsafe extern "C" fn spiral_atlas_flag(
+    atlas: *const SpiralAtlas,
+    name: *const c_char,
+    mask: *mut u8,
+) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
         let (atlas, name, slot) = unsafe { (given(atlas, "atlas")?, text(name, "name")?, place(mask, "mask")?) };
@@ -110,7 +116,8 @@ pub unsafe extern "C" fn spiral_atlas_flag(atlas: *const SpiralAtlas, name: *con
 pub(crate) fn mask<'a>(names: impl Iterator<Item = &'a str>, name: &str) -> Result<u8> {
     let names: Vec<&str> = names.collect();
     let bit = names.iter().position(|n| *n == name);
-    bit.map(|bit| 1 << bit).ok_or_else(|| Fault::domain(format!("no flag is named `{name}`; there are: {}", names.join(", "))))
+    bit.map(|bit| 1 << bit)
+        .ok_or_else(|| Fault::domain(format!("no flag is named `{name}`; there are: {}", names.join(", "))))
 }
 
 /// The `flags` and `solutions` bytes of all nodes, in flat order, and their number. All live as long as the atlas.
@@ -136,8 +143,8 @@ pub unsafe extern "C" fn spiral_atlas_data(
     })
 }
 
-/// The nearest node of each of `count` points: its flat index, flags and solutions. A point outside the grid by more than
-/// half a step has the index -1, and 0 in both bytes. A verdict holds at its node.
+/// The nearest node of each of `count` points: its flat index, flags and solutions. A point outside the grid by more
+/// than half a step has the index -1, and 0 in both bytes. A verdict holds at its node.
 ///
 /// # Safety
 /// `atlas` is null or open; `points` holds `count` rows of as many numbers as there are axes; each of the others is
@@ -166,7 +173,8 @@ pub unsafe extern "C" fn spiral_atlas_lookup(
         };
         for (i, point) in points.chunks_exact(atlas.names.len()).enumerate() {
             let found = atlas.atlas.nearest(point);
-            let (node, flag, solution) = found.map_or((-1, 0, 0), |(node, entry)| (node as i64, entry.flags, entry.solutions));
+            let (node, flag, solution) =
+                found.map_or((-1, 0, 0), |(node, entry)| (node as i64, entry.flags, entry.solutions));
             nodes.get_mut(i).into_iter().for_each(|slot| *slot = node);
             flags.get_mut(i).into_iter().for_each(|slot| *slot = flag);
             solutions.get_mut(i).into_iter().for_each(|slot| *slot = solution);

@@ -49,7 +49,11 @@ pub unsafe extern "C" fn spiral_cells_axes(cells: *const SpiralCells) -> usize {
 /// # Safety
 /// `cells` is null or open; `name` is null or a text that ends with a zero byte; `mask` is null or valid for a write.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn spiral_cells_flag(cells: *const SpiralCells, name: *const c_char, mask: *mut u8) -> SpiralStatus {
+pub unsafe extern "C" fn spiral_cells_flag(
+    cells: *const SpiralCells,
+    name: *const c_char,
+    mask: *mut u8,
+) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
         let (cells, name, slot) = unsafe { (given(cells, "cells")?, text(name, "name")?, place(mask, "mask")?) };
@@ -58,12 +62,12 @@ pub unsafe extern "C" fn spiral_cells_flag(cells: *const SpiralCells, name: *con
     })
 }
 
-/// What the cell of each of `count` points says, as two masks: flags that hold at every point of the cell, and flags that
-/// hold at none. A flag in neither is not known; outside the box of the file none is.
+/// What the cell of each of `count` points says, as two masks: flags that hold at every point of the cell, and flags
+/// that hold at none. A flag in neither is not known; outside the box of the file none is.
 ///
 /// # Safety
-/// `cells` is null or open; `points` holds `count` rows of as many numbers as there are axes; `inside` and `outside` are
-/// null, when they are not wanted, or have room for `count` values.
+/// `cells` is null or open; `points` holds `count` rows of as many numbers as there are axes; `inside` and `outside`
+/// are null, when they are not wanted, or have room for `count` values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_cells_lookup(
     cells: *const SpiralCells,
@@ -89,8 +93,8 @@ pub unsafe extern "C" fn spiral_cells_lookup(
     })
 }
 
-/// The truth about the wanted flags at each of `count` points: from its cell where that says it, or else from the family
-/// itself, also outside the box. A point outside the family's domain is SPIRAL_DOMAIN, naming the row.
+/// The truth about the wanted flags at each of `count` points: from its cell where that says it, or else from the
+/// family itself, also outside the box. A point outside the family's domain is SPIRAL_DOMAIN, naming the row.
 ///
 /// # Safety
 /// `cells` is null or open; `points` holds `count` rows of as many numbers as there are axes; `holds` has room for

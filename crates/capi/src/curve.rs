@@ -77,10 +77,10 @@ unsafe fn asked<'a>(
 
 /// The curve of monotone curvature between two ends anywhere in the plane.
 ///
-/// `kind` is "cubic" (of several spirals the one with the largest margin), "ph-quintic" (that of least bending energy) or
-/// "involute" (the image of an involute of a circle, which exists whenever any spiral does); null stands for "cubic". A
-/// curve longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where there is no spiral: the last error
-/// says which condition fails.
+/// `kind` is "cubic" (of several spirals the one with the largest margin), "ph-quintic" (that of least bending energy)
+/// or "involute" (the image of an involute of a circle, which exists whenever any spiral does); null stands for
+/// "cubic". A curve longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where there is no spiral:
+/// the last error says which condition fails.
 ///
 /// # Safety
 /// `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
@@ -113,9 +113,9 @@ pub unsafe extern "C" fn spiral_fit(
 }
 
 /// A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
-/// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic", "trig-quintic" or
-/// "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no limit. SPIRAL_NONE where none was
-/// found: the last error says why.
+/// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic",
+/// "trig-quintic" or "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no
+/// limit. SPIRAL_NONE where none was found: the last error says why.
 ///
 /// # Safety
 /// `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
@@ -162,7 +162,8 @@ pub unsafe extern "C" fn spiral_curve_close(curve: *mut SpiralCurve) {
     }
 }
 
-/// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null pointer. It lives as long as the curve.
+/// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null
+/// pointer. It lives as long as the curve.
 ///
 /// # Safety
 /// `curve` is null or open.
@@ -172,8 +173,8 @@ pub unsafe extern "C" fn spiral_curve_kind(curve: *const SpiralCurve) -> *const 
     unsafe { curve.as_ref() }.map_or(std::ptr::null(), |curve| curve.kind.as_ptr())
 }
 
-/// All that rebuilds the curve exactly, in JSON: the piece as `curve --json` has it, or {"pieces": [..]} of several; null
-/// for a null pointer. It lives as long as the curve.
+/// All that rebuilds the curve exactly, in JSON: the piece as `curve --json` has it, or {"pieces": [..]} of several;
+/// null for a null pointer. It lives as long as the curve.
 ///
 /// # Safety
 /// `curve` is null or open.
@@ -193,8 +194,8 @@ pub unsafe extern "C" fn spiral_curve_length(curve: *const SpiralCurve) -> f64 {
     unsafe { curve.as_ref() }.map_or(f64::NAN, |curve| curve.pieces.iter().map(Piece::length).sum())
 }
 
-/// Control points: writes at most `room` of them, and always how many there are: 0 for what has none, an involute, a line,
-/// an arc, or a curve of several pieces.
+/// Control points: writes at most `room` of them, and always how many there are: 0 for what has none, an involute, a
+/// line, an arc, or a curve of several pieces.
 ///
 /// # Safety
 /// `curve` is null or open; `xy` is null or has room for `room` points; `count` is null or valid for a write.
@@ -223,7 +224,11 @@ pub unsafe extern "C" fn spiral_curve_control_points(
 /// # Safety
 /// `curve` is null or open; `out` has room for `count` stations.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn spiral_curve_stations(curve: *const SpiralCurve, out: *mut SpiralStation, count: usize) -> SpiralStatus {
+pub unsafe extern "C" fn spiral_curve_stations(
+    curve: *const SpiralCurve,
+    out: *mut SpiralStation,
+    count: usize,
+) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
         let (curve, out) = unsafe {
@@ -232,7 +237,8 @@ pub unsafe extern "C" fn spiral_curve_stations(curve: *const SpiralCurve, out: *
         };
         let found = stations(&curve.pieces, count).map_err(|e: Error| Fault::from(e))?;
         for (slot, at) in out.iter_mut().zip(found) {
-            *slot = SpiralStation { station: at.station, x: at.x, y: at.y, heading: at.heading, curvature: at.curvature };
+            *slot =
+                SpiralStation { station: at.station, x: at.x, y: at.y, heading: at.heading, curvature: at.curvature };
         }
         Ok(())
     })

@@ -30,7 +30,8 @@ pub(crate) type Result<T = ()> = std::result::Result<T, Fault>;
 /// The pointer is null, or valid for reads of a `T` for as long as `'a`.
 pub(crate) unsafe fn given<'a, T>(pointer: *const T, name: &str) -> Result<&'a T> {
     // SAFETY: the caller's promise.
-    unsafe { pointer.as_ref() }.ok_or_else(|| Fault(SpiralStatus::SPIRAL_ARGUMENT, format!("`{name}` is a null pointer")))
+    unsafe { pointer.as_ref() }
+        .ok_or_else(|| Fault(SpiralStatus::SPIRAL_ARGUMENT, format!("`{name}` is a null pointer")))
 }
 
 /// Where a result goes, which must not be null.
@@ -39,7 +40,8 @@ pub(crate) unsafe fn given<'a, T>(pointer: *const T, name: &str) -> Result<&'a T
 /// The pointer is null, or valid for writes of a `T` for as long as `'a`, and nothing else refers there meanwhile.
 pub(crate) unsafe fn place<'a, T>(pointer: *mut T, name: &str) -> Result<&'a mut T> {
     // SAFETY: the caller's promise.
-    unsafe { pointer.as_mut() }.ok_or_else(|| Fault(SpiralStatus::SPIRAL_ARGUMENT, format!("`{name}` is a null pointer")))
+    unsafe { pointer.as_mut() }
+        .ok_or_else(|| Fault(SpiralStatus::SPIRAL_ARGUMENT, format!("`{name}` is a null pointer")))
 }
 
 /// `rows` times `columns` numbers.
@@ -58,7 +60,8 @@ pub(crate) unsafe fn numbers<'a, T>(pointer: *const T, rows: usize, columns: usi
 /// Where `count` results go; none where the caller does not want them (a null pointer).
 ///
 /// # Safety
-/// The pointer is null, or valid for writes of so many `T` for as long as `'a`, and nothing else refers there meanwhile.
+/// The pointer is null, or valid for writes of so many `T` for as long as `'a`, and nothing else refers there
+/// meanwhile.
 pub(crate) unsafe fn results<'a, T>(pointer: *mut T, count: usize, name: &str) -> Result<&'a mut [T]> {
     let count = length::<T>(count, 1, name)?;
     if pointer.is_null() || count == 0 {

@@ -63,7 +63,8 @@ thread_local! {
 pub(crate) fn guard(call: impl FnOnce() -> Result) -> SpiralStatus {
     // What a panic leaves behind is never used again but for handles, which are read only.
     let outcome = catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|panic| {
-        let what = panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
+        let what =
+            panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
         Err(Fault(SpiralStatus::SPIRAL_INTERNAL, format!("internal fault: {}", what.unwrap_or_default())))
     });
     match outcome {

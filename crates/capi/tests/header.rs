@@ -13,5 +13,8 @@ fn the_header_is_fresh() {
         std::fs::write(&path, &fresh).expect("writable");
     }
     let committed = std::fs::read(&path).unwrap_or_default();
-    assert!(committed == fresh, "include/spiral_atlas.h is old: SPIRAL_ATLAS_UPDATE=1 cargo test -p spiral-atlas-capi renews it");
+    assert!(
+        committed == fresh,
+        "include/spiral_atlas.h is old: SPIRAL_ATLAS_UPDATE=1 cargo test -p spiral-atlas-capi renews it"
+    );
 }

@@ -6,8 +6,8 @@ use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::path::Course;
 use spiral_atlas::transition::join::{self, Outcome as Joined, join};
 use spiral_atlas::transition::{
-    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, involute_between, nearest, ph_spiral,
-    polyline, spiral, why_no_spiral,
+    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, involute_between, nearest,
+    ph_spiral, polyline, spiral, why_no_spiral,
 };
 use spiral_atlas::{Error, Result};
 
@@ -113,17 +113,25 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
         Kind::Cubic => {
             let answer = spiral(ends)?;
             let piece = answer.chosen().map(|s| (s.piece(), json!({ "margin": s.margin, "f0": s.f0, "f1": s.f1 })));
-            let why = if let Err(why) = &answer.outcome { Some((why.sentence("cubic spiral"), json!(why))) } else { None };
+            let why =
+                if let Err(why) = &answer.outcome { Some((why.sentence("cubic spiral"), json!(why))) } else { None };
             // What has these ends and is no spiral is drawn, too.
-            let others = answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points.p }));
+            let others =
+                answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points.p }));
             told(piece, why, others.collect())
         }
         Kind::PhQuintic => {
             let answer = ph_spiral(ends)?;
-            let facts = |s: &transition::PhSolution| json!({ "margin": s.margin, "a": s.a, "b": s.b, "energy": s.energy });
+            let facts =
+                |s: &transition::PhSolution| json!({ "margin": s.margin, "a": s.a, "b": s.b, "energy": s.energy });
             let piece = answer.chosen().map(|s| (Piece::PhQuintic(s.curve), facts(s)));
-            let why = if let Err(why) = &answer.outcome { Some((why.sentence("PH quintic spiral"), json!(why))) } else { None };
-            let others = answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points }));
+            let why = if let Err(why) = &answer.outcome {
+                Some((why.sentence("PH quintic spiral"), json!(why)))
+            } else {
+                None
+            };
+            let others =
+                answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points }));
             told(piece, why, others.collect())
         }
         Kind::Involute => {
@@ -208,7 +216,9 @@ impl Join {
             ..join::Request::new(self.from, self.to, self.greatest_curvature)
         };
         let circle = |end: &join::End| match *end {
-            join::End::State(join::State { point, direction, curvature }) => EndCircle::new(point, direction, curvature),
+            join::End::State(join::State { point, direction, curvature }) => {
+                EndCircle::new(point, direction, curvature)
+            }
             join::End::Line { point, direction } => EndCircle::Line { point, direction },
             join::End::Circle { centre, radius, .. } => EndCircle::Circle { centre, radius },
         };

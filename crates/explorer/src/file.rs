@@ -62,21 +62,25 @@ impl File {
             json!({ "name": axis.name(), "values": axis.values(), "log": log })
         };
         let known = family::by_name(&about.family);
-        let label = |name: &str| known.and_then(|f| f.about().flags.iter().find(|flag| flag.name == name)).map(|flag| flag.label);
+        let label = |name: &str| {
+            known.and_then(|f| f.about().flags.iter().find(|flag| flag.name == name)).map(|flag| flag.label)
+        };
         let flags: Vec<Value> = about
             .flags
             .iter()
             .map(|f| json!({ "name": f.name, "doc": f.doc, "label": label(&f.name).unwrap_or(&f.name) }))
             .collect();
         let bit = |name: &&str| about.flags.iter().position(|flag| flag.name == *name);
-        let nested: Vec<usize> = known.map_or(Vec::new(), |family| family.about().nested.iter().filter_map(bit).collect());
+        let nested: Vec<usize> =
+            known.map_or(Vec::new(), |family| family.about().nested.iter().filter_map(bit).collect());
         json!({
             "kind": kind, "name": about.name, "family": about.family, "title": known.map(|f| f.about().title), "chart_doc": about.chart_doc,
             "generator": about.generator, "flags": flags, "nested": nested, "axes": self.grid().axes().iter().map(axis).collect::<Vec<_>>(),
         })
     }
 
-    /// The verdicts on a plane, x fastest, from below: of nodes their flags; of cells what is INSIDE, and what is OUTSIDE.
+    /// The verdicts on a plane, x fastest, from below: of nodes their flags; of cells what is INSIDE, and what is
+    /// OUTSIDE.
     ///
     /// # Errors
     /// [`Error::Domain`] for axes and places that the file does not have.

@@ -1,8 +1,9 @@
-//! Spiral Atlas for a worker of a browser: questions and answers as JSON, pictures and files as bytes, through the memory
-//! that both sides share. `page/core.js` is the other side.
+//! Spiral Atlas for a worker of a browser: questions and answers as JSON, pictures and files as bytes, through the
+//! memory that both sides share. `page/core.js` is the other side.
 //!
 //! A question is written into [`room`], and [`ask`] answers it. A slice is asked for as any question, and then made by
-//! [`refine`], some tiles at a time, so that the worker can look for newer questions in between. No mathematics is here.
+//! [`refine`], some tiles at a time, so that the worker can look for newer questions in between. No mathematics is
+//! here.
 
 mod answer;
 mod file;
@@ -105,8 +106,8 @@ pub extern "C" fn proved() -> usize {
 
 impl State {
     fn answer(&mut self) -> Result<Value> {
-        let question: Question =
-            serde_json::from_slice(&self.input).map_err(|e| Error::Domain(format!("the question cannot be read: {e}")))?;
+        let question: Question = serde_json::from_slice(&self.input)
+            .map_err(|e| Error::Domain(format!("the question cannot be read: {e}")))?;
         match question {
             Question::Curves(curves) => curves.answer(),
             Question::Advice(advice) => advice.answer(),

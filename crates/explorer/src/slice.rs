@@ -1,4 +1,5 @@
-//! A slice of a region at given angles, made of boxes that are proved as a whole and, at the boundaries, of single pixels.
+//! A slice of a region at given angles, made of boxes that are proved as a whole and, at the boundaries, of single
+//! pixels.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -58,9 +59,12 @@ impl Slice {
         let Wanted { family, phi0, phi1, at, ranges, width, height } = wanted;
         let family = family::by_name(&family).ok_or_else(|| Error::Domain(format!("no family is named `{family}`")))?;
         let chart = family.about().charts.iter().position(|chart: &Chart| chart.axes == AXES);
-        let chart = chart.ok_or_else(|| Error::Domain(format!("`{}` has no axes kappa0 and kappa1", family.about().name)))?;
+        let chart =
+            chart.ok_or_else(|| Error::Domain(format!("`{}` has no axes kappa0 and kappa1", family.about().name)))?;
         if ![width, height].iter().all(|n| (2..=MOST).contains(n)) {
-            return Err(Error::Domain(format!("the slice is {width} x {height} pixels; each side must be 2 to {MOST}")));
+            return Err(Error::Domain(format!(
+                "the slice is {width} x {height} pixels; each side must be 2 to {MOST}"
+            )));
         }
         let ranges = match ranges {
             Some(ranges) => ranges,
@@ -74,7 +78,8 @@ impl Slice {
             Axis::new("kappa", spacing).map(|axis| axis.values().to_vec())
         };
         let (x, y) = (fine(kappa0, width, false)?, fine(kappa1, height, true)?);
-        let every_other = |values: &[f64], from: usize| values.iter().copied().skip(from).step_by(2).collect::<Vec<f64>>();
+        let every_other =
+            |values: &[f64], from: usize| values.iter().copied().skip(from).step_by(2).collect::<Vec<f64>>();
         let axis = |(name, values): (&&str, Vec<f64>)| Axis::new(name, Spacing::Values(values));
         let middles = [vec![phi0], vec![phi1], every_other(&x, 1), every_other(&y, 1)];
         let grid = Grid::new(AXES.iter().zip(middles).map(axis).collect::<Result<_>>()?)?;
@@ -90,8 +95,13 @@ impl Slice {
     /// The names and the order of what is drawn.
     pub fn about(&self) -> Value {
         let bit = |name: &&str| self.family.about().flags.iter().position(|flag| flag.name == *name);
-        let flags: Vec<Value> =
-            self.family.about().flags.iter().map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc })).collect();
+        let flags: Vec<Value> = self
+            .family
+            .about()
+            .flags
+            .iter()
+            .map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc }))
+            .collect();
         let nested: Vec<usize> = self.family.about().nested.iter().filter_map(bit).collect();
         json!({ "family": self.family.about().name, "ranges": self.ranges, "flags": flags, "nested": nested })
     }
@@ -183,8 +193,11 @@ const HEIGHTS: [f64; 2] = [1e-3, 1e5];
 fn seen(family: &'static dyn Family, [phi0, phi1]: [f64; 2], at: [f64; 2]) -> Result<[[f64; 2]; 2]> {
     let (flat, sharp) = (phi0.sin().max(0.05), phi1.sin().max(0.05));
     let wide = [[-0.5 * flat, 1.06 * flat], [0.7 * sharp, 30.0 * sharp]];
-    let [mut x, mut y] =
-        if family.about().nested[0] == "EXISTS" { wide } else { region(family, [phi0, phi1], [flat, sharp])?.unwrap_or(wide) };
+    let [mut x, mut y] = if family.about().nested[0] == "EXISTS" {
+        wide
+    } else {
+        region(family, [phi0, phi1], [flat, sharp])?.unwrap_or(wide)
+    };
     let margin = 0.06 * (x[1] - x[0]);
     x = [x[0].min(at[0] - margin), x[1].max(at[0] + margin)];
     // Below a thousandth of the rest, no logarithmic axis shows it.

@@ -29,8 +29,8 @@ pub fn open(path: PathBuf) -> PyResult<Atlas> {
 /// A read-only array over memory that `owner` keeps.
 fn view<'py, T: Element>(owner: &Bound<'py, Atlas>, shape: &[usize], values: &[T]) -> PyResult<Bound<'py, PyAny>> {
     let array = ArrayView::from_shape(IxDyn(shape), values).map_err(|e| PyValueError::new_err(e.to_string()))?;
-    // SAFETY: the memory belongs to the atlas, which never moves or changes it (the class is frozen), and the array holds
-    // a reference to the atlas. The array is made read-only before anyone sees it.
+    // SAFETY: the memory belongs to the atlas, which never moves or changes it (the class is frozen), and the array
+    // holds a reference to the atlas. The array is made read-only before anyone sees it.
     let array = unsafe { PyArray::borrow_from_array(&array, owner.clone().into_any()) }.into_any();
     array.call_method("setflags", (), Some(&[("write", false)].into_py_dict(owner.py())?))?;
     Ok(array)
@@ -107,7 +107,13 @@ impl Atlas {
     /// Names of the axes that are angles, in radians.
     #[getter]
     fn angles(&self) -> Vec<&str> {
-        self.0.grid().axes().iter().map(|axis| axis.name()).filter(|name| spiral_atlas::recipe::is_angle(name)).collect()
+        self.0
+            .grid()
+            .axes()
+            .iter()
+            .map(|axis| axis.name())
+            .filter(|name| spiral_atlas::recipe::is_angle(name))
+            .collect()
     }
 
     /// Names and meanings of the bits of `flags`, bit 0 first.
@@ -159,13 +165,18 @@ impl Atlas {
     ///     (nodes, flags, solutions): arrays of shape (n,), of int64, uint8 and uint8. `nodes` has flat indices
     ///     (`numpy.unravel_index` makes indices of each axis of them), and -1 for a point outside the grid by more than
     ///     half a step, whose bytes are 0.
-    fn lookup<'py>(&self, py: Python<'py>, points: PyArrayLike2<'py, f64, AllowTypeChange>) -> PyResult<Bound<'py, PyTuple>> {
+    fn lookup<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyArrayLike2<'py, f64, AllowTypeChange>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
         let points = points.as_array();
         let axes = columns(&points, self.0.grid(), "the atlas has")?;
         let points = points.as_standard_layout();
         let (nodes, flags, solutions) = py.detach(|| {
             let n = points.nrows();
-            let (mut nodes, mut flags, mut solutions) = (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
+            let (mut nodes, mut flags, mut solutions) =
+                (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
             for point in rows(&points, axes) {
                 let (node, flag, count) = match self.0.nearest(point) {
                     Some((node, entry)) => (node as i64, entry.flags, entry.solutions),
@@ -194,7 +205,8 @@ impl Atlas {
     }
 
     fn __repr__(&self) -> String {
-        let axes: Vec<String> = self.0.grid().axes().iter().map(|a| format!("{} {}", a.name(), a.values().len())).collect();
+        let axes: Vec<String> =
+            self.0.grid().axes().iter().map(|a| format!("{} {}", a.name(), a.values().len())).collect();
         format!("<spiral_atlas.Atlas of {}: {}>", self.0.family_name(), axes.join(" x "))
     }
 }

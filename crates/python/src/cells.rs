@@ -65,8 +65,8 @@ impl Cells {
     ///     points: numbers of shape (n, number of axes); a float64 array is not copied.
     ///
     /// Returns:
-    ///     (inside, outside): two uint8 arrays of shape (n,), masks of flags. A flag in `inside` holds at every point of
-    ///     the cell, a flag in `outside` at none. A flag in neither is not known; outside the box none is.
+    ///     (inside, outside): two uint8 arrays of shape (n,), masks of flags. A flag in `inside` holds at every point
+    ///     of the cell, a flag in `outside` at none. A flag in neither is not known; outside the box none is.
     fn lookup<'py>(
         &self,
         py: Python<'py>,
@@ -94,7 +94,12 @@ impl Cells {
     ///     ValueError: naming the row and the value, when a point lies outside the family's domain.
     ///     UndecidedError: naming the row.
     #[pyo3(signature = (points, flags = 255))]
-    fn verdict<'py>(&self, py: Python<'py>, points: PyArrayLike2<'py, f64, AllowTypeChange>, flags: u8) -> PyResult<Masks<'py>> {
+    fn verdict<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyArrayLike2<'py, f64, AllowTypeChange>,
+        flags: u8,
+    ) -> PyResult<Masks<'py>> {
         let points = points.as_array();
         let axes = columns(&points, self.0.grid(), "the cells have")?;
         let held: Result<Vec<u8>, _> = py.detach(|| {

@@ -100,8 +100,8 @@ impl Curve {
         self.pieces[self.pieces.len() - 1].end().into()
     }
 
-    /// The control points, a float64 array of shape (degree + 1, 2); None for what has none: an involute, a line, an arc,
-    /// and a curve of several pieces.
+    /// The control points, a float64 array of shape (degree + 1, 2); None for what has none: an involute, a line, an
+    /// arc, and a curve of several pieces.
     #[getter]
     fn control_points<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
         let [piece] = &self.pieces[..] else { return Ok(None) };
@@ -120,8 +120,8 @@ impl Curve {
         Ok(all.into_pyarray(py))
     }
 
-    /// All that is known at `n` points at equal arc lengths: float64 arrays of shape (n,) by the names `station` (length
-    /// from the start), `x`, `y`, `heading` (radians), `curvature`.
+    /// All that is known at `n` points at equal arc lengths: float64 arrays of shape (n,) by the names `station`
+    /// (length from the start), `x`, `y`, `heading` (radians), `curvature`.
     fn stations<'py>(&self, py: Python<'py>, n: usize) -> PyResult<Bound<'py, PyDict>> {
         let all = self.at_equal_lengths(py, n)?;
         let columns = PyDict::new(py);
@@ -151,7 +151,8 @@ impl Curve {
         n: usize,
         kwargs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let missing = |e: PyErr| PyImportError::new_err(format!("plot needs matplotlib: pip install spiral-atlas[plot] ({e})"));
+        let missing =
+            |e: PyErr| PyImportError::new_err(format!("plot needs matplotlib: pip install spiral-atlas[plot] ({e})"));
         let ax = match ax {
             Some(ax) => ax,
             None => py.import("matplotlib.pyplot").map_err(missing)?.call_method0("gca")?,
@@ -224,7 +225,8 @@ impl Direction {
 ///     start, end: points (x, y).
 ///     start_direction, end_direction: directions of travel: an angle from the x axis in radians, or a vector.
 ///     start_curvature, end_curvature: signed curvatures, 1 / length, positive to the left.
-///     family: "cubic" (of several spirals the one with the largest margin), "ph-quintic" (that of least bending energy)
+///     family: "cubic" (of several spirals the one with the largest margin), "ph-quintic" (that of least bending
+///     energy)
 ///         or "involute" (the image of an involute of a circle, which exists whenever any spiral does).
 ///     longest: a curve longer than this counts as none.
 ///
@@ -249,10 +251,12 @@ pub fn fit(
 ) -> PyResult<Fit> {
     let (start_direction, end_direction) = (start_direction.angle()?, end_direction.angle()?);
     let ends = Ends { start, end, start_direction, end_direction, start_curvature, end_curvature };
-    let kind = Kind::by_name(family)
-        .ok_or_else(|| PyValueError::new_err(format!("the family is `{family}`; it must be cubic, ph-quintic or involute")))?;
+    let kind = Kind::by_name(family).ok_or_else(|| {
+        PyValueError::new_err(format!("the family is `{family}`; it must be cubic, ph-quintic or involute"))
+    })?;
     let found = py.detach(|| transition::fit(&ends, kind, longest.unwrap_or(f64::INFINITY))).map_err(raise)?;
-    let solutions: Vec<Py<Curve>> = found.solutions.into_iter().map(|p| Py::new(py, Curve::from(p))).collect::<PyResult<_>>()?;
+    let solutions: Vec<Py<Curve>> =
+        found.solutions.into_iter().map(|p| Py::new(py, Curve::from(p))).collect::<PyResult<_>>()?;
     let (curve, reason) = match found.outcome {
         Ok(i) => (solutions.get(i).map(|curve| curve.clone_ref(py)), None),
         Err(why) => (None, Some(why)),

@@ -6,8 +6,18 @@ use pyo3::prelude::*;
 use spiral_atlas::Error;
 
 create_exception!(spiral_atlas, AtlasError, PyValueError, "A file is not a valid atlas.");
-create_exception!(spiral_atlas, UndecidedError, PyArithmeticError, "A verdict could not be proved at the precision cap.");
-create_exception!(spiral_atlas, NoPathError, PyException, "There is no path such as was asked for; the message is the reason.");
+create_exception!(
+    spiral_atlas,
+    UndecidedError,
+    PyArithmeticError,
+    "A verdict could not be proved at the precision cap."
+);
+create_exception!(
+    spiral_atlas,
+    NoPathError,
+    PyException,
+    "There is no path such as was asked for; the message is the reason."
+);
 
 /// Puts the exceptions into the module.
 pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -71,7 +71,8 @@ fn about(family: &dyn Family) -> About {
 ///
 /// Args:
 ///     family: its name; see `families()`.
-///     coordinates: the axes of one of the family's charts, by name. Numbers; angles are radians, or text such as "40deg".
+///     coordinates: the axes of one of the family's charts, by name. Numbers; angles are radians, or text such as
+///     "40deg".
 ///
 /// Returns:
 ///     A dictionary: the coordinates; `flags` (name to bool, proved); `counts`; `derived`; `solutions` (all curves with
@@ -83,7 +84,11 @@ fn about(family: &dyn Family) -> About {
 ///     UndecidedError: not proved at the precision cap.
 #[pyfunction]
 #[pyo3(signature = (family, **coordinates))]
-pub fn solve<'py>(py: Python<'py>, family: &str, coordinates: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyDict>> {
+pub fn solve<'py>(
+    py: Python<'py>,
+    family: &str,
+    coordinates: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyDict>> {
     let family = known(family)?;
     let given = match coordinates {
         Some(all) => all.iter().map(|(name, x)| Ok((name.extract()?, x))).collect::<PyResult<_>>()?,
@@ -134,7 +139,9 @@ fn known(name: &str) -> PyResult<&'static dyn Family> {
 
 /// Chart and coordinates of a datum that was given by name.
 fn datum(family: &dyn Family, given: &[(String, Bound<'_, PyAny>)]) -> PyResult<(usize, Vec<f64>)> {
-    let fits = |chart: &Chart| chart.axes.len() == given.len() && given.iter().all(|(name, _)| chart.axes.contains(&&name[..]));
+    let fits = |chart: &Chart| {
+        chart.axes.len() == given.len() && given.iter().all(|(name, _)| chart.axes.contains(&&name[..]))
+    };
     let chart = family.about().charts.iter().position(fits).ok_or_else(|| {
         let known: Vec<String> = family.about().charts.iter().map(|c| c.axes.join(", ")).collect();
         let names: Vec<&str> = given.iter().map(|(name, _)| &name[..]).collect();
@@ -159,12 +166,13 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 ///
 /// Args:
 ///     family: its name.
-///     data: numbers of shape (n, k); a float64 array is not copied; a row for each datum, in the order of the chart's axes.
-///     chart: the name of the chart; by default the first with k axes.
+///     data: numbers of shape (n, k); a float64 array is not copied; a row for each datum, in the order of the chart's
+///     axes. chart: the name of the chart; by default the first with k axes.
 ///     threads: workers; by default as many as the machine has cores.
 ///
 /// Returns:
-///     (flags, solutions): two uint8 arrays of shape (n,), as an atlas stores them; see `families()` for bits and counts.
+///     (flags, solutions): two uint8 arrays of shape (n,), as an atlas stores them; see `families()` for bits and
+///     counts.
 ///
 /// Raises:
 ///     ValueError: naming the row and the value, when a datum lies outside the family's domain.
@@ -182,7 +190,8 @@ pub fn solve_batch<'py>(
     let data = data.as_array();
     let fits = |c: &Chart| c.axes.len() == data.ncols() && chart.is_none_or(|name| c.name == name);
     let chart = family.about().charts.iter().position(fits).ok_or_else(|| {
-        let known: Vec<String> = family.about().charts.iter().map(|c| format!("{} ({})", c.name, c.axes.join(", "))).collect();
+        let known: Vec<String> =
+            family.about().charts.iter().map(|c| format!("{} ({})", c.name, c.axes.join(", "))).collect();
         let asked = chart.map_or(String::new(), |name| format!(", the chart asked for is `{name}`"));
         PyValueError::new_err(format!(
             "`{}` has the charts {}; the data have {} columns{asked}",

@@ -39,8 +39,8 @@ pub enum Made {
 ///         with None because their number is not known before.
 ///
 /// Returns:
-///     A list of `Atlas` and, for atlases of the kind "cells", `Cells`, in the recipe's order. For a TOML file the bytes
-///     are those that the command `generate` writes.
+///     A list of `Atlas` and, for atlases of the kind "cells", `Cells`, in the recipe's order. For a TOML file the
+///     bytes are those that the command `generate` writes.
 ///
 /// Raises:
 ///     ValueError: the recipe is wrong, or a grid leaves its family's domain.
@@ -63,7 +63,9 @@ pub fn generate(
     let make = |plan: &AtlasPlan| {
         let job = Work { recipe: &recipe, plan, folder: folder.as_ref(), threads };
         let report = |done: u64| match &progress {
-            Some(progress) => progress.call1((&plan.name, done, plan.cells.is_none().then(|| plan.grid.len()))).map(drop),
+            Some(progress) => {
+                progress.call1((&plan.name, done, plan.cells.is_none().then(|| plan.grid.len()))).map(drop)
+            }
             None => Ok(()),
         };
         Ok(match plan.cells {
@@ -126,8 +128,9 @@ pub fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
         let table: toml::Table = pythonize::depythonize(dict).map_err(|e| wrong(&e))?;
         return Recipe::parse(&toml::to_string(&table).map_err(|e| wrong(&e))?).map_err(raise);
     }
-    let path: PathBuf =
-        recipe.extract().map_err(|_| PyTypeError::new_err("the recipe must be a dictionary or the path of a TOML file"))?;
+    let path: PathBuf = recipe
+        .extract()
+        .map_err(|_| PyTypeError::new_err("the recipe must be a dictionary or the path of a TOML file"))?;
     Recipe::read(path).map_err(raise)
 }
 

@@ -30,7 +30,9 @@ fn plan<'a>(recipe: &'a Recipe, name: Option<&str>) -> PyResult<&'a AtlasPlan> {
     let names: Vec<&str> = recipe.atlases.iter().map(|plan| &plan.name[..]).collect();
     let found = match (name, &recipe.atlases[..]) {
         (None, [one]) => Ok(one),
-        (None, _) => Err(format!("the recipe has several atlases, and a store holds one; choose among {}", names.join(", "))),
+        (None, _) => {
+            Err(format!("the recipe has several atlases, and a store holds one; choose among {}", names.join(", ")))
+        }
         (Some(name), all) => {
             let missing = || format!("the recipe has no atlas `{name}`; it has {}", names.join(", "));
             all.iter().find(|plan| plan.name == name).ok_or_else(missing)
@@ -96,7 +98,13 @@ impl Outline {
     /// Names of the axes that are angles, in radians.
     #[getter]
     fn angles(&self) -> Vec<&str> {
-        self.0.grid().axes().iter().map(|axis| axis.name()).filter(|name| spiral_atlas::recipe::is_angle(name)).collect()
+        self.0
+            .grid()
+            .axes()
+            .iter()
+            .map(|axis| axis.name())
+            .filter(|name| spiral_atlas::recipe::is_angle(name))
+            .collect()
     }
 
     /// Names and meanings of the bits of `flags`, bit 0 first.
@@ -139,8 +147,8 @@ impl Outline {
     ///     threads: workers; by default as many as there are cores.
     ///
     /// Returns:
-    ///     (fields, told): arrays of the block's shape by name, and numbers of nodes: `nodes`, `undecided_f64`, `most_bits`,
-    ///     and `yes`, by flag. The GIL is released.
+    ///     (fields, told): arrays of the block's shape by name, and numbers of nodes: `nodes`, `undecided_f64`,
+    ///     `most_bits`, and `yes`, by flag. The GIL is released.
     ///
     /// Raises:
     ///     ValueError: the block leaves the grid.
@@ -154,7 +162,8 @@ impl Outline {
         threads: Option<NonZero<usize>>,
     ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyAny>)> {
         let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-        let nodes: Vec<Vec<usize>> = start.iter().zip(&shape).map(|(from, count)| (*from..from + count).collect()).collect();
+        let nodes: Vec<Vec<usize>> =
+            start.iter().zip(&shape).map(|(from, count)| (*from..from + count).collect()).collect();
         let (chunk, report) = watched(py, |_| Ok(()), |stop, _| self.compute(&nodes, threads, stop))?;
         let fields = PyDict::new(py);
         let shaped = |e: numpy::ndarray::ShapeError| PyValueError::new_err(e.to_string());
@@ -186,7 +195,10 @@ impl Outline {
                 let recipe = read(recipe)?;
                 let plan = plan(&recipe, Some(&outline.about().name))?;
                 if plan.grid != *outline.grid() {
-                    return Err(PyValueError::new_err(format!("the axes of `{}` are not those of the recipe", plan.name)));
+                    return Err(PyValueError::new_err(format!(
+                        "the axes of `{}` are not those of the recipe",
+                        plan.name
+                    )));
                 }
                 plan.pictures.clone()
             }
@@ -199,7 +211,8 @@ impl Outline {
     fn compute(&self, nodes: &[Vec<usize>], threads: usize, stop: &AtomicBool) -> Result<(Chunk, Told)> {
         let (family, scalars) = self.0.family()?;
         let (whole, grid) = (self.0.grid(), self.0.grid().pick(nodes)?);
-        let mut all = Chunk { start: 0, flags: Vec::new(), solutions: Vec::new(), scalars: vec![Vec::new(); scalars.len()] };
+        let mut all =
+            Chunk { start: 0, flags: Vec::new(), solutions: Vec::new(), scalars: vec![Vec::new(); scalars.len()] };
         let count = grid.len() as usize;
         all.flags.reserve_exact(count);
         all.solutions.reserve_exact(count);

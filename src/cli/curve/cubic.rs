@@ -35,8 +35,13 @@ impl Found for Answer {
             control: figure.control_points.to_vec(),
             circles: end_circles(&self.ends),
             parameter: "t".into(),
-            curvature: Graph { label: "κ".into(), points: figure.samples.iter().map(|s| [s.t, s.curvature]).collect() },
-            derivative: Graph { label: "dκ/dt".into(), points: figure.samples.iter().map(|s| [s.t, s.curvature_dt]).collect() },
+            curvature: Graph {
+                label: "κ".into(), points: figure.samples.iter().map(|s| [s.t, s.curvature]).collect()
+            },
+            derivative: Graph {
+                label: "dκ/dt".into(),
+                points: figure.samples.iter().map(|s| [s.t, s.curvature_dt]).collect(),
+            },
             joints: Vec::new(),
         })
     }

@@ -81,7 +81,9 @@ impl Found for Answer {
                 let [n1, n2] = curve.turns();
                 text += &match split {
                     Split::Asked if turns == [0, 0] => String::new(),
-                    Split::Asked => format!("turns {n1} times about its start and {n2} times about its end, as asked\n"),
+                    Split::Asked => {
+                        format!("turns {n1} times about its start and {n2} times about its end, as asked\n")
+                    }
                     Split::Other => format!(
                         "turns {n1} times about its start and {n2} times about its end, not {},{}, which some other spiral does\n",
                         turns[0], turns[1]

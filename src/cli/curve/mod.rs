@@ -25,21 +25,23 @@ const SAMPLES: usize = 801;
 
 /// Find a transition curve of monotone curvature, anywhere in the plane, in any unit of length.
 ///
-/// Between two ends (`cubic`, `ph-quintic`, `involute`): two points, two directions of travel, two signed curvatures, positive to the
-/// left. `cubic`: of several spirals the one with the largest margin. `ph-quintic`: that of least bending energy. `involute`: the image
-/// of an involute of a circle, which exists whenever any spiral does; with --turns it goes round its ends.
+/// Between two ends (`cubic`, `ph-quintic`, `involute`): two points, two directions of travel, two signed curvatures,
+/// positive to the left. `cubic`: of several spirals the one with the largest margin. `ph-quintic`: that of least
+/// bending energy. `involute`: the image of an involute of a circle, which exists whenever any spiral does; with
+/// --turns it goes round its ends.
 ///
-/// Added to the end of a line or of an arc (`reach-cubic`, `reach-ph`): a segment between curvature 0 and 1/radius that turns by an
-/// angle, given by its shape numbers m and q or by its end point.
+/// Added to the end of a line or of an arc (`reach-cubic`, `reach-ph`): a segment between curvature 0 and 1/radius that
+/// turns by an angle, given by its shape numbers m and q or by its end point.
 ///
-/// From a line or a circle to a line or a circle (`trig-quintic`): quintic trigonometric spirals in one of five templates, each given by
-/// the angle that it turns, its radius and its shape numbers.
+/// From a line or a circle to a line or a circle (`trig-quintic`): quintic trigonometric spirals in one of five
+/// templates, each given by the angle that it turns, its radius and its shape numbers.
 ///
-/// Exit status: 0 when there is such a spiral, 1 when there is none, 2 for an error. A no comes with the condition that fails, in your
-/// units, and with what to type for the other families that have a spiral there.
+/// Exit status: 0 when there is such a spiral, 1 when there is none, 2 for an error. A no comes with the condition that
+/// fails, in your units, and with what to type for the other families that have a spiral there.
 ///
-/// With --points, one line of JSON for each row, in order, as of --json but without advice (no other families or curvatures are tried); a
-/// bad row gives {"line":..,"error":".."}. The exit status is 0 when every row was answered, whatever the answers, and 2 when one was bad.
+/// With --points, one line of JSON for each row, in order, as of --json but without advice (no other families or
+/// curvatures are tried); a bad row gives {"line":..,"error":".."}. The exit status is 0 when every row was answered,
+/// whatever the answers, and 2 when one was bad.
 #[derive(clap::Args)]
 #[command(
     after_help = "Examples:\n  spiral-atlas curve --from 0,0 --to 200,0 --start-direction -40deg --end-direction 80deg \\\n      \
@@ -76,8 +78,8 @@ pub struct Args {
     /// Curvature at the end, 1 / length.
     #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     end_curvature: Option<f64>,
-    /// A CSV file of ends for `cubic`, `ph-quintic` or `involute`, - for standard input. Columns, in any order: x0, y0, direction0, curvature0,
-    /// x1, y1, direction1, curvature1.
+    /// A CSV file of ends for `cubic`, `ph-quintic` or `involute`, - for standard input. Columns, in any order: x0, y0,
+    /// direction0, curvature0, x1, y1, direction1, curvature1.
     #[arg(long, value_name = "FILE", conflicts_with = "figure")]
     points: Option<PathBuf>,
     /// How often an involute's image turns about its start and about its end.
@@ -101,7 +103,8 @@ pub struct Args {
     /// Shape q, instead of the end point.
     #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, help_heading = REACH)]
     q: Option<f64>,
-    /// What is joined, in the direction of travel; `--from` is its start, for `s` and `c` the point between the spirals.
+    /// What is joined, in the direction of travel; `--from` is its start, for `s` and `c` the point between the
+    /// spirals.
     #[arg(long, value_name = "NAME", value_parser = ["line-circle", "line-line", "s", "c", "circle-in-circle"], help_heading = TRIG)]
     template: Option<String>,
     /// s / tan(angle/2); left out: 6, or with --as-printed the paper's (6 + m)/2.
@@ -122,8 +125,8 @@ pub struct Args {
     /// A curve longer than this counts as none; in your unit of length.
     #[arg(long, value_name = "LENGTH", value_parser = parse_longest, allow_hyphen_values = true)]
     longest: Option<f64>,
-    /// Print so many points at equal lengths along the curve too, both ends included: station (length from the start), x, y, heading
-    /// (radians), curvature.
+    /// Print so many points at equal lengths along the curve too, both ends included: station (length from the start),
+    /// x, y, heading (radians), curvature.
     #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
@@ -251,7 +254,8 @@ fn drawn([x, y]: [f64; 2], local_control_points: &[[f64; 2]]) -> (Vec<[f64; 2]>,
 /// Two numbers with a comma between.
 fn parse_point(text: &str) -> std::result::Result<[f64; 2], String> {
     let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
-    both.filter(|p: &[f64; 2]| p.iter().all(|v| v.is_finite())).ok_or_else(|| format!("{text:?} is not two finite numbers `x,y`"))
+    both.filter(|p: &[f64; 2]| p.iter().all(|v| v.is_finite()))
+        .ok_or_else(|| format!("{text:?} is not two finite numbers `x,y`"))
 }
 
 /// A length.

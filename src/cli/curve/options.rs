@@ -144,9 +144,10 @@ impl Args {
             q: self.q.unwrap_or_default(),
         };
         let first = Segment { shape, radius };
-        let second = self
-            .second
-            .map_or(first, |[theta, radius, ratio, m, p, q]| Segment { shape: Shape { ratio, theta, m, p, q }, radius });
+        let second = self.second.map_or(first, |[theta, radius, ratio, m, p, q]| Segment {
+            shape: Shape { ratio, theta, m, p, q },
+            radius,
+        });
         trig::Request {
             template: match name {
                 "line-circle" => Template::LineCircle(first),

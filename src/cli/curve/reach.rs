@@ -21,7 +21,10 @@ pub struct Answer {
 }
 
 /// `segment`, or `none` with the reason as its `why`.
-fn segment_or_none<S: Serializer>(outcome: &std::result::Result<Added, String>, to: S) -> std::result::Result<S::Ok, S::Error> {
+fn segment_or_none<S: Serializer>(
+    outcome: &std::result::Result<Added, String>,
+    to: S,
+) -> std::result::Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     #[serde(rename_all = "lowercase")]
     enum Fields<'a> {
@@ -59,7 +62,8 @@ impl Found for Answer {
         match &self.outcome {
             Err(why) => Err(format!("no segment of `{}`: {why}", self.kind.name())),
             Ok(added) if added.level == Level::Exists => {
-                Err("the only segment of this family that ends there is no spiral: its curvature is not monotone".into())
+                Err("the only segment of this family that ends there is no spiral: its curvature is not monotone"
+                    .into())
             }
             Ok(added) => Ok(vec![added.piece.clone()]),
         }
@@ -70,8 +74,10 @@ impl Found for Answer {
             Err(why) => format!("no segment of `{}`: {why}", self.kind.name()),
             Ok(added) => {
                 let Added { case, xi, eta, m, q, level, length, end_direction, .. } = added;
-                let mut text =
-                    format!("{}: case {case}, m = {m:?}, q = {q:?}, length {length:?}; control points\n", level_words(*level));
+                let mut text = format!(
+                    "{}: case {case}, m = {m:?}, q = {q:?}, length {length:?}; control points\n",
+                    level_words(*level)
+                );
                 for [x, y] in &added.control_points {
                     text += &format!("  ({x:?}, {y:?})\n");
                 }

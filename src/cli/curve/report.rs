@@ -63,7 +63,8 @@ pub struct Wish {
     pub family: Family,
     pub longest: Option<f64>,
     pub samples: Option<u32>,
-    /// Whether a no comes with advice. In a batch it does not: asking every other family costs far more than the answer.
+    /// Whether a no comes with advice. In a batch it does not: asking every other family costs far more than the
+    /// answer.
     pub advice: bool,
 }
 
@@ -84,16 +85,18 @@ impl<'f, F: Found> Report<'f, F> {
                 let path = path?;
                 let length = path.summary.length;
                 match wish.longest.filter(|longest| length > *longest) {
-                    Some(longest) => {
-                        (Vec::new(), Some(format!("the curve is {length:?} long, more than the {longest:?} that are allowed")))
-                    }
+                    Some(longest) => (
+                        Vec::new(),
+                        Some(format!("the curve is {length:?} long, more than the {longest:?} that are allowed")),
+                    ),
                     None => (vec![path], None),
                 }
             }
         };
         let unsure = found.ends().filter(|_| wish.advice && reason.is_some());
         let others = unsure.map(|ends| Others::new(ends, wish));
-        let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.course.stations(n as usize)));
+        let samples =
+            wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.course.stations(n as usize)));
         Ok(Report { found, paths, reason, others, samples: samples.transpose()? })
     }
 
@@ -140,8 +143,8 @@ struct Others {
 }
 
 impl Others {
-    /// All families that join two ends by a spiral no longer than allowed, but for the one that was asked: each is asked too. One that
-    /// fails counts as none. Where no involute exists no spiral does, so that nobody is asked.
+    /// All families that join two ends by a spiral no longer than allowed, but for the one that was asked: each is
+    /// asked too. One that fails counts as none. Where no involute exists no spiral does, so that nobody is asked.
     fn new(ends: &Ends, wish: Wish) -> Others {
         let longest = wish.longest();
         let involute = fit(ends, transition::Kind::Involute, longest);
@@ -154,16 +157,21 @@ impl Others {
             Family::PhQuintic => has(fit(ends, transition::Kind::PhQuintic, longest)),
             _ => involute.as_ref().is_ok_and(|found| found.outcome.is_ok()),
         };
-        let others = [Family::Cubic, Family::PhQuintic, Family::Involute].into_iter().filter(|family| *family != wish.family);
+        let others =
+            [Family::Cubic, Family::PhQuintic, Family::Involute].into_iter().filter(|family| *family != wish.family);
         let families = others.filter(|family| asked(*family)).map(|family| family.name());
         let segment = Request::between(ends).ok().flatten();
         let added = |kind: Kind| {
             let short = |pieces: Vec<Piece>| pieces.iter().map(Piece::length).sum::<f64>() <= longest;
-            let found = |request: &Request| reach::find(kind, request).is_ok_and(|found| found.spirals().is_ok_and(short));
+            let found =
+                |request: &Request| reach::find(kind, request).is_ok_and(|found| found.spirals().is_ok_and(short));
             let request = segment.filter(found)?;
             Some(reach::command(kind, &request, ends.end))
         };
-        Others { families: families.collect(), segments: [Kind::Cubic, Kind::Ph].into_iter().filter_map(added).collect() }
+        Others {
+            families: families.collect(),
+            segments: [Kind::Cubic, Kind::Ph].into_iter().filter_map(added).collect(),
+        }
     }
 
     /// What to type for them.

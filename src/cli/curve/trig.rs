@@ -33,7 +33,10 @@ impl Answer {
             Outcome::Spirals(path) if path.parts.len() == 1 => format!("{name}: a trigonometric spiral"),
             Outcome::Spirals(_) => format!("{name}: two trigonometric spirals"),
             Outcome::NoSpirals { why, .. } => {
-                format!("{name}, {}", if why.starts_with("as printed") { "as printed: not a spiral" } else { "not a spiral" })
+                format!(
+                    "{name}, {}",
+                    if why.starts_with("as printed") { "as printed: not a spiral" } else { "not a spiral" }
+                )
             }
         }
     }
@@ -73,7 +76,9 @@ impl Found for Answer {
         let control = path.parts.iter().flat_map(|part| part.curve.points()).collect();
         let note = match &self.outcome {
             Outcome::Spirals(_) => String::new(),
-            Outcome::NoSpirals { why, .. } => why.trim_start_matches("as printed: ").trim_start_matches("not a spiral: ").into(),
+            Outcome::NoSpirals { why, .. } => {
+                why.trim_start_matches("as printed: ").trim_start_matches("not a spiral: ").into()
+            }
         };
         Ok(CurveFigure {
             title: self.title(),
@@ -83,14 +88,20 @@ impl Found for Answer {
             circles: circles(path),
             parameter: "s".into(),
             curvature: Graph { label: "κ".into(), points: samples.iter().map(|s| [s.s, s.curvature]).collect() },
-            derivative: Graph { label: "dκ/ds".into(), points: samples.iter().map(|s| [s.s, s.curvature_ds]).collect() },
+            derivative: Graph {
+                label: "dκ/ds".into(),
+                points: samples.iter().map(|s| [s.s, s.curvature_ds]).collect(),
+            },
             joints,
         })
     }
 }
 
 fn pieces(path: &Path) -> Vec<Piece> {
-    path.parts.iter().map(|part| Piece::TrigQuintic(TrigPart { curve: part.curve, from: part.from, to: part.to })).collect()
+    path.parts
+        .iter()
+        .map(|part| Piece::TrigQuintic(TrigPart { curve: part.curve, from: part.from, to: part.to }))
+        .collect()
 }
 
 /// What the path joins, as the figure wants it.

@@ -24,7 +24,9 @@ pub fn states(cells: &[&str]) -> Result<[End; 2]> {
 }
 
 /// One of the names that a type is read from.
-pub fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(names: &[&'static str]) -> impl TypedValueParser<Value = T> {
+pub fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
+    names: &[&'static str],
+) -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(names.iter().copied()).try_map(|name| serde_json::from_value(name.into()))
 }
 

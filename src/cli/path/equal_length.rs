@@ -8,9 +8,11 @@ use spiral_atlas::{Error, Result};
 
 /// Join points and directions by paths of one given length, so that vehicles of one speed arrive at the same time.
 ///
-/// Input: {"length": L, "paths": [{"start": [x, y], "end": [x, y], "start_direction": angle, "end_direction": angle}, ..]}.
+/// Input: {"length": L, "paths": [{"start": [x, y], "end": [x, y], "start_direction": angle, "end_direction": angle},
+/// ..]}.
 ///
-/// Each path is the one of least absolute rotation of four; `paper` is the index of the one that the paper takes, of its two.
+/// Each path is the one of least absolute rotation of four; `paper` is the index of the one that the paper takes, of
+/// its two.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png")]
 pub struct Args {

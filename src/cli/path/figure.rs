@@ -55,7 +55,11 @@ pub fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f6
     let each = |f: &dyn Fn(&Station) -> [f64; 2]| all.iter().map(|path| path.iter().map(f).collect()).collect();
     let offsets = offset.map_or(vec![], |d| each(&|s| s.beside(d)));
     let length: f64 = courses.iter().map(|course| course.length()).sum();
-    let title = if let [_] = courses[..] { format!("A path of length {length:.6}") } else { format!("{} paths", courses.len()) };
+    let title = if let [_] = courses[..] {
+        format!("A path of length {length:.6}")
+    } else {
+        format!("{} paths", courses.len())
+    };
     let note = offset.map_or("dots: starts".into(), |d| format!("dots: starts; the other colours: at distance {d}"));
     drawn(each(&|s| [s.x, s.y]), each(&|s| [s.station, s.curvature]), offsets, &title, &note)
 }
@@ -96,11 +100,18 @@ pub fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
     let (most, spans) = (scene.greatest_curvature, &plan.spans);
     let figure = PathsFigure {
         title: format!("{} corners, length {:.4}, saved {:.4}", plan.corners.len(), length(spans), plan.length_saved),
-        note: format!("dot: start; bright: within the clearance {}; red: the greatest curvature {most}", scene.clearance),
+        note: format!(
+            "dot: start; bright: within the clearance {}; red: the greatest curvature {most}",
+            scene.clearance
+        ),
         paths: vec![points(spans)],
         graph: Lines { across: "s".into(), up: "|κ|".into(), lines: vec![along(spans, |c, t| c.curvature(t).abs())] },
         level: Some(most),
-        backdrop: Some(Backdrop { obstacles: scene.obstacles.clone(), grown: scene.clearance, polyline: plan.polyline.clone() }),
+        backdrop: Some(Backdrop {
+            obstacles: scene.obstacles.clone(),
+            grown: scene.clearance,
+            polyline: plan.polyline.clone(),
+        }),
     };
     plot::paths_png(&figure, TALL)
 }

@@ -38,7 +38,8 @@ pub fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> std::
     Ok(Vec::deserialize(from)?.into_iter().map(|Named(object)| object).collect())
 }
 
-/// A struct that was written as an object. Derived readers take a list of its values too, where nothing shows that two were exchanged.
+/// A struct that was written as an object. Derived readers take a list of its values too, where nothing shows that two
+/// were exchanged.
 struct Named<T>(T);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {

@@ -8,14 +8,19 @@ use spiral_atlas::{Error, Result};
 
 /// Join two points with given directions by the path whose greatest curvature is least.
 ///
-/// Input: {"start": [x, y], "end": [x, y], "start_direction": angle, "end_direction": angle, "free": "length", "greatest_length": L}.
+/// Input: {"start": [x, y], "end": [x, y], "start_direction": angle, "end_direction": angle, "free": "length",
+/// "greatest_length": L}.
 ///
-/// `free` is what is varied: `length`, of paths whose end derivatives are of one length, or `derivatives`, the length of each. Without
-/// `greatest_length` the path is at most twice as long as the distance of the ends. No searched path bends less than `at_least`: that is proved.
+/// `free` is what is varied: `length`, of paths whose end derivatives are of one length, or `derivatives`, the length
+/// of each. Without `greatest_length` the path is at most twice as long as the distance of the ends. No searched path
+/// bends less than `at_least`: that is proved.
 ///
-/// The exit status is 0 with a path. It is 1 when no searched path is short enough: then `paths` is empty, and `reason` tells why.
+/// The exit status is 0 with a path. It is 1 when no searched path is short enough: then `paths` is empty, and `reason`
+/// tells why.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  spiral-atlas path least-curvature examples/least-curvature.json --figure least.png")]
+#[command(
+    after_help = "Example:\n  spiral-atlas path least-curvature examples/least-curvature.json --figure least.png"
+)]
 pub struct Args {
     #[command(flatten)]
     files: Files,
@@ -50,8 +55,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
     // Curvatures would leave the range of doubles, and the length allowed would be no number that the user gave.
     let reckoned = distance == 0.0 || (1e-150..=1e150).contains(&distance);
     if !reckoned && start.iter().chain(&end).all(|x| x.is_finite()) {
-        let what =
-            format!("`start` {start:?} and `end` {end:?} are not between 1e-150 and 1e150 apart; change the unit of length");
+        let what = format!(
+            "`start` {start:?} and `end` {end:?} are not between 1e-150 and 1e150 apart; change the unit of length"
+        );
         return Err(args.files.blame(Error::Domain(what)));
     }
     let greatest_length = greatest_length.unwrap_or(2.0 * distance);

@@ -8,15 +8,16 @@ use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::Write;
 
-/// Tell of paths: points at equal steps of arc length, where the curvature is extreme and where it changes its sign, and offset curves.
+/// Tell of paths: points at equal steps of arc length, where the curvature is extreme and where it changes its sign,
+/// and offset curves.
 ///
 /// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools, `join` and `curve --json` print it, or a line
 /// of JSON for each of several, as with --points; lines without a path are told on standard error, and not counted.
 /// Other fields are left out of account. Pieces of all kinds are read. A `station` is the length from the start of the
 /// path, a `parameter` that of the piece.
 ///
-/// The offset of a PH quintic is exact, rational of degree 9: at parameter t it is the Bernstein form `numerator` divided by the form
-/// `weight`. Of other pieces it is given by `points`.
+/// The offset of a PH quintic is exact, rational of degree 9: at parameter t it is the Bernstein form `numerator`
+/// divided by the form `weight`. Of other pieces it is given by `points`.
 ///
 /// Heading and curvature are null where the path stands still.
 #[derive(clap::Args)]
@@ -26,7 +27,8 @@ use std::io::Write;
 pub struct Args {
     #[command(flatten)]
     files: Files,
-    /// Tell so many points at equal steps of length, both ends included: station (length from the start), x, y, heading (radians), curvature.
+    /// Tell so many points at equal steps of length, both ends included: station (length from the start), x, y, heading
+    /// (radians), curvature.
     #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else.
@@ -71,7 +73,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let blame = |place: &str, e: Error| args.files.blame(Error::Domain(format!("{place}: {e}")));
     let figure = || figure::measured(courses.iter().map(|(_, course)| course), args.offset);
     if let Some(count) = args.samples.filter(|_| args.csv) {
-        let samples = courses.iter().map(|(place, course)| course.stations(count as usize).map_err(|e| blame(place, e)));
+        let samples =
+            courses.iter().map(|(place, course)| course.stations(count as usize).map_err(|e| blame(place, e)));
         let samples = samples.collect::<Result<Vec<_>>>()?;
         output::stream(|out| {
             writeln!(out, "path,{}", Station::COLUMNS.join(","))?;

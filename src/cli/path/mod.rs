@@ -24,9 +24,9 @@ use std::path::PathBuf;
 /// Plan paths of Pythagorean-hodograph quintics: through ends, through points, of equal length,
 /// among obstacles, and apart from each other.
 ///
-/// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others print has `paths`,
-/// which `separation` and `measure` read, and so they read what `curve --json` and `join` print, also with --points.
-/// Any unit of length; angles are radians, or degrees when written like "40deg".
+/// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others
+/// print has `paths`, which `separation` and `measure` read, and so they read what `curve --json` and `join` print,
+/// also with --points. Any unit of length; angles are radians, or degrees when written like "40deg".
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
@@ -143,7 +143,8 @@ struct Candidate {
     preimage: [[f64; 2]; 3],
 }
 
-/// None, which is written null, where the curve stands still: there it is unbounded, or on a straight line there is none.
+/// None, which is written null, where the curve stands still: there it is unbounded, or on a straight line there is
+/// none.
 fn greatest_curvature(curve: &PhQuintic) -> f64 {
     if curve.is_regular() { curve.greatest_curvature().1 } else { f64::NAN }
 }
@@ -172,7 +173,10 @@ impl Found {
             preimage: c.curve.preimage,
         };
         let candidates = choice.candidates.iter().map(candidate).collect();
-        Found { choice: Some(Others { candidates, best: choice.best, paper }), ..Found::new(&[choice.candidates[taken].curve]) }
+        Found {
+            choice: Some(Others { candidates, best: choice.best, paper }),
+            ..Found::new(&[choice.candidates[taken].curve])
+        }
     }
 
     fn curves(&self) -> Vec<PhQuintic> {

@@ -74,7 +74,8 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let found = separations(&motions, args.minimum)?;
     let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);
     let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);
-    let pairs = found.iter().map(|(first, second, found)| Pair { first: *first, second: *second, found: *found }).collect();
+    let pairs =
+        found.iter().map(|(first, second, found)| Pair { first: *first, second: *second, found: *found }).collect();
     let output = Output { minimum: args.minimum, verdict, pairs };
     let least = found.iter().map(|(_, _, f)| f.closest.at_most).fold(f64::INFINITY, f64::min);
     let title = format!("{} vehicles, {} pairs, least separation {least:.6}", motions.len(), found.len());

@@ -71,7 +71,8 @@ impl Source {
             paths.extend(found);
         }
         if !without.is_empty() {
-            let more = if without.len() > NAMED { format!(" and {} more", without.len() - NAMED) } else { String::new() };
+            let more =
+                if without.len() > NAMED { format!(" and {} more", without.len() - NAMED) } else { String::new() };
             let (s, has) = if without.len() == 1 { ("", "has") } else { ("s", "have") };
             let named = without[..without.len().min(NAMED)].join(", ");
             output::note(&format!("line{s} {named}{more} of {} {has} no path; the reason stands there", self.name()));
@@ -105,7 +106,9 @@ impl Source {
 /// The paths of one text: several, one alone, or none with a reason or an error.
 fn one<P: DeserializeOwned>(text: &str, toml: bool, place: &str) -> std::result::Result<Vec<(String, P)>, String> {
     match if toml { None } else { serde_json::from_str::<Shape>(text).ok() } {
-        Some(Shape { paths: None, pieces: Some(_), .. }) => Ok(vec![(format!("{place}the path"), input::parse(text, false)?)]),
+        Some(Shape { paths: None, pieces: Some(_), .. }) => {
+            Ok(vec![(format!("{place}the path"), input::parse(text, false)?)])
+        }
         Some(Shape { paths: None, reason: Some(_), .. } | Shape { paths: None, error: Some(_), .. }) => Ok(Vec::new()),
         _ => {
             let Given { paths } = input::parse(text, toml)?;

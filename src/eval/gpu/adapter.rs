@@ -88,8 +88,9 @@ impl Health {
 }
 
 impl Drop for Gpu {
-    /// A device that failed is left to the system. wgpu's own teardown waits for it and looks for things that a failed call left behind,
-    /// and panics on either; a panic while another one unwinds would even end the process. There is one such device a run at most.
+    /// A device that failed is left to the system. wgpu's own teardown waits for it and looks for things that a failed
+    /// call left behind, and panics on either; a panic while another one unwinds would even end the process. There is
+    /// one such device a run at most.
     fn drop(&mut self) {
         if self.check().is_err() {
             std::mem::forget((self.device.clone(), self.queue.clone()));
@@ -114,7 +115,8 @@ impl Gpu {
         let closed = |what: &str| Error::Gpu(format!("{} does not open: {what}", facts.label()));
         // wgpu compiles shaders of its own here, and panics as it clears up after a driver that refuses them.
         let opened = super::caught(|| block_on(adapter.request_device(&descriptor)));
-        let opened = opened.ok_or_else(|| closed("its driver failed; restart the machine, or use the CPU (`--backend cpu`)"))?;
+        let opened =
+            opened.ok_or_else(|| closed("its driver failed; restart the machine, or use the CPU (`--backend cpu`)"))?;
         let (device, queue) = opened.map_err(|e| closed(&e.to_string()))?;
         let health = Health::default();
         let (uncaptured, lost) = (health.clone(), health.clone());
@@ -173,7 +175,8 @@ fn enumerate() -> Vec<(AdapterFacts, wgpu::Adapter)> {
     let allowed = wgpu::Backends::all().with_env();
     let stages = [allowed - wgpu::Backends::GL, allowed & wgpu::Backends::GL];
     let found = stages.into_iter().filter(|backends| !backends.is_empty()).map(|backends| {
-        let descriptor = wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle_from_env() };
+        let descriptor =
+            wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle_from_env() };
         block_on(wgpu::Instance::new(descriptor).enumerate_adapters(backends))
     });
     let all = found.into_iter().find(|adapters| !adapters.is_empty()).unwrap_or_default();

@@ -49,7 +49,8 @@ pub fn validate(assembled: &Assembled) -> Result<()> {
         assembled.error(e.message(), places, e.notes())
     })?;
     // No capability: nothing beyond what every WebGPU device offers.
-    let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
     validator.validate(&module).map(drop).map_err(|e| {
         let places = e.spans().filter_map(|(span, label)| Some((span.to_range()?, label.clone())));
         let causes: Vec<String> = causes(e.as_inner()).collect();

@@ -1,8 +1,8 @@
 //! The f32 step on a GPU, by wgpu compute: chunks in flight on reused buffers, codes delivered in order.
 //!
 //! The engine knows nothing of any family's mathematics. It runs `evaluate(index)` of the family's shader at every node
-//! and hands out the codes; what the shader does not prove is [`Code::UNDECIDED`] and climbs the ladder. Memory of a run
-//! is bounded: three sets of buffers, each with at most 16 MiB of codes on the device, as much for reading
+//! and hands out the codes; what the shader does not prove is [`Code::UNDECIDED`] and climbs the ladder. Memory of a
+//! run is bounded: three sets of buffers, each with at most 16 MiB of codes on the device, as much for reading
 //! them back, and the family's inputs for one chunk.
 
 mod adapter;
@@ -46,7 +46,8 @@ thread_local! {
 
 /// Whether a panic on this thread, at this moment, would be caught and become an [`Error::Gpu`].
 ///
-/// The panic hook of a program may then stay silent: the error tells more. (The library must not set a hook, which belongs to the program.)
+/// The panic hook of a program may then stay silent: the error tells more. (The library must not set a hook, which
+/// belongs to the program.)
 pub fn panic_becomes_error() -> bool {
     CATCHING.get()
 }
@@ -128,7 +129,12 @@ impl<'t> Engine<'t> {
     ///
     /// # Errors
     /// [`Error::Gpu`] when no adapter fits, it does not open, or the shader does not compile.
-    pub fn new(choice: Option<&str>, kernel: &'t dyn Kernel, grid: &'t Grid, settings: &Settings) -> Result<Engine<'t>> {
+    pub fn new(
+        choice: Option<&str>,
+        kernel: &'t dyn Kernel,
+        grid: &'t Grid,
+        settings: &Settings,
+    ) -> Result<Engine<'t>> {
         let gpu = Gpu::open(choice)?;
         let program = Program::new(&gpu, &kernel.shader(), settings.clamped(&gpu.limits))?;
         let pace = Pace::new(program.settings.most_nodes().min(grid.len()));
@@ -144,9 +150,9 @@ impl<'t> Engine<'t> {
     /// the device works on the next chunks; chunks cover the range without gap or overlap.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a range outside the grid; [`Error::Interrupted`] soon after `stop` is set; [`Error::Gpu`] when the
-    /// device fails, or the inputs of a single node exceed its limits; whatever `sink` returns. After an error of the
-    /// device every further run fails too; after the others the engine is ready for another run.
+    /// [`Error::Domain`] for a range outside the grid; [`Error::Interrupted`] soon after `stop` is set; [`Error::Gpu`]
+    /// when the device fails, or the inputs of a single node exceed its limits; whatever `sink` returns. After an error
+    /// of the device every further run fails too; after the others the engine is ready for another run.
     pub fn run(
         &mut self,
         range: Range<u64>,

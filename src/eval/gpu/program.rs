@@ -24,7 +24,8 @@ impl Program {
             label: Some("family"),
             source: wgpu::ShaderSource::Wgsl(assembled.source.into()),
         });
-        let constants = [("GROUP_SIZE", f64::from(GROUP_SIZE)), ("WORDS_PER_THREAD", f64::from(settings.words_per_thread))];
+        let constants =
+            [("GROUP_SIZE", f64::from(GROUP_SIZE)), ("WORDS_PER_THREAD", f64::from(settings.words_per_thread))];
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("family"),
             layout: Some(&device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -42,7 +43,8 @@ impl Program {
     }
 }
 
-/// The bindings of `lib/main.wgsl`. Said here rather than taken from the shader, whose unused bindings would be missing.
+/// The bindings of `lib/main.wgsl`. Said here rather than taken from the shader, whose unused bindings would be
+/// missing.
 fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let kinds = [
         wgpu::BufferBindingType::Uniform,

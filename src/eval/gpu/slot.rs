@@ -126,7 +126,12 @@ impl Slot {
     /// Buffers for `nodes` nodes and `inputs` words.
     pub(super) fn new(gpu: &Gpu, program: &Program, nodes: u32, inputs: usize) -> Slot {
         let buffer = |label, size, usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
         };
         // Timestamps are read as u64 after the codes: keep them aligned.
         let bytes = (words(nodes) * 4).next_multiple_of(8).max(8);
@@ -174,7 +179,8 @@ impl Slot {
         gpu.queue.write_buffer(&self.inputs, 0, bytemuck::cast_slice(&inputs.words));
         let bytes = words(nodes) * 4;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("chunk") });
-        // Zero says undecided: what a faulty driver does not write climbs the ladder, and no earlier chunk shines through.
+        // Zero says undecided: what a faulty driver does not write climbs the ladder, and no earlier chunk shines
+        // through.
         encoder.clear_buffer(&self.codes, 0, Some(bytes));
         {
             let timestamp_writes = self.timer.as_ref().map(|timer| wgpu::ComputePassTimestampWrites {
@@ -182,7 +188,8 @@ impl Slot {
                 beginning_of_pass_write_index: Some(0),
                 end_of_pass_write_index: Some(1),
             });
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("chunk"), timestamp_writes });
+            let mut pass =
+                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("chunk"), timestamp_writes });
             pass.set_pipeline(&program.pipeline);
             pass.set_bind_group(0, &self.bind, &[]);
             let (x, y) = groups(nodes, &program.settings);
@@ -246,7 +253,9 @@ mod tests {
         for limit in [1, 2, 5, 65535] {
             let settings = Settings { words_per_thread: 4, groups_per_dimension: limit, ..Settings::default() };
             let (group, most) = (settings.nodes_per_group() as u32, settings.most_nodes() as u32);
-            for nodes in [1, group - 1, group, group + 1, 3 * group + 1, most - 1, most].into_iter().filter(|n| *n <= most) {
+            for nodes in
+                [1, group - 1, group, group + 1, 3 * group + 1, most - 1, most].into_iter().filter(|n| *n <= most)
+            {
                 let (x, y) = groups(nodes, &settings);
                 assert!(x <= limit && y <= limit && x * y * group >= nodes, "{nodes} nodes, limit {limit}: {x} {y}");
                 assert!((x * y - x) * group < nodes, "idle rows: {nodes} nodes, limit {limit}: {x} {y}");

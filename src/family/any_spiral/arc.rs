@@ -1,8 +1,8 @@
 //! The arc of the involute with given Q and ω, in intervals.
 //!
-//! The involute `z(t) = (1 + it) e^(-it)`, run from `t0 - θ` to `t0 + θ`, has `Q = (θ² - sin² θ)/(θ² - t0²)` (4) and half
-//! its chord is `X + iP = c e^(iω)` in a suitable frame, `X = t0 sin θ`, `P = sin θ - θ cos θ`; so θ is the root of
-//! `F = cos ω P - sin ω X = c sin(ω(θ) - ω)`, where ω(θ) increases.
+//! The involute `z(t) = (1 + it) e^(-it)`, run from `t0 - θ` to `t0 + θ`, has `Q = (θ² - sin² θ)/(θ² - t0²)` (4) and
+//! half its chord is `X + iP = c e^(iω)` in a suitable frame, `X = t0 sin θ`, `P = sin θ - θ cos θ`; so θ is the root
+//! of `F = cos ω P - sin ω X = c sin(ω(θ) - ω)`, where ω(θ) increases.
 
 use super::differences::Differences;
 use crate::num::roots::{Curve, bracketed, enclose};

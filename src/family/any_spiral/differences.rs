@@ -3,9 +3,9 @@
 /// `sin x - x cos x`, `x² - sin² x` and `x - sin x` for one x >= 0.
 ///
 /// # Accuracy
-/// Below 1 each within 8 units of 2^-53, relative: alternating series of decreasing terms, cut below 2^-58 of the first.
-/// From 1 on as good as the sine and cosine allow: with both within 10 units, 14 units of `|sin x| + x |cos x|` for the first
-/// and, as `sin x <= 0.842 x`, 80 and 70 units of themselves for the others.
+/// Below 1 each within 8 units of 2^-53, relative: alternating series of decreasing terms, cut below 2^-58 of the
+/// first. From 1 on as good as the sine and cosine allow: with both within 10 units, 14 units of `|sin x| + x |cos x|`
+/// for the first and, as `sin x <= 0.842 x`, 80 and 70 units of themselves for the others.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Differences {
     /// `P = sin x - x cos x`.
@@ -27,8 +27,8 @@ fn series(x2: f64, ratios: &[f64]) -> f64 {
 }
 
 impl Differences {
-    /// All three divided by their first powers of x: `P/x³`, `(x² - sin² x)/x⁴` and `(x - sin x)/x³`. So nothing underflows, however small
-    /// x >= 0 is.
+    /// All three divided by their first powers of x: `P/x³`, `(x² - sin² x)/x⁴` and `(x - sin x)/x³`. So nothing
+    /// underflows, however small x >= 0 is.
     pub fn by_powers(x: f64) -> Differences {
         let (sin, cos) = x.sin_cos();
         let x2 = x * x;
@@ -46,7 +46,11 @@ impl Differences {
         }
         let x2 = x * x;
         let cube = x2 * x;
-        Differences { p: cube / 3.0 * series(x2, &P), w: x2 * x2 / 3.0 * series(x2, &W), rest: cube / 6.0 * series(x2, &REST) }
+        Differences {
+            p: cube / 3.0 * series(x2, &P),
+            w: x2 * x2 / 3.0 * series(x2, &W),
+            rest: cube / 6.0 * series(x2, &REST),
+        }
     }
 }
 

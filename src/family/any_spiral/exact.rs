@@ -41,9 +41,10 @@ impl Datum {
 
     /// Proves all flags; returns the bits that were needed.
     ///
-    /// With `k1 ≠ k2` and `α + β ≠ 0` Q is never 0, so that some precision suffices: expanded, Q is a sum of `e^(±iα)`, `e^(±iβ)`,
-    /// `e^(±i(α-β))` and 1 with rational factors, that of `cos(α - β)` being -1/2, and by Lindemann and Weierstrass such a sum
-    /// is 0 only if all terms cancel, which needs α = β; then `Q = k1 k2 + (k2 - k1) sin α`, and `k1 k2 = k2 - k1 = 0`.
+    /// With `k1 ≠ k2` and `α + β ≠ 0` Q is never 0, so that some precision suffices: expanded, Q is a sum of `e^(±iα)`,
+    /// `e^(±iβ)`, `e^(±i(α-β))` and 1 with rational factors, that of `cos(α - β)` being -1/2, and by Lindemann and
+    /// Weierstrass such a sum is 0 only if all terms cancel, which needs α = β; then `Q = k1 k2 + (k2 - k1) sin α`, and
+    /// `k1 k2 = k2 - k1 = 0`.
     ///
     /// # Errors
     /// [`crate::Error::Undecided`] at the precision cap.

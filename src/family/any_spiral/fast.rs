@@ -48,7 +48,8 @@ impl Fast {
         if !(self.q.1 < 0.0 && q.is_finite() && spread * 1024.0 < q) {
             return None;
         }
-        let equation = Equation { q, spread: spread / q, omega: self.omega, sin: sin(self.omega), cos: cos(self.omega) };
+        let equation =
+            Equation { q, spread: spread / q, omega: self.omega, sin: sin(self.omega), cos: cos(self.omega) };
         let [low, high] = bracket(0.0, self.omega);
         let guess = find(|theta| equation.at(theta).value, low, high.min(4.7), low * 2f64.powi(-46));
         [-40, -34, -28].into_iter().find_map(|exponent| {

@@ -1,16 +1,20 @@
-//! Any spiral at all: whether some curve of monotone curvature joins two ends, and the involute that does (Kurnosenko 2026).
+//! Any spiral at all: whether some curve of monotone curvature joins two ends, and the involute that does (Kurnosenko
+//! 2026).
 //!
 //! # How it is done
-//! - Existence is `Q < 0` and the sign of ω = (α+β)/2: `outer.rs` on the data, mirrored where ω < 0, so that curvature rises. `side` has the exact sign of
-//!   the sum of two doubles. Signs of curvatures and their order are plain comparisons.
-//! - θ is the root of `F = cos ω P - sin ω X` (`arc.rs`) with `P = sin θ - θ cos θ`, `X = t0 sin θ`: (5) without arctangent or branches. The bracket follows from
-//!   ω alone. Doubles guess it (`num/roots.rs`), intervals enclose it.
+//! - Existence is `Q < 0` and the sign of ω = (α+β)/2: `outer.rs` on the data, mirrored where ω < 0, so that curvature
+//!   rises. `side` has the exact sign of the sum of two doubles. Signs of curvatures and their order are plain
+//!   comparisons.
+//! - θ is the root of `F = cos ω P - sin ω X` (`arc.rs`) with `P = sin θ - θ cos θ`, `X = t0 sin θ`: (5) without
+//!   arctangent or branches. The bracket follows from ω alone. Doubles guess it (`num/roots.rs`), intervals enclose it.
 //! - `sin x - x cos x`, `x² - sin² x`, `x - sin x` cancel near 0: series there (`differences.rs`).
 //! - Scalars are proved in doubles for most nodes (`fast.rs`) because intervals for each node would cost far more.
-//! - `involute/` evaluates each half of the curve in a form seen from its own end (`half.rs`), where all that cancels does so in letters; ends and
-//!   end curvatures are met to a rounding. Each half has the width of its own peak of speed as unit, so that nothing leaves the range of doubles.
-//!   The turns of a direction are a closed form. `track.rs` tabulates the length once, over the logarithm of the parameter.
-//! - No work depends on how near the data are to a limit: `involute/steps.rs` counts precision, evaluations and pieces there.
+//! - `involute/` evaluates each half of the curve in a form seen from its own end (`half.rs`), where all that cancels
+//!   does so in letters; ends and end curvatures are met to a rounding. Each half has the width of its own peak of
+//!   speed as unit, so that nothing leaves the range of doubles. The turns of a direction are a closed form. `track.rs`
+//!   tabulates the length once, over the logarithm of the parameter.
+//! - No work depends on how near the data are to a limit: `involute/steps.rs` counts precision, evaluations and pieces
+//!   there.
 //! - `region.rs` proves the flags over boxes.
 //! - `involute/turns.rs` is the rule for turns about the ends, which the paper does not have.
 
@@ -118,8 +122,13 @@ impl Family for AnySpiral {
         let invariants = [("Q", found.q), ("omega", found.omega)];
         let solution = |curve: &Involute| {
             let [rho, lambda] = curve.map();
-            let values =
-                [("theta", curve.theta()), ("t0", curve.t0()), ("rho", rho), ("lambda", lambda), ("length", curve.length())];
+            let values = [
+                ("theta", curve.theta()),
+                ("t0", curve.t0()),
+                ("rho", rho),
+                ("lambda", lambda),
+                ("length", curve.length()),
+            ];
             values.map(|(name, x)| (name, x.into())).to_vec()
         };
         Ok(Answer {

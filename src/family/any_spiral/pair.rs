@@ -3,11 +3,12 @@
 use crate::family::outer::Sines;
 use crate::num::sines::{sin, sin_of_sum, two_sum};
 
-/// Relative error of [`Pair::sines`], in units of 2^-53, and four more for [`crate::family::outer`]: a sine of 10 units, its
-/// square of 21.
+/// Relative error of [`Pair::sines`], in units of 2^-53, and four more for [`crate::family::outer`]: a sine of 10
+/// units, its square of 21.
 pub(super) const PAIR_ERROR: f64 = 32.0;
 
-/// Angles smaller than this, and sums of angles, are left to intervals unless they are 0: their squares would underflow.
+/// Angles smaller than this, and sums of angles, are left to intervals unless they are 0: their squares would
+/// underflow.
 const LEAST: f64 = 1e-120;
 
 /// The constants of a pair of angles; spirals of falling curvature are looked at in the mirror.

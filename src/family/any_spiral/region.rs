@@ -68,7 +68,9 @@ impl Region for AnySpiral {
         let [first, phi1, kappa0, kappa1]: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
         let within = |side: &[f64; 2], most: f64| side.iter().all(|x| x.abs() <= most);
         // Not for NaN either.
-        if ![first, phi1].iter().all(|side| within(side, PI)) || ![kappa0, kappa1].iter().all(|side| within(side, f64::MAX)) {
+        if ![first, phi1].iter().all(|side| within(side, PI))
+            || ![kappa0, kappa1].iter().all(|side| within(side, f64::MAX))
+        {
             return facts;
         }
         let phi0 = if chart == 0 { negative(first) } else { first };
@@ -84,7 +86,8 @@ impl Region for AnySpiral {
                 (Some(true), _) => side(data, &mut pull),
                 (_, Some(true)) => side(data.map(negative), &mut pull),
                 (up, down) => {
-                    let refuted = |sign: Verdict, data, pull: &mut _| sign == Some(false) || side(data, pull) == Some(false);
+                    let refuted =
+                        |sign: Verdict, data, pull: &mut _| sign == Some(false) || side(data, pull) == Some(false);
                     let none = refuted(up, data, &mut pull) && refuted(down, data.map(negative), &mut pull);
                     if !none {
                         // The angles alone may part the two.

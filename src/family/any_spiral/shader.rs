@@ -64,7 +64,9 @@ impl Pair {
             pair.side == 0.0 || sine(pair.sines[0]) && sine(pair.sines[1]) && pair.sines[2] >= LEAST_SQUARE
         };
         match pair::Pair::new(alpha, beta) {
-            Some(pair) if fits(&pair) => Pair { sines: pair.sines.map(|s| s as f32), side: pair.side as f32, usable: true },
+            Some(pair) if fits(&pair) => {
+                Pair { sines: pair.sines.map(|s| s as f32), side: pair.side as f32, usable: true }
+            }
             _ => Pair::default(),
         }
     }

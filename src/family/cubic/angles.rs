@@ -15,7 +15,8 @@ pub(super) struct Angles {
 }
 
 impl Angles {
-    /// [`Angles::new`], kept for the next call: neighbouring nodes share their angles, and the sines cost more than all else.
+    /// [`Angles::new`], kept for the next call: neighbouring nodes share their angles, and the sines cost more than all
+    /// else.
     pub fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
         type Last = Option<([u64; 2], usize, Rc<Angles>)>;
         thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });

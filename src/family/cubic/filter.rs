@@ -70,7 +70,8 @@ struct Cases {
     known: u64,
 }
 
-/// Descartes' rule and the signs of F at 0 and √(3/a) give the count; see the documentation of the module, "Counting roots".
+/// Descartes' rule and the signs of F at 0 and √(3/a) give the count; see the documentation of the module, "Counting
+/// roots".
 #[inline(always)]
 fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
     let (a, k) = (d.a, d.k);
@@ -139,19 +140,23 @@ fn conditions<S: Simd>(start: &Side<S>, end: &Side<S>, root: &Root<S>) -> Condit
     Conditions { theorem: (yes0 & yes1, no0 | no1), bad_end: bad0 | bad1 }
 }
 
-/// Lanes whose spiral polynomial is certainly negative at s = 1/2, 1 or 2: most of those that are no spirals, without halving.
+/// Lanes whose spiral polynomial is certainly negative at s = 1/2, 1 or 2: most of those that are no spirals, without
+/// halving.
 ///
-/// Each coefficient `H_i` carries what its B and its root may be off; three products and Horner's ten operations add less than 16 units.
+/// Each coefficient `H_i` carries what its B and its root may be off; three products and Horner's ten operations add
+/// less than 16 units.
 #[inline(always)]
 fn dips<S: Simd>(simd: S, start: &Side<S>, end: &Side<S>, root: &Root<S>) -> u64 {
     let ([h0, h1, h2], [h5, h4, h3]) = (dipping::<S>(start, root.y, root.delta), dipping::<S>(end, root.x, root.delta));
     let polynomial = [h0, h1, h2, h3, h4, h5];
-    negative::<S>(simd, &polynomial, 0.5) | negative::<S>(simd, &polynomial, 1.0) | negative::<S>(simd, &polynomial, 2.0)
+    negative::<S>(simd, &polynomial, 0.5)
+        | negative::<S>(simd, &polynomial, 1.0)
+        | negative::<S>(simd, &polynomial, 2.0)
 }
 
 /// One half of the coefficients, with errors.
-// A function, as all that runs on vectors here: a closure is not always inlined into code for a wider level, and then every vector
-// operation becomes a call.
+// A function, as all that runs on vectors here: a closure is not always inlined into code for a wider level, and then
+// every vector operation becomes a call.
 #[inline(always)]
 fn dipping<S: Simd>(side: &Side<S>, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
     let mut terms = side.weighed(w, delta);
@@ -173,7 +178,8 @@ fn negative<S: Simd>(simd: S, polynomial: &[(S::f64s, S::f64s); 6], s: f64) -> u
     bits::<S>(value.simd_lt(S::f64s::splat(simd, 0.0) - bound))
 }
 
-/// [`positive`] with the f64 bounds: twenty halvings reach features of 2^-20 of the segment, finer than the bounds show.
+/// [`positive`] with the f64 bounds: twenty halvings reach features of 2^-20 of the segment, finer than the bounds
+/// show.
 pub(super) fn spiral(c: &Quintic<f64>, error: f64) -> Verdict {
     const DEPTH: u32 = 20;
     let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs()));

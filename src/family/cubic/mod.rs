@@ -2,39 +2,44 @@
 //!
 //! # How it is done
 //! ## Two numbers for two angles
-//! Dividing every `H_i` by `2 sin(φ0+φ1)` and using `sin φ0 sin(φ0+2φ1)/S² = 2p - g0` leaves polynomials in (x, y) = (f0, f1) with the
-//! coefficients p, g0, r = 1 - p and g1 = g0 + 1 - 2p (`poly.rs`). The two curvature equations become `3 - y = a x²`, `3 - x = k y²`.
-//! So a datum is (p, g0, a, k), and H3..H5 are H2..H0 with the ends exchanged.
+//! Dividing every `H_i` by `2 sin(φ0+φ1)` and using `sin φ0 sin(φ0+2φ1)/S² = 2p - g0` leaves polynomials in (x, y) =
+//! (f0, f1) with the coefficients p, g0, r = 1 - p and g1 = g0 + 1 - 2p (`poly.rs`). The two curvature equations become
+//! `3 - y = a x²`, `3 - x = k y²`. So a datum is (p, g0, a, k), and H3..H5 are H2..H0 with the ends exchanged.
 //!
 //! ## Counting roots
-//! With `F(x) = 3 - x - k(3 - a x²)²`: F(0) = 3 - 9k, at y = 0 (x = √(3/a)) F has the sign of a - 1/3, and F = 0 with x > 0 implies x <= 3. Descartes' rule
-//! allows 0 or 2 positive roots for k > 1/3 and 1 or 3 otherwise, and the discriminant of F divided by positive factors is
-//! `Δ = 768a²k² - 256ak(a+k) + 96ak - 1`. Always one or two real roots are negative, so:
+//! With `F(x) = 3 - x - k(3 - a x²)²`: F(0) = 3 - 9k, at y = 0 (x = √(3/a)) F has the sign of a - 1/3, and F = 0 with
+//! x > 0 implies x <= 3. Descartes' rule allows 0 or 2 positive roots for k > 1/3 and 1 or 3 otherwise, and the
+//! discriminant of F divided by positive factors is `Δ = 768a²k² - 256ak(a+k) + 96ak - 1`. Always one or two real roots
+//! are negative, so:
 //!
 //! | | k > 1/3 | k < 1/3 |
 //! | --- | --- | --- |
 //! | a > 1/3 | 1 root, the smaller positive one; Δ > 0 always | 2 if Δ > 0, 0 if Δ < 0 |
 //! | a < 1/3 | 2 if Δ > 0, 0 if Δ < 0 | 3 if Δ > 0, 1 if Δ < 0 |
 //!
-//! The paper's D is Δ times a positive factor, so SOLVABLE (A.9) is `k > 1/3 and Δ >= 0`: three signs, no root. Δ = 0 is met exactly
-//! only in the chart (a, k), for instance at the triple root a = k = 1/4; there the double root is a closed form (`double_roots`).
-//! The number of roots being known, disjoint intervals with opposite certain signs of F, one for each root, *are* the isolation.
+//! The paper's D is Δ times a positive factor, so SOLVABLE (A.9) is `k > 1/3 and Δ >= 0`: three signs, no root. Δ = 0
+//! is met exactly only in the chart (a, k), for instance at the triple root a = k = 1/4; there the double root is a
+//! closed form (`double_roots`). The number of roots being known, disjoint intervals with opposite certain signs of F,
+//! one for each root, *are* the isolation.
 //!
 //! ## Deciding
-//! - ANY_SPIRAL is `κ0 < sin φ0` and `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1-φ0)/2)`. For φ0 < φ1, φ0+φ1 < π and κ0 < κ1 that is Q < 0 (both factors
-//!   negative would need a product above `cos²Φ sin²δ`). No spiral of any kind outside, so no root is looked at there.
+//! - ANY_SPIRAL is `κ0 < sin φ0` and `(sin φ0 - κ0)(κ1 - sin φ1) > sin²((φ1-φ0)/2)`. For φ0 < φ1, φ0+φ1 < π and κ0 < κ1
+//!   that is Q < 0 (both factors negative would need a product above `cos²Φ sin²δ`). No spiral of any kind outside, so
+//!   no root is looked at there.
 //! - Theorem 3.1: `H1 + 2√(H0 H2) >= 0` is `B1 >= 0 or B1² <= 8 y B0 B2`.
 //! - The exact test is the sign of the quintic in Bernstein form, by halving, as deep as needed.
-//! - `φ0 >= φ1` or `κ0 >= κ1`: the four spiral flags are No, while SOLVABLE and the number of roots stay the truth of the equations. κ0 <= 0 or κ1 <= 0: no root in
-//!   the open box, SOLVABLE is No ((A.3) needs both positive), ANY_SPIRAL is still decided.
-//! - margin = least value of the quintic on [0, 1] over its largest Bernstein coefficient, in [-1, 1], positive exactly for spirals (0 only
-//!   on the boundary). Of several spirals the chosen one has the largest margin.
+//! - `φ0 >= φ1` or `κ0 >= κ1`: the four spiral flags are No, while SOLVABLE and the number of roots stay the truth of
+//!   the equations. κ0 <= 0 or κ1 <= 0: no root in the open box, SOLVABLE is No ((A.3) needs both positive), ANY_SPIRAL
+//!   is still decided.
+//! - margin = least value of the quintic on [0, 1] over its largest Bernstein coefficient, in [-1, 1], positive exactly
+//!   for spirals (0 only on the boundary). Of several spirals the chosen one has the largest margin.
 //!
 //! ## Error bounds
-//! Every bound is `count · unit · sum of absolute terms`: it counts operations per term, so it holds with fused multiply-adds and reassociated
-//! sums. `Precision` has the counts; the f32 shader gets the same counts with its own unit, generated from the same Rust.
-//! `Bounds` takes the sums at their largest over the box (0,3)², so a node costs no extra work; a test checks the partial derivatives.
-//! The residual of F is bounded by its actual terms, because the interval around a root decides how much the rest can prove.
+//! Every bound is `count · unit · sum of absolute terms`: it counts operations per term, so it holds with fused
+//! multiply-adds and reassociated sums. `Precision` has the counts; the f32 shader gets the same counts with its own
+//! unit, generated from the same Rust. `Bounds` takes the sums at their largest over the box (0,3)², so a node costs no
+//! extra work; a test checks the partial derivatives. The residual of F is bounded by its actual terms, because the
+//! interval around a root decides how much the rest can prove.
 
 mod angles;
 mod exact;
@@ -81,7 +86,11 @@ const FLAGS: &[Flag] = &[
         label: "Theorem 3.1",
         doc: "SOLVABLE, and the smaller positive root of (A.10) passes Theorem 3.1: the paper's whole recipe",
     },
-    Flag { name: "THEOREM31_ANY", label: "Theorem 3.1, any root", doc: "some root (f0, f1) in (0, 3)^2 passes Theorem 3.1" },
+    Flag {
+        name: "THEOREM31_ANY",
+        label: "Theorem 3.1, any root",
+        doc: "some root (f0, f1) in (0, 3)^2 passes Theorem 3.1",
+    },
     Flag {
         name: "SPIRAL",
         label: "exact cubic spiral",

@@ -39,8 +39,8 @@ pub struct Pair {
 const LEAST_SINE: f64 = 1.0 / ((1u64 << 50) as f64);
 
 impl Pair {
-    /// The constants of `0 < φ0`, `0 < φ1`, `φ0 + φ1 < π`, or `None` where a sine is under 2^-50 or the sum so close to π
-    /// that it rounds to π: such pairs are left to intervals.
+    /// The constants of `0 < φ0`, `0 < φ1`, `φ0 + φ1 < π`, or `None` where a sine is under 2^-50 or the sum so close to
+    /// π that it rounds to π: such pairs are left to intervals.
     pub fn new(phi0: f64, phi1: f64) -> Option<Pair> {
         if phi0 + phi1 >= PI {
             return None;
@@ -67,7 +67,8 @@ impl Pair {
         })
     }
 
-    /// The same, each constant correctly rounded from intervals; `None` also where 128 bits do not tell the nearest double.
+    /// The same, each constant correctly rounded from intervals; `None` also where 128 bits do not tell the nearest
+    /// double.
     pub fn precise(phi0: f64, phi1: f64) -> Option<Pair> {
         let rough = Pair::new(phi0, phi1)?;
         let angles = Angles::cached(phi0, phi1, 128)?;
@@ -95,8 +96,24 @@ mod tests {
     fn constants_keep_their_bound() {
         let mut worst: f64 = 0.0;
         let mut compared = 0;
-        let angles =
-            [1e-12, 1e-3, 0.1, 0.3, 0.7, 0.7000000001, 0.8, 0.9, 1.4, 1.5, 1.56, std::f64::consts::FRAC_PI_2, 1.6, 2.2, 3.0, 3.1];
+        let angles = [
+            1e-12,
+            1e-3,
+            0.1,
+            0.3,
+            0.7,
+            0.7000000001,
+            0.8,
+            0.9,
+            1.4,
+            1.5,
+            1.56,
+            std::f64::consts::FRAC_PI_2,
+            1.6,
+            2.2,
+            3.0,
+            3.1,
+        ];
         for phi0 in angles {
             for phi1 in angles {
                 let Some(pair) = Pair::new(phi0, phi1) else { continue };

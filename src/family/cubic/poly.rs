@@ -43,8 +43,8 @@ pub fn side<N: Number>(x: &N, y: &N, p: &N, g: &N, r: &N) -> [N; 3] {
 /// `rounding_i` is Γ times the sum of the absolute values of all terms, at its largest over the box: 18|p| + 62g,
 /// 420|p| + 563g + 108|r|, 628|p| + 774g + 30|r|. No term passes through more than 10 operations, and p, g, r carry a
 /// relative error `coefficient` of their own, so `Γ = (coefficient + 12) unit` covers both and all second-order
-/// terms. The bound counts terms, not the order of evaluation, so it holds with fused multiply-adds and with sums taken in
-/// another order. `slope_i` is the sum of the largest |∂/∂x| and |∂/∂y| over the box, term by term:
+/// terms. The bound counts terms, not the order of evaluation, so it holds with fused multiply-adds and with sums taken
+/// in another order. `slope_i` is the sum of the largest |∂/∂x| and |∂/∂y| over the box, term by term:
 /// 12|p| + 25g, (192 + 102)|p| + (207 + 132)g + 108|r|, (81 + 14)|p| + (81 + 54)g + 57|r|.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounds {

@@ -36,7 +36,8 @@ impl Precision {
     pub fn outer(self) -> f64 {
         (self.input + 4.0) * self.unit
     }
-    /// `y = 3 - a x²` for `a x² <= 3`: (input + 2) 3 + 3 + 3 units, doubled: the same constant stands in for |y| in the residual's bound.
+    /// `y = 3 - a x²` for `a x² <= 3`: (input + 2) 3 + 3 + 3 units, doubled: the same constant stands in for |y| in the
+    /// residual's bound.
     pub fn eta(self) -> f64 {
         (6.0 * self.input + 16.0) * self.unit
     }

@@ -1,4 +1,5 @@
-//! Roots of the two parabolas in SIMD lanes: guessed by Newton's method, proved by signs, and the spiral polynomial there.
+//! Roots of the two parabolas in SIMD lanes: guessed by Newton's method, proved by signs, and the spiral polynomial
+//! there.
 
 use super::poly::{Bounds, side};
 use super::precision::{Precision, Prepared};
@@ -45,7 +46,8 @@ pub(super) fn residual<S: Simd>(simd: S, d: &Data<S>, x: S::f64s) -> (S::f64s, S
     let y = three - v;
     let wide = y.abs() + d.precision.eta();
     let kw = d.k * wide;
-    // y is off by at most (input + 2) V + y units, x by 1, k by `input`; products and the final difference as counted in `Precision`.
+    // y is off by at most (input + 2) V + y units, x by 1, k by `input`; products and the final difference as counted
+    // in `Precision`.
     let error = (kw * wide + kw * (v + wide) * 2.0) * d.precision.residual() + d.precision.residual_floor();
     let slope = d.a * x * (d.k * y) * 4.0 - 1.0;
     ((three - x) - d.k * (y * y), error, y, slope)
@@ -67,18 +69,20 @@ pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -
         }
     }
     let (_, error, y, slope) = residual(simd, d, x);
-    // Any δ would do that the proof accepts; this one it usually does: F moves by 2.5 errors, of which the value at x may take
-    // one half and the proof needs one.
+    // Any δ would do that the proof accepts; this one it usually does: F moves by 2.5 errors, of which the value at x
+    // may take one half and the proof needs one.
     let delta = error * 2.5 / slope.abs() + x * 2f64.powi(-50);
     let (low, high) = (x - delta, x + delta);
     let (f_low, e_low, _, _) = residual(simd, d, low);
     let (f_high, e_high, y_high, _) = residual(simd, d, high);
     let crossing = (f_low.simd_gt(e_low) & f_high.simd_lt(-e_high)) | (f_low.simd_lt(-e_low) & f_high.simd_gt(e_high));
     let zero = S::f64s::splat(simd, 0.0);
-    let inside =
-        low.simd_gt(zero) & high.simd_le(S::f64s::splat(simd, 3.0)) & y_high.simd_gt(S::f64s::splat(simd, d.precision.eta()));
+    let inside = low.simd_gt(zero)
+        & high.simd_le(S::f64s::splat(simd, 3.0))
+        & y_high.simd_gt(S::f64s::splat(simd, d.precision.eta()));
     let small = (delta * 64.0).simd_lt(x);
-    // The root lies between the rounded x - δ and x + δ, each off by up to 2 units for x up to 3; 1.01 covers δ's own rounding.
+    // The root lies between the rounded x - δ and x + δ, each off by up to 2 units for x up to 3; 1.01 covers δ's own
+    // rounding.
     let delta = delta * 1.01 + 4.0 * Precision::F64.unit;
     // |y - y*| <= a (2x + δ) δ + η, and δ < x/60.
     let delta_y = d.a * x * delta * 2.1 + d.precision.eta();
@@ -111,7 +115,8 @@ pub(super) fn sides<S: Simd>(simd: S, prepared: &Prepared, root: &Root<S>) -> (S
 }
 
 impl<S: Simd> Side<S> {
-    /// `w² B0, w B1, w B2`, and how far each may be off before its own rounding: w and the B are off by `delta` and their errors.
+    /// `w² B0, w B1, w B2`, and how far each may be off before its own rounding: w and the B are off by `delta` and
+    /// their errors.
     #[inline(always)]
     pub fn weighed(&self, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
         let ([b0, b1, b2], [e0, e1, e2], near) = (self.value, self.error, w + delta);

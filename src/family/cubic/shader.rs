@@ -13,8 +13,8 @@ use crate::grid::Grid;
 const MOST: f64 = (1u32 << 20) as f64;
 /// Constants of pairs must lie within 2^±30, apart from the two that may be 0 or negative.
 const PAIR_MOST: f64 = (1u32 << 30) as f64;
-/// Curvatures beyond this are left to f64: the product of two stays finite. The table holds at most twice as much, which the
-/// shader sees to be beyond, in the normalised chart too: there a factor of at most 2^30 follows.
+/// Curvatures beyond this are left to f64: the product of two stays finite. The table holds at most twice as much,
+/// which the shader sees to be beyond, in the normalised chart too: there a factor of at most 2^30 follows.
 const KAPPA_MOST: f64 = 1e17;
 /// Nonzero curvatures are at least this, so that none turns into 0; likewise left to f64.
 const KAPPA_LEAST: f64 = 1e-24;
@@ -99,7 +99,8 @@ impl Pair {
             return Pair::default();
         }
         let (start, end) = Bounds::of_pair(&pair, Precision::F32.gamma());
-        // What turns the given curvature coordinates into the other two: a product either way, as divisions prove nothing.
+        // What turns the given curvature coordinates into the other two: a product either way, as divisions prove
+        // nothing.
         let [to0, to1] = [pair.curve0, pair.curve1].map(|c| if normalised { 1.0 / c } else { c });
         // Bounds are rounded to f32 and then multiplied and added in f32: three more units.
         let bound = |bounds: [f64; 3]| bounds.map(|b| (b * (1.0 + 1e-6)) as f32);

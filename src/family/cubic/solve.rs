@@ -89,15 +89,17 @@ impl Solutions {
 /// Solves one datum exactly.
 ///
 /// # Accuracy
-/// Flags, counts and the verdicts of each root are proved. `f0` and `f1` are proved to 2^-34, `margin` to 2^-30, absolute;
-/// they are usually within a few units in the last place. Where doubles cannot prove that, they are correctly rounded from intervals.
+/// Flags, counts and the verdicts of each root are proved. `f0` and `f1` are proved to 2^-34, `margin` to 2^-30,
+/// absolute; they are usually within a few units in the last place. Where doubles cannot prove that, they are correctly
+/// rounded from intervals.
 ///
 /// # Errors
 /// [`crate::Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`;
 /// [`crate::Error::Undecided`] at the precision cap.
 ///
 /// # Source
-/// Habib & Sakai, (3.4), (A.9), (A.10) and Theorem 3.1; the exact test replaces the theorem by necessary and sufficient signs.
+/// Habib & Sakai, (3.4), (A.9), (A.10) and Theorem 3.1; the exact test replaces the theorem by necessary and sufficient
+/// signs.
 pub fn solve(datum: &Datum) -> Result<Solutions> {
     let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
     check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
@@ -207,8 +209,15 @@ impl Solved {
     #[inline(always)]
     fn lane<S: Simd>(simd: S, prepared: &Prepared, [a, k, kappa0, kappa1]: [f64; 4]) -> Option<Solved> {
         let splat = |value| S::f64s::splat(simd, value);
-        let data = Data { a: splat(a), k: splat(k), kappa0: splat(kappa0), kappa1: splat(kappa1), precision: prepared.precision };
-        let mut solved = Solved { ratios: [a, k], code: Code::UNDECIDED, roots: Default::default(), len: 0, chosen: None };
+        let data = Data {
+            a: splat(a),
+            k: splat(k),
+            kappa0: splat(kappa0),
+            kappa1: splat(kappa1),
+            precision: prepared.precision,
+        };
+        let mut solved =
+            Solved { ratios: [a, k], code: Code::UNDECIDED, roots: Default::default(), len: 0, chosen: None };
         let planes = visit::<S, true>(simd, prepared, &data, |found| {
             if found.wanted & 1 == 1 {
                 solved.roots[solved.len] = SolvedRoot::new(&found);
@@ -243,12 +252,13 @@ impl Solved {
     /// Whether all numbers are as accurate as [`solve`] promises.
     fn is_fine(&self) -> bool {
         let fine = |r: Range, error: f64| r.high - r.low <= error;
-        let root = |r: &SolvedRoot| fine(r.x, 2f64.powi(-34)) && fine(r.y, 2f64.powi(-34)) && fine(r.margin, 2f64.powi(-30));
+        let root =
+            |r: &SolvedRoot| fine(r.x, 2f64.powi(-34)) && fine(r.y, 2f64.powi(-34)) && fine(r.margin, 2f64.powi(-30));
         self.roots[..self.len].iter().all(root)
     }
 
-    /// (f0, f1) with the digits that a small one lacks when it comes from `3 - a f0²`: a step of Newton's method for the smaller of the
-    /// two, on whose square the other depends.
+    /// (f0, f1) with the digits that a small one lacks when it comes from `3 - a f0²`: a step of Newton's method for
+    /// the smaller of the two, on whose square the other depends.
     fn polished(&self, root: &SolvedRoot) -> [f64; 2] {
         let ([a, k], found) = (self.ratios, [root.x.middle(), root.y.middle()]);
         let step = |small: f64, near: f64, far: f64| {
@@ -299,8 +309,11 @@ struct Weighed {
 /// All roots in intervals, and the chosen spiral; `None` at too low a precision.
 fn weigh(datum: &ExactDatum, bits: usize) -> Option<(Code, Vec<Weighed>, Option<usize>)> {
     let truth = exact::at_precision(datum, bits)?;
-    let roots: Option<Vec<Weighed>> =
-        truth.roots.into_iter().map(|root| exact_margin(&root.quintic).map(|margin| Weighed { root, margin })).collect();
+    let roots: Option<Vec<Weighed>> = truth
+        .roots
+        .into_iter()
+        .map(|root| exact_margin(&root.quintic).map(|margin| Weighed { root, margin }))
+        .collect();
     let roots = roots?;
     let mut chosen: Option<usize> = None;
     for i in (0..roots.len()).filter(|i| roots[*i].root.spiral) {
@@ -329,7 +342,8 @@ fn slow(datum: &ExactDatum) -> Result<Solutions> {
     climb(datum, "a root or its margin", attempt).map(|(solutions, _)| solutions)
 }
 
-/// The scalars f0, f1, margin (0, 1, 2) of the chosen spiral of a datum that has one, each rounded to nearest f32 with proof.
+/// The scalars f0, f1, margin (0, 1, 2) of the chosen spiral of a datum that has one, each rounded to nearest f32 with
+/// proof.
 ///
 /// Doubles, then doubles with correctly rounded constants, then intervals.
 pub(super) fn scalars(datum: &ExactDatum, which: &[usize], out: &mut [f32]) -> Result<()> {
@@ -339,7 +353,8 @@ pub(super) fn scalars(datum: &ExactDatum, which: &[usize], out: &mut [f32]) -> R
         let ranges = [root.x, root.y, root.margin];
         which.iter().map(|i| ranges[*i].to_f32()).collect::<Option<Vec<f32>>>()
     };
-    let fast = rounded(Prepared::new(datum.phi0, datum.phi1)).or_else(|| rounded(Prepared::precise(datum.phi0, datum.phi1)));
+    let fast =
+        rounded(Prepared::new(datum.phi0, datum.phi1)).or_else(|| rounded(Prepared::precise(datum.phi0, datum.phi1)));
     match fast {
         Some(values) => {
             out.copy_from_slice(&values);

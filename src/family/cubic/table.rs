@@ -34,7 +34,13 @@ impl<'g> CubicTable<'g> {
     }
 
     /// The scalars of a node, or none where there is no spiral.
-    fn fill(&self, node: u64, code: Code, out: &mut [f32], by: impl Fn(&ExactDatum, &mut [f32]) -> Result<()>) -> Result<()> {
+    fn fill(
+        &self,
+        node: u64,
+        code: Code,
+        out: &mut [f32],
+        by: impl Fn(&ExactDatum, &mut [f32]) -> Result<()>,
+    ) -> Result<()> {
         if super::COUNTS[1].of(code.counts()) == 0 {
             out.fill(NO_VALUE);
             return Ok(());

@@ -48,12 +48,17 @@ fn rounded(datum: &Datum, paper: bool) -> Result<Option<f64>> {
 fn solutions(datum: &Datum) -> Result<Choice> {
     let (start, end, [first, last]) = ([0.0, 0.0], [1.0, 0.0], datum.theta);
     match datum.kind {
-        Kind::EqualLength => {
-            equal_length(&EqualLength { start, end, start_direction: first, end_direction: last, length: datum.size[0] })
-        }
+        Kind::EqualLength => equal_length(&EqualLength {
+            start,
+            end,
+            start_direction: first,
+            end_direction: last,
+            length: datum.size[0],
+        }),
         Kind::Hermite => {
             let derivative = |size: f64, angle: f64| [size * angle.cos(), size * angle.sin()];
-            let [start_derivative, end_derivative] = [derivative(datum.size[0], first), derivative(datum.size[1], last)];
+            let [start_derivative, end_derivative] =
+                [derivative(datum.size[0], first), derivative(datum.size[1], last)];
             hermite(&Hermite { start, end, start_derivative, end_derivative })
         }
     }

@@ -1,9 +1,10 @@
 //! The greatest |curvature| of a PH quintic, enclosed.
 //!
 //! With pre-image w the curvature is `h/σ²`, `σ = |w|²`, `h = 2 Im(conj(w) w')`. It stays below v on a piece where both
-//! `v σ² - h` and `v σ² + h`, of degree 8, are positive: where their Bernstein coefficients are, or those of the halves, and so on. The pieces
-//! are pieces of w, from which σ is formed anew (where the curve is slow, |w| is small, and so are its errors), and of h, which is halved itself:
-//! from w on a short piece it would be a difference of almost equal products.
+//! `v σ² - h` and `v σ² + h`, of degree 8, are positive: where their Bernstein coefficients are, or those of the
+//! halves, and so on. The pieces are pieces of w, from which σ is formed anew (where the curve is slow, |w| is small,
+//! and so are its errors), and of h, which is halved itself: from w on a short piece it would be a difference of almost
+//! equal products.
 
 use crate::num::bernstein::halve;
 use crate::num::{Ball, Interval, Real, formula};
@@ -172,12 +173,13 @@ impl<N: Real> Arc<N> {
         t
     }
 
-    /// Whether |κ| stays below v. With `touching`, v is the curvature at the start, where it may be equal: so many orders of their difference
-    /// are exactly 0 there.
+    /// Whether |κ| stays below v. With `touching`, v is the curvature at the start, where it may be equal: so many
+    /// orders of their difference are exactly 0 there.
     ///
     /// Doubles are tried first, whatever the precision: for most curvatures they suffice.
     pub fn below(&self, v: &N, touching: usize) -> Bound {
-        let by_doubles = if self.bits() > 53 { self.rough().halved_below(&Ball::enclosing(v), touching) } else { Bound::Open };
+        let by_doubles =
+            if self.bits() > 53 { self.rough().halved_below(&Ball::enclosing(v), touching) } else { Bound::Open };
         match by_doubles {
             Bound::Open => self.halved_below(v, touching),
             told => told,
@@ -248,7 +250,8 @@ impl<N: Real> Arc<N> {
     /// Where the curvature is greatest, and how great: a guess.
     pub fn guess(&self) -> (f64, f64) {
         let plain = self.plain();
-        let inside = (1..16).map(|i| f64::from(i) / 16.0).chain(plain.slow().into_iter().filter(|t| *t > 0.0 && *t < 1.0));
+        let inside =
+            (1..16).map(|i| f64::from(i) / 16.0).chain(plain.slow().into_iter().filter(|t| *t > 0.0 && *t < 1.0));
         let best = inside.map(|t| (t, plain.bend(t))).fold((0.5, 0.0), better).0;
         [0.0, best, 1.0].map(|t| self.climbed(t)).into_iter().fold((0.0, 0.0), better)
     }

@@ -1,8 +1,9 @@
 //! What the greatest curvature of a solution exceeds for all sizes in a box.
 //!
-//! It is at least `|κ(t)|` for every t, so at least every mean `Σ λ_i s_i κ(t_i)` with weights λ that sum up to 1 and signs s; and where the
-//! length L is at most S, at least `Σ λ_i s_i κ(t_i) + μ (L - S)` with `μ >= 0`. Around the best sizes no `κ(t_i)` alone has a large least value
-//! over a box, because each falls where another rises. The mean whose slopes cancel changes by the second order of the box's size only.
+//! It is at least `|κ(t)|` for every t, so at least every mean `Σ λ_i s_i κ(t_i)` with weights λ that sum up to 1 and
+//! signs s; and where the length L is at most S, at least `Σ λ_i s_i κ(t_i) + μ (L - S)` with `μ >= 0`. Around the best
+//! sizes no `κ(t_i)` alone has a large least value over a box, because each falls where another rises. The mean whose
+//! slopes cancel changes by the second order of the box's size only.
 
 use super::arc::{Arc, Complex, re};
 use crate::num::{Number, Quadratic, Real, formula};
@@ -20,7 +21,8 @@ fn parts() -> impl Iterator<Item = f64> {
     (0..=PARTS).map(|i| f64::from(i) / f64::from(PARTS))
 }
 
-/// What the greatest |κ| exceeds in a box wherever the arc is longer than the chord by no more than `beyond`; as much as is `enough`, or more.
+/// What the greatest |κ| exceeds in a box wherever the arc is longer than the chord by no more than `beyond`; as much
+/// as is `enough`, or more.
 pub(super) fn bound(arc: &Arc<Quadratic>, beyond: f64, enough: f64) -> f64 {
     // Both the length's thirds and fifths and the bound in chords are rounded.
     let over = arc.beyond_chord().plus(-beyond * (1.0 + 1e-15));
@@ -86,21 +88,24 @@ fn peaks(arc: &Arc<Quadratic>) -> Vec<f64> {
 /// The peak there may be too sharp to be enclosed, but its slopes are not.
 fn slopes(arc: &Arc<Quadratic>, limit: f64) -> Vec<f64> {
     let plain = arc.plain();
-    let beside = |t: f64| (1..10).flat_map(move |k| [-1.0, 1.0].map(|side| on_grid(t.clamp(0.0, 1.0) + side * 0.5f64.powi(k))));
+    let beside =
+        |t: f64| (1..10).flat_map(move |k| [-1.0, 1.0].map(|side| on_grid(t.clamp(0.0, 1.0) + side * 0.5f64.powi(k))));
     let all = plain.slow().into_iter().flat_map(beside);
     all.filter(|t| *t > 0.0 && *t < 1.0 && plain.bend(*t) > limit).collect()
 }
 
-/// What |κ| exceeds where the curve is slowest, if that is somewhere inside: there w is perpendicular to w' and |κ| is `2|w'|/|w|³`, which has
-/// no difference in it, however near the curve comes to standing still.
+/// What |κ| exceeds where the curve is slowest, if that is somewhere inside: there w is perpendicular to w' and |κ| is
+/// `2|w'|/|w|³`, which has no difference in it, however near the curve comes to standing still.
 ///
-/// Where σ falls at a and rises at b there is such a place between these, and |w| is nowhere between them less than there.
+/// Where σ falls at a and rises at b there is such a place between these, and |w| is nowhere between them less than
+/// there.
 fn needle(arc: &Arc<Quadratic>, enough: f64) -> f64 {
     let slow = arc.plain().slow();
     let mut best = 0.0f64;
     for reach in [0.125, 0.25, 0.0625, 0.5, 0.03125] {
         for t in slow.into_iter().filter(|t| *t > 0.0 && *t < 1.0) {
-            let [(w, v), (z, u), (x, y)] = [(t - reach).max(0.0), t, (t + reach).min(1.0)].map(|t| moved(arc, on_grid(t)));
+            let [(w, v), (z, u), (x, y)] =
+                [(t - reach).max(0.0), t, (t + reach).min(1.0)].map(|t| moved(arc, on_grid(t)));
             if re(&w, &v).times(-1.0).is_positive() && re(&x, &y).is_positive() {
                 // w' is linear: from t to either end it changes by so much.
                 let apart = |y: &Complex<Quadratic>| y[0].sub(&u[0]).most().hypot(y[1].sub(&u[1]).most());
@@ -124,14 +129,16 @@ fn moved(arc: &Arc<Quadratic>, t: f64) -> (Complex<Quadratic>, Complex<Quadratic
     (legs.map(|[a, b]| mixed(&a, &b, t)), slopes)
 }
 
-/// What means of two or three functions whose slopes cancel exceed; among them may be how much too long the arc is, whose weight does not count.
+/// What means of two or three functions whose slopes cancel exceed; among them may be how much too long the arc is,
+/// whose weight does not count.
 fn means(bends: &[Quadratic], over: Option<Quadratic>) -> impl Iterator<Item = f64> {
     let all: Vec<(f64, Quadratic)> = bends.iter().map(|x| (1.0, *x)).chain(over.map(|x| (0.0, x))).collect();
     let sets = (0..all.len()).flat_map(move |i| (0..i).flat_map(move |j| (0..=j).map(move |k| [i, j, k])));
     sets.flat_map(move |[i, j, k]| {
         let [a, b, c] = [i, j, k].map(|i| all[i]);
         // Twice the same: a pair.
-        let ways = if j == k { [opposed(&a.1, &b.1, 0), opposed(&a.1, &b.1, 1)] } else { [around([&a.1, &b.1, &c.1]), None] };
+        let ways =
+            if j == k { [opposed(&a.1, &b.1, 0), opposed(&a.1, &b.1, 1)] } else { [around([&a.1, &b.1, &c.1]), None] };
         ways.map(|way| way.map_or(0.0, |weights| low([a, b, c], weights)))
     })
 }

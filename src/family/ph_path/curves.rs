@@ -1,7 +1,8 @@
 //! The solutions of a datum: at most four pre-images, mirror images left out.
 //!
-//! With `w0 = √l0 e^(iθ0/2)`, `w2 = ±√l1 e^(iθ1/2)` the ends leave `w1 = (±√Z - 3(w0 + w2))/4`, `Z = 120 - 15w0² - 15w2² + 10w0w2`. A given
-//! arc length with equal end speeds z is the same with `l0 = l1 = z`, where z and √Z follow from (10)-(13): see `curve/equal_length.rs`.
+//! With `w0 = √l0 e^(iθ0/2)`, `w2 = ±√l1 e^(iθ1/2)` the ends leave `w1 = (±√Z - 3(w0 + w2))/4`,
+//! `Z = 120 - 15w0² - 15w2² + 10w0w2`. A given arc length with equal end speeds z is the same with `l0 = l1 = z`, where
+//! z and √Z follow from (10)-(13): see `curve/equal_length.rs`.
 
 use super::Kind;
 use super::arc::{Arc, Complex};
@@ -71,8 +72,8 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
         }
         // With w0 = a, w2 = -b and w1 = (iv - 3(a - b))/4 the slope at the end of b is in proportion to `a - 2b`.
         let flat = given.symmetry == Symmetry::Line && !paper && (l0 == 4.0 * l1 || l1 == 4.0 * l0);
-        // With speeds 4 and 16 it is symmetric about t = 1/3: with p = (t - 1/3)² κ is in proportion to `(3p + 2/3) / (90p² - 14p + 40/9)²`, which
-        // rises up to p = 1/9, the start and t = 2/3, and falls from there.
+        // With speeds 4 and 16 it is symmetric about t = 1/3: with p = (t - 1/3)² κ is in proportion to
+        // `(3p + 2/3) / (90p² - 14p + 40/9)²`, which rises up to p = 1/9, the start and t = 2/3, and falls from there.
         let tied = flat && l0.max(l1) == 16.0;
         all.bent.extend(solutions(&ends, given.symmetry, equal, paper).map(|curve| Curve { flat, tied, ..curve }));
     }
@@ -91,7 +92,12 @@ pub(super) fn boxed(theta: [f64; 2], size: [Quadratic; 2]) -> Option<Vec<Arc<Qua
 }
 
 /// The solutions with either sign of √Z, of two mirror images the first.
-fn solutions<N: Real>(ends: &Ends<N>, symmetry: Symmetry, equal: bool, paper: bool) -> impl Iterator<Item = Curve<N>> + use<N> {
+fn solutions<N: Real>(
+    ends: &Ends<N>,
+    symmetry: Symmetry,
+    equal: bool,
+    paper: bool,
+) -> impl Iterator<Item = Curve<N>> + use<N> {
     let zero = || N::of(0.0, ends.w[0][0].bits());
     let root = match &ends.root {
         Root::Anywhere(root) => root.clone(),
@@ -216,7 +222,8 @@ fn on_axis<N: Real>(square: N) -> Option<Root<N>> {
     })
 }
 
-/// A square root of a complex number: of its parts the safe one first. Of numbers around 0, where there is none, all that are small enough.
+/// A square root of a complex number: of its parts the safe one first. Of numbers around 0, where there is none, all
+/// that are small enough.
 fn root<N: Real>(re: &N, im: &N) -> Complex<N> {
     let tight = || {
         let size = formula!(re * re + im * im).sqrt()?;

@@ -1,13 +1,18 @@
-//! Paths of Pythagorean-hodograph quintics by arc length or by end speeds: how little they can bend (Farouki et al., section 6).
+//! Paths of Pythagorean-hodograph quintics by arc length or by end speeds: how little they can bend (Farouki et al.,
+//! section 6).
 //!
 //! # How it is done
-//! - One module (`ph_path`) for both: a length with equal end speeds is the other's datum once the speed is known (`curves.rs`).
-//! - The scalar is the least of four greatest curvatures. A minimum needs no winner: overlapping enclosures are united. The flags need one, which is proved by a single
-//!   curvature that it stays below and each other exceeds; two that tie for all precisions are told by symmetry (`curves.rs`, `truth.rs`).
-//! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`arc.rs`). v is just above the value at a peak (scalars), between two solutions (winner), or the end's
-//!   own curvature, whose zero is left out (PEAK_INSIDE). Guesses are free: a missed peak is where the certificate fails, and the next start.
+//! - One module (`ph_path`) for both: a length with equal end speeds is the other's datum once the speed is known
+//!   (`curves.rs`).
+//! - The scalar is the least of four greatest curvatures. A minimum needs no winner: overlapping enclosures are united.
+//!   The flags need one, which is proved by a single curvature that it stays below and each other exceeds; two that tie
+//!   for all precisions are told by symmetry (`curves.rs`, `truth.rs`).
+//! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`arc.rs`). v is just above the value at a peak
+//!   (scalars), between two solutions (winner), or the end's own curvature, whose zero is left out (PEAK_INSIDE).
+//!   Guesses are free: a missed peak is where the certificate fails, and the next start.
 //! - Both angles 0 make straight lines, decided by exact signs (`straight.rs`).
-//! - `range.rs` runs the same formulas on ranges of sizes, as doubles with that much error: the bounds of `path/least_curvature.rs`.
+//! - `range.rs` runs the same formulas on ranges of sizes, as doubles with that much error: the bounds of
+//!   `path/least_curvature.rs`.
 
 mod answer;
 mod arc;

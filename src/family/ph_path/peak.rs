@@ -89,8 +89,12 @@ impl Arc<Ball> {
         let rise = |a: &Ball, b: &Ball| formula!(2.0 * (b - a));
         let bent = [rise(&h0, &h1), rise(&h1, &h2)];
         // σ' from 1, 4, 6, 4, 1 times σ: `4 (σ1 - σ0)`, `12 (σ2 - σ1)` and so on.
-        let gain =
-            [formula!(s1 - 4.0 * s0), formula!(2.0 * s2 - 3.0 * s1), formula!(3.0 * s3 - 2.0 * s2), formula!(4.0 * s4 - s3)];
+        let gain = [
+            formula!(s1 - 4.0 * s0),
+            formula!(2.0 * s2 - 3.0 * s1),
+            formula!(3.0 * s3 - 2.0 * s2),
+            formula!(4.0 * s4 - s3),
+        ];
         let (up, down): ([Ball; 6], [Ball; 6]) = (product(&speed, &bent), product(&[h0, h1.times(2.0), h2], &gain));
         let binomial = [10.0, 2.0, 1.0, 1.0, 2.0, 10.0];
         Some(std::array::from_fn(|i| formula!((up[i] - 2.0 * down[i]) * { binomial[i] })))
@@ -99,7 +103,8 @@ impl Arc<Ball> {
     /// Less than σ everywhere.
     fn slowest(&self) -> Option<f64> {
         let binomial = [1.0, 4.0, 6.0, 4.0, 1.0];
-        let least = self.speed().iter().zip(binomial).map(|(s, by)| (s.value - s.error) / by).fold(f64::INFINITY, f64::min);
+        let least =
+            self.speed().iter().zip(binomial).map(|(s, by)| (s.value - s.error) / by).fold(f64::INFINITY, f64::min);
         (least > 0.0).then_some(least / GROW)
     }
 }

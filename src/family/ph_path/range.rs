@@ -14,7 +14,8 @@ pub(crate) struct Search {
     pub beyond: f64,
 }
 
-/// One solution: its greatest |κ|, as doubles see it, how much longer it is than the chord, and its pre-image, for the chord from 0 to 1.
+/// One solution: its greatest |κ|, as doubles see it, how much longer it is than the chord, and its pre-image, for the
+/// chord from 0 to 1.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Candidate {
     pub most: f64,
@@ -25,8 +26,9 @@ pub(crate) struct Candidate {
 impl Search {
     /// What the sizes of its solutions do not exceed.
     ///
-    /// With `w = u + iv` such a solution is longer than its chord by `∫ |w|² - Re w² = 2 ∫ v²`, and a polynomial v of degree 2 has `∫ v² >= v²/9`
-    /// at either end, where it is `√l sin(θ/2)`. The same of |w| makes sizes at most nine times the length.
+    /// With `w = u + iv` such a solution is longer than its chord by `∫ |w|² - Re w² = 2 ∫ v²`, and a polynomial v of
+    /// degree 2 has `∫ v² >= v²/9` at either end, where it is `√l sin(θ/2)`. The same of |w| makes sizes at most nine
+    /// times the length.
     pub fn sizes(&self) -> [f64; 2] {
         self.theta.map(|theta| {
             let sine = (0.5 * theta).sin();
@@ -49,10 +51,12 @@ impl Search {
             preimage: whole.w.map(|z| z.map(|x| x.value)),
         };
         let all = curves.bent.iter().map(|c| found(c.part(), &c.whole));
-        all.filter(|f| f.beyond <= self.beyond * (1.0 + 1e-9) && f.most.is_finite()).min_by(|a, b| a.most.total_cmp(&b.most))
+        all.filter(|f| f.beyond <= self.beyond * (1.0 + 1e-9) && f.most.is_finite())
+            .min_by(|a, b| a.most.total_cmp(&b.most))
     }
 
-    /// What the greatest |κ| of every solution that is not too long exceeds, for all sizes in these ranges (`equal`: both the same in the first).
+    /// What the greatest |κ| of every solution that is not too long exceeds, for all sizes in these ranges (`equal`:
+    /// both the same in the first).
     ///
     /// As much as is `enough`, or more.
     pub fn least(&self, size: [[f64; 2]; 2], equal: bool, enough: f64) -> f64 {
@@ -77,8 +81,9 @@ mod tests {
         size.map(|l| l * (120.0 / rest.norm()).min(1e3))
     }
 
-    /// Boxes of every size, many around places where two solutions meet (Z = 0), with general, mirrored, opposite and nearly straight directions: no
-    /// solution in them bends less than the bound. Many bounds are so tight that 1.001 of them would fail.
+    /// Boxes of every size, many around places where two solutions meet (Z = 0), with general, mirrored, opposite and
+    /// nearly straight directions: no solution in them bends less than the bound. Many bounds are so tight that 1.001
+    /// of them would fail.
     #[test]
     fn no_solution_bends_less_than_its_box_says() {
         let mut noise = Noise(5);

@@ -9,8 +9,9 @@ use crate::num::sines::{cos, sin};
 
 /// Unit roundoff of f32.
 const UNIT: f64 = 1.0 / (1u32 << 24) as f64;
-/// Roundings in a coefficient of `v σ² ∓ h`: products of w 1, sums and factors in a σ coefficient 6, so 15 in a product of two; the five
-/// products' sums 5, v, the binomial and the factor 2 each 1, the difference 9 with the terms of h: 33, and a few for the error itself.
+/// Roundings in a coefficient of `v σ² ∓ h`: products of w 1, sums and factors in a σ coefficient 6, so 15 in a product
+/// of two; the five products' sums 5, v, the binomial and the factor 2 each 1, the difference 9 with the terms of h:
+/// 33, and a few for the error itself.
 const SIDE: f64 = 40.0 * UNIT;
 /// More than flushed denormals can do.
 const TINY: f64 = 1e-30;
@@ -23,10 +24,15 @@ pub(super) fn shader(kind: Kind) -> Shader {
     let numbers = [("UNIT", UNIT), ("SIDE", SIDE), ("TINY", TINY)];
     let shared = [fragment!("ph_path/arc.wgsl"), fragment!("ph_path/truth.wgsl")];
     let (record, own) = match kind {
-        Kind::EqualLength => (Units::wgsl() + &Sums::wgsl() + &Lengths::wgsl(), fragment!("ph_path/curves_of_length.wgsl")),
+        Kind::EqualLength => {
+            (Units::wgsl() + &Sums::wgsl() + &Lengths::wgsl(), fragment!("ph_path/curves_of_length.wgsl"))
+        }
         Kind::Hermite => (Units::wgsl(), fragment!("ph_path/curves_of_speeds.wgsl")),
     };
-    Shader { constants: constants(&flags, &[], &numbers) + &record, fragments: shared.into_iter().chain([own]).collect() }
+    Shader {
+        constants: constants(&flags, &[], &numbers) + &record,
+        fragments: shared.into_iter().chain([own]).collect(),
+    }
 }
 
 pub(super) fn inputs(kind: Kind, grid: &Grid, start: u64, len: u64) -> ShaderInputs {

@@ -1,13 +1,15 @@
 //! Both angles 0: a real pre-image makes a straight line, which may turn back.
 //!
-//! Let `a = √l0`, `b = √l1`, `m = √(ab)`. With w2 = -b, w changes its sign. With w2 = b it stays positive exactly if `w1 > -m`, which only the larger
-//! w1 can do: `√Z > 3(a + b) - 4m`, or `5 > l0 + l1 + ab - (a + b)m`. Squared twice that is a question about the sign of `x + y ab` for
-//! polynomials x, y in l0, l1, and so of `x² - y² l0 l1`: in doubles' intervals that is exact at some precision, and 0 is known as 0.
+//! Let `a = √l0`, `b = √l1`, `m = √(ab)`. With w2 = -b, w changes its sign. With w2 = b it stays positive exactly if
+//! `w1 > -m`, which only the larger w1 can do: `√Z > 3(a + b) - 4m`, or `5 > l0 + l1 + ab - (a + b)m`. Squared twice
+//! that is a question about the sign of `x + y ab` for polynomials x, y in l0, l1, and so of `x² - y² l0 l1`: in
+//! doubles' intervals that is exact at some precision, and 0 is known as 0.
 
 use crate::num::{Interval, Verdict, formula};
 use std::cmp::Ordering::{self, Equal, Greater};
 
-/// Whether some line with these end speeds, in chords, moves on throughout; `None` where the precision does not suffice.
+/// Whether some line with these end speeds, in chords, moves on throughout; `None` where the precision does not
+/// suffice.
 ///
 /// Z must not be negative.
 pub(super) fn moves_on(size: [f64; 2], bits: usize) -> Verdict {

@@ -40,7 +40,8 @@ fn single<N: Real>(value: &Greatest<N>) -> Option<f32> {
 
 /// The scalar with this index, from intervals alone.
 fn exact_scalar(datum: &Datum, which: usize) -> Result<f32> {
-    climb(datum, "a greatest curvature", |bits| single(&least::<Interval>(datum, which == 1, bits)?)).map(|(value, _)| value)
+    climb(datum, "a greatest curvature", |bits| single(&least::<Interval>(datum, which == 1, bits)?))
+        .map(|(value, _)| value)
 }
 
 /// The same, from doubles where they prove it.

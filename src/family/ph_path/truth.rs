@@ -35,8 +35,8 @@ impl<N: Real> Seen<'_, N> {
     }
 }
 
-/// What is looked at of a curve, the end that bends more first: a peak may be closer to that than doubles tell parameters from 1. It may bend
-/// more by far less than doubles tell, too.
+/// What is looked at of a curve, the end that bends more first: a peak may be closer to that than doubles tell
+/// parameters from 1. It may bend more by far less than doubles tell, too.
 fn oriented<N: Real>(curve: &Curve<N>) -> Arc<N> {
     let part = curve.part();
     let at = |t: f64| part.curvature(&N::of(t, part.turn[0].bits()));
@@ -50,7 +50,8 @@ fn exceeds<N: Real>(value: &N, limit: &N) -> bool {
     value.sub(limit).certain_sign(0.0) == Some(Greater)
 }
 
-/// The solutions among which the best is: all others are proved to bend more than the first. None where all stand still.
+/// The solutions among which the best is: all others are proved to bend more than the first. None where all stand
+/// still.
 fn contenders<N: Real>(curves: &Curves<N>, paper: bool, bits: usize) -> Option<Vec<Seen<'_, N>>> {
     let one = |curve| {
         let part = oriented(curve);
@@ -86,14 +87,15 @@ fn contenders<N: Real>(curves: &Curves<N>, paper: bool, bits: usize) -> Option<V
 
 /// The least greatest |κ| of all solutions, or of the paper's; `None` where the precision does not suffice.
 ///
-/// A curve that stands still in a bend has values beyond every bound. The least of enclosed numbers needs no winner: where two enclosures overlap,
-/// their union holds it.
+/// A curve that stands still in a bend has values beyond every bound. The least of enclosed numbers needs no winner:
+/// where two enclosures overlap, their union holds it.
 pub(super) fn least<N: Turned>(datum: &Datum, paper: bool, bits: usize) -> Option<Greatest<N>> {
     let curves = curves::<N>(datum, bits)?;
     if curves.straight {
         return Some(Greatest::Value(N::of(0.0, bits)));
     }
-    let values = contenders(&curves, paper, bits)?.iter().map(|seen| greatest(seen, bits)).collect::<Option<Vec<_>>>()?;
+    let values =
+        contenders(&curves, paper, bits)?.iter().map(|seen| greatest(seen, bits)).collect::<Option<Vec<_>>>()?;
     let lesser = |a: N, b: N| match a.sub(&b).certain_sign(0.0) {
         Some(Greater) => b,
         Some(Less) => a,
@@ -129,8 +131,9 @@ pub(super) fn verdict<N: Turned>(datum: &Datum, bits: usize) -> Option<Code> {
 
 /// The contenders that bend least: one, or two that tie.
 ///
-/// With `θ1 = θ0` both ends of w are parallel, so that both signs of √Z give the same |κ| at each end. If that is the greatest for both, they
-/// tie, whatever the precision. No other tie is known but mirror images, of which one is left out.
+/// With `θ1 = θ0` both ends of w are parallel, so that both signs of √Z give the same |κ| at each end. If that is the
+/// greatest for both, they tie, whatever the precision. No other tie is known but mirror images, of which one is left
+/// out.
 fn winners<'c, N: Real>(mut close: Vec<Seen<'c, N>>, datum: &Datum, bits: usize) -> Option<Vec<Seen<'c, N>>> {
     let [first, others @ ..] = &close[..] else { return Some(close) };
     if others.is_empty() {

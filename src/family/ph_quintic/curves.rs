@@ -1,18 +1,18 @@
 //! The two equations of a datum, as two curves in the plane of the tangents' ratio and size.
 //!
 //! With `w0 = A e^{-iφ0/2}`, `w2 = B e^{iφ1/2}` the end curvatures fix `w1 = αA³ e^{iφ1/2} + βB³ e^{-iφ0/2}`,
-//! `α = κ0/(4 sin Φ)`, `β = κ1/(4 sin Φ)`, `Φ = (φ0 + φ1)/2`. What remains is `∫ w² = 2`, the chord. Its components across
-//! `e^{-iφ0}` and across `e^{iφ1}`, divided by sin Φ, are
+//! `α = κ0/(4 sin Φ)`, `β = κ1/(4 sin Φ)`, `Φ = (φ0 + φ1)/2`. What remains is `∫ w² = 2`, the chord. Its components
+//! across `e^{-iφ0}` and across `e^{iφ1}`, divided by sin Φ, are
 //!
 //! ```text
 //! M + 2 cos Φ E1 = 30 sin φ0 / sin Φ      E1 = 3B² + 3αA³B + 2α²A⁶
 //! M + 2 cos Φ E0 = 30 sin φ1 / sin Φ      E0 = 3A² + 3βAB³ + 2β²B⁶      M = AB + 3αA⁴ + 3βB⁴ + 4αβA³B³
 //! ```
 //!
-//! For κ0, κ1 >= 0 no coefficient is negative: these are level curves of posynomials. In `x = ln(B/A)` and `ζ = ln A²` each is
-//! the graph of a function ζ(x), and concave, because `ln Σ exp(linear)` is convex. Its slope is `-s`,
-//! `s = Σ w j / Σ w k` over its terms `w ∝ A^(2k) (B/A)^j`, and s increases with x. Everything that counts solutions rests on that
-//! (see [`super::march`]); no term is subtracted, so nothing cancels either.
+//! For κ0, κ1 >= 0 no coefficient is negative: these are level curves of posynomials. In `x = ln(B/A)` and `ζ = ln A²`
+//! each is the graph of a function ζ(x), and concave, because `ln Σ exp(linear)` is convex. Its slope is `-s`,
+//! `s = Σ w j / Σ w k` over its terms `w ∝ A^(2k) (B/A)^j`, and s increases with x. Everything that counts solutions
+//! rests on that (see [`super::march`]); no term is subtracted, so nothing cancels either.
 //!
 //! Sizes are scaled by powers of two: `A = p a`, `B = q b`, `α' = αp³`, `β' = βq³`, both at most 1.
 
@@ -43,7 +43,8 @@ pub(super) struct Curves<N> {
     last: [N; 2],
 }
 
-/// A left-hand side at one t = b/a: `c[0] Z + c[1] Z² + c[2] Z³` in Z = a², and the same with each term times its power of t.
+/// A left-hand side at one t = b/a: `c[0] Z + c[1] Z² + c[2] Z³` in Z = a², and the same with each term times its power
+/// of t.
 pub(super) struct Cubic<N> {
     pub c: [N; 3],
     pub j: [N; 3],
@@ -99,7 +100,13 @@ impl<N: Number> Curves<N> {
     /// The same datum with its ends exchanged: Z and t become b² and 1/t, and the curves change places.
     pub fn reversed(&self) -> Curves<N> {
         let swap = |x: &[N; 2]| [x[1].clone(), x[0].clone()];
-        Curves::new([self.scale[1], self.scale[0]], swap(&self.bend), self.cos.clone(), swap(&self.right), self.skew.times(-1.0))
+        Curves::new(
+            [self.scale[1], self.scale[0]],
+            swap(&self.bend),
+            self.cos.clone(),
+            swap(&self.right),
+            self.skew.times(-1.0),
+        )
     }
 
     /// Both left-hand sides at t.
@@ -138,8 +145,9 @@ pub(super) struct Changes<N> {
 }
 
 impl<N: Real> Curves<N> {
-    /// `s' = Σ w m² / Σ w k` and `s'' = (Σ w m³ - 3 s' Σ w m k) / Σ w k`, `m = j - ks`, of both curves at t, with their heights and slopes
-    /// there; all may be enclosures over an interval. For w changes with x as `w m`, m as `-k s'`, and `Σ w m = 0`.
+    /// `s' = Σ w m² / Σ w k` and `s'' = (Σ w m³ - 3 s' Σ w m k) / Σ w k`, `m = j - ks`, of both curves at t, with their
+    /// heights and slopes there; all may be enclosures over an interval. For w changes with x as `w m`, m as `-k s'`,
+    /// and `Σ w m = 0`.
     pub fn slope_changes(&self, t: &N, at: impl Fn(usize) -> (N, N)) -> Option<[Changes<N>; 2]> {
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
@@ -183,7 +191,8 @@ impl<N: Real> Curves<N> {
 }
 
 impl Cubic<f64> {
-    /// About where the cubic reaches `right`: Newton's method, which comes down to it from the least height one term alone would need.
+    /// About where the cubic reaches `right`: Newton's method, which comes down to it from the least height one term
+    /// alone would need.
     pub fn guess(&self, right: f64) -> f64 {
         let [c0, c1, c2] = self.c;
         let mut z = (right / c0).min((right / c1).sqrt());
@@ -212,8 +221,8 @@ impl Cubic<f64> {
 impl<N: Real> Cubic<N> {
     /// Where the cubic reaches `right`, enclosed; `None` when the precision does not suffice.
     ///
-    /// `d ln F / d ln Z >= 1`, so a relative residual r puts Z within the factor `exp(±|ln(1 + r)|)`, inside `1 ± 1.05 r` for
-    /// `|r| < 1/64`.
+    /// `d ln F / d ln Z >= 1`, so a relative residual r puts Z within the factor `exp(±|ln(1 + r)|)`, inside
+    /// `1 ± 1.05 r` for `|r| < 1/64`.
     pub fn height(&self, right: &N, guess: f64) -> Option<N> {
         let [c0, c1, c2] = &self.c;
         let value = |z: &N| formula!(((c2 * z + c1) * z + c0) * z);
@@ -227,8 +236,9 @@ impl<N: Real> Cubic<N> {
         (formula!(-(off + { -1.0 / 64.0 })).is_positive() && z.is_positive()).then(|| formula!(z + 1.05 * (z * off)))
     }
 
-    /// About where the cubic reaches `right`, when coefficients or heights are no doubles: none of their size, only logarithms and the
-    /// cubic's shape, `Σ ck y^(k+1) = 1` with coefficients up to 1, are computed in doubles. So the work does not grow with their size.
+    /// About where the cubic reaches `right`, when coefficients or heights are no doubles: none of their size, only
+    /// logarithms and the cubic's shape, `Σ ck y^(k+1) = 1` with coefficients up to 1, are computed in doubles. So the
+    /// work does not grow with their size.
     ///
     /// `|ln Z|` stays below 2^13, so that its rounding leaves more than 38 bits of Z.
     fn start(&self, right: &N) -> Option<N> {

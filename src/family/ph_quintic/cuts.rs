@@ -1,9 +1,10 @@
 //! Where to cut an interval in which solutions merge, so that the certificates of [`super::fork`] hold on each part.
 //!
-//! A guess, like any knot. D' and D'' have zeros there that Newton's method finds, each step with twice the digits of the last. Around the
-//! zero m of D'' the distance is `D0 + D1 h + D3 h³/6`, up to what is small where the solutions are near each other. Divided by D3 that is
-//! a cubic without a square; all its zeros are within `2 max(√|6 D1/D3|, ∛|6 D0/D3|)`. Its size is a power of two, and what is left are
-//! doubles. So the work does not grow as the solutions come nearer.
+//! A guess, like any knot. D' and D'' have zeros there that Newton's method finds, each step with twice the digits of
+//! the last. Around the zero m of D'' the distance is `D0 + D1 h + D3 h³/6`, up to what is small where the solutions
+//! are near each other. Divided by D3 that is a cubic without a square; all its zeros are within
+//! `2 max(√|6 D1/D3|, ∛|6 D0/D3|)`. Its size is a power of two, and what is left are doubles. So the work does not grow
+//! as the solutions come nearer.
 
 use super::curves::Curves;
 use super::fork::{Open, side};
@@ -94,7 +95,11 @@ fn zero<N: Real, F: Fn(N) -> Option<Knot<N>>>(
 }
 
 /// Around the zero of D'': at the sizes of its cubic, at the zeros of D', and between those.
-fn fork<N: Real, F: Fn(N) -> Option<Knot<N>>>(march: &March<N, F>, from: &Knot<N>, to: &Knot<N>) -> Option<Vec<Knot<N>>> {
+fn fork<N: Real, F: Fn(N) -> Option<Knot<N>>>(
+    march: &March<N, F>,
+    from: &Knot<N>,
+    to: &Knot<N>,
+) -> Option<Vec<Knot<N>>> {
     let middle = zero(march, 2, from, to)?;
     let [d1, _, d3] = &middle.d;
     let [p, q] = [d1.over(d3)?.times(6.0), middle.knot.gap.over(d3)?.times(6.0)];
@@ -118,7 +123,8 @@ fn fork<N: Real, F: Fn(N) -> Option<Knot<N>>>(march: &March<N, F>, from: &Knot<N
         // D is monotone.
         if q.abs() < 0.125 { cuts.extend([knot(-0.125)?, knot(0.125)?]) } else { cuts.push(middle.knot.clone()) }
     } else {
-        // On the side of m to which D falls from it D is convex, or concave on the other, and what merges there is told by that.
+        // On the side of m to which D falls from it D is convex, or concave on the other, and what merges there is told
+        // by that.
         let between = 0.25 * (-p / 3.0).sqrt();
         cuts.extend(zero(march, 1, outer[0], &middle.knot).map(|bent| bent.knot));
         cuts.push(knot(if q > 0.0 { between } else { -between })?);

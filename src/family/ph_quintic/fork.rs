@@ -1,17 +1,18 @@
-//! Certificates for where solutions merge: two of them, at a fold, or three, as in symmetric data. There D' is small over a whole
-//! interval, and slopes at its ends, which move by their own size, do not tell its sign.
+//! Certificates for where solutions merge: two of them, at a fold, or three, as in symmetric data. There D' is small
+//! over a whole interval, and slopes at its ends, which move by their own size, do not tell its sign.
 //!
 //! On a short interval the heights and slopes lie between those at its ends, which encloses how both slopes change
 //! ([`Curves::slope_changes`]), and so `D'' = s1' - s0'` and `D''' = s1'' - s0''`.
-//! - **D' keeps its sign**, the same at both ends, when `|D'(a)| + |D'(b)| > L max |D''|`: it can fall by no more from either.
-//! - **D is convex** where D'' > 0: with different signs at its ends it is 0 once; below 0 at both it has no zero; and above 0 it has none
-//!   when its two tangents meet above 0 ([`above`]). A concave D is convex with the other sign.
-//! - **D' is convex** where D''' > 0. If it is not positive at both ends, D falls throughout; if it is above 0 by its own tangents, D rises.
-//!   If it is not positive at b, D rises at most once, then falls: it is nowhere below both ends. If it is not positive at a, D is nowhere
-//!   above them.
+//! - **D' keeps its sign**, the same at both ends, when `|D'(a)| + |D'(b)| > L max |D''|`: it can fall by no more from
+//!   either.
+//! - **D is convex** where D'' > 0: with different signs at its ends it is 0 once; below 0 at both it has no zero; and
+//!   above 0 it has none when its two tangents meet above 0 ([`above`]). A concave D is convex with the other sign.
+//! - **D' is convex** where D''' > 0. If it is not positive at both ends, D falls throughout; if it is above 0 by its
+//!   own tangents, D rises. If it is not positive at b, D rises at most once, then falls: it is nowhere below both
+//!   ends. If it is not positive at a, D is nowhere above them.
 //!
-//! With solutions as near each other as ε, D''' is as large as elsewhere. So these intervals need not be as short as ε: only the ends must be
-//! well chosen, which is what `cuts.rs` does.
+//! With solutions as near each other as ε, D''' is as large as elsewhere. So these intervals need not be as short as ε:
+//! only the ends must be well chosen, which is what `cuts.rs` does.
 
 use super::curves::Curves;
 use super::knot::{Knot, length};
@@ -37,10 +38,11 @@ pub(super) fn side<N: Real>(x: &N) -> Option<Ordering> {
     x.certain_sign(0.0).filter(|sign| *sign != Equal)
 }
 
-/// Whether a convex function is above 0 between two places no further apart than `length`, from values and slopes at both: so is the higher of
-/// its tangents.
+/// Whether a convex function is above 0 between two places no further apart than `length`, from values and slopes at
+/// both: so is the higher of its tangents.
 ///
-/// Where they meet is worth `(a q - p b + p q L) / (q - p)` for slopes p < 0 < q. Smaller values and a larger length make that smaller.
+/// Where they meet is worth `(a q - p b + p q L) / (q - p)` for slopes p < 0 < q. Smaller values and a larger length
+/// make that smaller.
 fn above<N: Real>([a, b]: [&N; 2], [p, q]: [&N; 2], length: &N) -> bool {
     let meet = || formula!(a * q - p * b + p * q * length);
     a.is_positive() && b.is_positive() && (p.is_positive() || q.certain_sign(0.0) == Some(Less) || meet().is_positive())
@@ -56,7 +58,8 @@ fn bent<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Option<Res
     let length = &to.t.sub(&from.t).over(&from.t)?;
     let gaps = [side(&from.gap)?, side(&to.gap)?];
     let once = gaps[0] != gaps[1];
-    let change = curves.slope_changes(&from.t.union(&to.t), |i| (from.z[i].union(&to.z[i]), from.s[i].union(&to.s[i])))?;
+    let change =
+        curves.slope_changes(&from.t.union(&to.t), |i| (from.z[i].union(&to.z[i]), from.s[i].union(&to.s[i])))?;
     let [second, third] = [change[1].first.sub(&change[0].first), change[1].second.sub(&change[0].second)];
     let slopes = [from.turn(), to.turn()];
     if let Some(sign) = side(&slopes[0]).filter(|sign| side(&slopes[1]) == Some(*sign)) {

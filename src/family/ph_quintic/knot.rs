@@ -22,7 +22,8 @@ impl<N: Real> Knot<N> {
     }
 }
 
-/// No less than `ln(b/a)`: `(r - 1)/√r` for their ratio r, with a little for rounding. At most 2^500: no certificate holds so far.
+/// No less than `ln(b/a)`: `(r - 1)/√r` for their ratio r, with a little for rounding. At most 2^500: no certificate
+/// holds so far.
 pub(super) fn length<N: Real>(a: &N, b: &N) -> f64 {
     let (low, high) = (a.approx(), b.approx());
     // Not below the normal range, where it would lose digits.

@@ -1,20 +1,21 @@
 //! All solutions with A, B > 0, counted with proof: where the two concave curves of [`super::curves`] meet.
 //!
-//! Let `D = ζ0 - ζ1` be their distance. Between a and b, L apart in x, two certificates need values and slopes at the ends only:
-//! - **No meeting.** A concave function lies above its chord, and below it by no more than `L/4` times the fall of its slope: so does the
-//!   tent of its two tangents. If D > 0 at both ends, ζ0 above its chord and ζ1 below its tent leave `D > 0` while
-//!   `min(D(a), D(b)) > (s1(b) - s1(a)) L/4`; likewise with the curves exchanged.
-//! - **At most one.** `D' = s1 - s0`, and both s increase: `s1(a) > s0(b)` makes D rise throughout, `s0(a) > s1(b)` fall. Then the
-//!   signs of D at the ends tell whether there is one.
+//! Let `D = ζ0 - ζ1` be their distance. Between a and b, L apart in x, two certificates need values and slopes at the
+//! ends only:
+//! - **No meeting.** A concave function lies above its chord, and below it by no more than `L/4` times the fall of its
+//!   slope: so does the tent of its two tangents. If D > 0 at both ends, ζ0 above its chord and ζ1 below its tent leave
+//!   `D > 0` while `min(D(a), D(b)) > (s1(b) - s1(a)) L/4`; likewise with the curves exchanged.
+//! - **At most one.** `D' = s1 - s0`, and both s increase: `s1(a) > s0(b)` makes D rise throughout, `s0(a) > s1(b)`
+//!   fall. Then the signs of D at the ends tell whether there is one.
 //!
 //! Before the first and behind the last knot the curves are bounded by their limits: A falls and B rises along both.
-//! Intervals with neither certificate are halved. ([`super::narrow`] has two more, for φ0 + φ1 close to π, and [`super::fork`] those for where
-//! solutions merge.) Distances are bounded by `|ln r| >= 2 |r - 1|/(r + 1)`.
+//! Intervals with neither certificate are halved. ([`super::narrow`] has two more, for φ0 + φ1 close to π, and
+//! [`super::fork`] those for where solutions merge.) Distances are bounded by `|ln r| >= 2 |r - 1|/(r + 1)`.
 //!
-//! A double meeting would need an algebraic relation between sines of the angles and the curvatures. By the theorem of Lindemann and
-//! Weierstrass the numbers `e^{iφ0/2}`, `e^{iφ1/2}` of doubles with irrational ratio are algebraically independent, and for a
-//! rational ratio one of them is still transcendental: so the relation would have to hold for all angles at once. None such is known;
-//! one would end as undecided at the precision cap.
+//! A double meeting would need an algebraic relation between sines of the angles and the curvatures. By the theorem of
+//! Lindemann and Weierstrass the numbers `e^{iφ0/2}`, `e^{iφ1/2}` of doubles with irrational ratio are algebraically
+//! independent, and for a rational ratio one of them is still transcendental: so the relation would have to hold for
+//! all angles at once. None such is known; one would end as undecided at the precision cap.
 
 use super::curves::Curves;
 use super::knot::{Knot, length};
@@ -45,8 +46,8 @@ fn nearest(bits: usize) -> i32 {
 /// Newton steps from a guess that may be poor where doubles have no range.
 const MOST_STEPS: usize = 200;
 
-/// Looks at intervals in one attempt, about two for each knot: the most that were seen to be needed is 60 knots, beside a fold, and intervals
-/// also reach further.
+/// Looks at intervals in one attempt, about two for each knot: the most that were seen to be needed is 60 knots, beside
+/// a fold, and intervals also reach further.
 fn most_looks(bits: usize) -> usize {
     if bits <= 53 { 160 } else { 400 }
 }
@@ -109,7 +110,11 @@ impl<N: Real> March<N> {
                     a = b;
                 }
                 Err(open) => {
-                    let cuts = if N::ORDERS == 0 { cuts::cuts(&self.curves, |t| self.knot(t), [&a, b], open)? } else { vec![] };
+                    let cuts = if N::ORDERS == 0 {
+                        cuts::cuts(&self.curves, |t| self.knot(t), [&a, b], open)?
+                    } else {
+                        vec![]
+                    };
                     if !cuts.is_empty() {
                         waiting.extend(cuts.into_iter().rev());
                         continue;
@@ -128,7 +133,9 @@ impl<N: Real> March<N> {
     fn aside(&self, a: &Knot<N>, b: &Knot<N>) -> Option<Knot<N>> {
         let (low, ratio) = (a.t.approx(), b.t.approx() / a.t.approx());
         let knot = |share: f64| self.knot(N::of(low * ratio.powf(share), self.bits()));
-        [0.3, 0.7, 0.15, 0.85, 0.05, 0.95].into_iter().find_map(|share| knot(share).filter(|k| k.gap.certain_sign(0.0).is_some()))
+        [0.3, 0.7, 0.15, 0.85, 0.05, 0.95]
+            .into_iter()
+            .find_map(|share| knot(share).filter(|k| k.gap.certain_sign(0.0).is_some()))
     }
 
     /// A knot before which there is no solution.
@@ -163,7 +170,8 @@ impl<N: Real> March<N> {
         let (mut low, mut high) = (a.t.clone(), b.t.clone());
         let within = |t: &N, low: &N, high: &N| t.sub(low).is_positive() && high.sub(t).is_positive();
         let guess = Some(self.guess(a, b)).filter(|t| t.is_normal()).map(|t| N::of(t, self.bits()));
-        let mut knot = self.knot(guess.filter(|t| within(t, &low, &high)).map_or_else(|| middle(&low, &high), Some)?)?;
+        let mut knot =
+            self.knot(guess.filter(|t| within(t, &low, &high)).map_or_else(|| middle(&low, &high), Some)?)?;
         let step = |knot: &Knot<N>| knot.gap.over(&knot.s[1].sub(&knot.s[0]));
         let bits = self.bits() as i32;
         let enough = N::power_of_two(bits / 4 * 3, self.bits());
@@ -177,7 +185,8 @@ impl<N: Real> March<N> {
                 Some(_) => high = knot.t.clone(),
                 None => break,
             }
-            // Near the solution in t; far from it in ln t, where both curves are nearly straight and D is no longer its bound.
+            // Near the solution in t; far from it in ln t, where both curves are nearly straight and D is no longer its
+            // bound.
             let newton = if moved.most() < 0.25 {
                 Some(formula!(knot.t - knot.t * moved).middle())
             } else {
@@ -257,7 +266,8 @@ fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Verdict {
 fn times_exp<N: Real>(t: &N, x: f64) -> Option<N> {
     let exponent = (x / LN_2).round();
     let rest = (x - exponent * LN_2).exp();
-    (exponent.abs() < 2f64.powi(14)).then(|| formula!(t * N::power_of_two(exponent as i32, t.bits()) * { rest }).middle())
+    (exponent.abs() < 2f64.powi(14))
+        .then(|| formula!(t * N::power_of_two(exponent as i32, t.bits()) * { rest }).middle())
 }
 
 /// The middle of two in ln t, whatever their sizes.
@@ -276,5 +286,7 @@ fn between<N: Real>(a: &N, b: &N) -> Option<N> {
         return Some(N::of(t, a.bits()));
     }
     let apart = b.sub(a);
-    formula!(apart - a * N::power_of_two(nearest(a.bits()), a.bits())).is_positive().then(|| formula!(a + 0.469 * apart).middle())
+    formula!(apart - a * N::power_of_two(nearest(a.bits()), a.bits()))
+        .is_positive()
+        .then(|| formula!(a + 0.469 * apart).middle())
 }

@@ -1,14 +1,17 @@
 //! Pythagorean-hodograph quintic spirals matching G² Hermite data: all of them, counted with proof.
 //!
 //! # How it is done
-//! - The two equations, taken across the two end tangents, have positive terms only, for all φ0 + φ1 < π: level lines of posynomials, so in (ln(B/A), ln A²) two graphs
-//!   of concave functions (`curves.rs`). Values and slopes at two points prove "no meeting" (chord against tent) or "at most one" (monotone distance); `march.rs`
-//!   halves until one of them holds. No resultant of degree 18, nothing cancels, and f32, f64 and intervals run the same steps.
-//! - `num::Ball` is a double with its error; `num::Real` is what it shares with `Interval`, so the algorithm is written once. The shader is its twin.
+//! - The two equations, taken across the two end tangents, have positive terms only, for all φ0 + φ1 < π: level lines
+//!   of posynomials, so in (ln(B/A), ln A²) two graphs of concave functions (`curves.rs`). Values and slopes at two
+//!   points prove "no meeting" (chord against tent) or "at most one" (monotone distance); `march.rs` halves until one
+//!   of them holds. No resultant of degree 18, nothing cancels, and f32, f64 and intervals run the same steps.
+//! - `num::Ball` is a double with its error; `num::Real` is what it shares with `Interval`, so the algorithm is written
+//!   once. The shader is its twin.
 //! - `narrow.rs` has more certificates for nearly parallel tangents, where both equations almost coincide.
 //! - `fork.rs` has those for where solutions merge, and `cuts.rs` finds by Newton's method where to ask them.
 //! - `region.rs` runs the same march over boxes of data.
-//! - Curvature is positive for A, B > 0, so a spiral is the sign of one quintic, as in `cubic`. Energies are Taylor series on pieces with a remainder bound.
+//! - Curvature is positive for A, B > 0, so a spiral is the sign of one quintic, as in `cubic`. Energies are Taylor
+//!   series on pieces with a remainder bound.
 
 mod curves;
 mod cuts;
@@ -67,12 +70,23 @@ const COUNTS: &[Count] = &[
         shift: 0,
         bits: 3,
     },
-    Count { name: "spirals", doc: "number of solutions whose curve is a spiral; 7 stands for 7 and more", shift: 3, bits: 3 },
+    Count {
+        name: "spirals",
+        doc: "number of solutions whose curve is a spiral; 7 stands for 7 and more",
+        shift: 3,
+        bits: 3,
+    },
 ];
 
 const SCALARS: &[Scalar] = &[
-    Scalar { name: "A", doc: "|w0| of the spiral of least bending energy, above 0; A^2 is the start's speed in half chords" },
-    Scalar { name: "B", doc: "|w2| of the spiral of least bending energy, above 0; B^2 is the end's speed in half chords" },
+    Scalar {
+        name: "A",
+        doc: "|w0| of the spiral of least bending energy, above 0; A^2 is the start's speed in half chords",
+    },
+    Scalar {
+        name: "B",
+        doc: "|w2| of the spiral of least bending energy, above 0; B^2 is the end's speed in half chords",
+    },
     Scalar {
         name: "energy",
         doc: "bending energy of that spiral, above 0: the integral of the squared curvature over arc length, times half the chord",

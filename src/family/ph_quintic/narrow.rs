@@ -1,9 +1,10 @@
-//! Two more certificates, for φ0 + φ1 close to π: there cos Φ is small, and the two curves of [`super::curves`] lie so close that slopes
-//! at the ends of an interval hardly tell them apart.
+//! Two more certificates, for φ0 + φ1 close to π: there cos Φ is small, and the two curves of [`super::curves`] lie so
+//! close that slopes at the ends of an interval hardly tell them apart.
 //!
-//! Along the second curve the first equation's residual is `2 cos Φ H`, `H = E1 - E0 + 30 sin δ / sin Φ`, `δ = (φ1 - φ0)/2`: H has the
-//! sign of -D, and is not small. Between two knots A falls and B rises, so each of its terms lies between its values at corners; and
-//! with `dζ/dx = -s` a term with the powers k of Z and j of t changes by its (j - ks)-fold.
+//! Along the second curve the first equation's residual is `2 cos Φ H`, `H = E1 - E0 + 30 sin δ / sin Φ`,
+//! `δ = (φ1 - φ0)/2`: H has the sign of -D, and is not small. Between two knots A falls and B rises, so each of its
+//! terms lies between its values at corners; and with `dζ/dx = -s` a term with the powers k of Z and j of t changes by
+//! its (j - ks)-fold.
 
 use super::curves::Curves;
 use super::knot::Knot;

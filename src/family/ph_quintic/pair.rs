@@ -77,7 +77,8 @@ impl Pair<Interval> {
 }
 
 impl Pair<Twin> {
-    /// The pair in two doubles each; `None` when they do not tell that cos Φ is positive, or where halving an angle may not be exact.
+    /// The pair in two doubles each; `None` when they do not tell that cos Φ is positive, or where halving an angle may
+    /// not be exact.
     pub fn twins(phi0: f64, phi1: f64) -> Option<Pair<Twin>> {
         let half = |phi: f64| (phi > 1e-300).then(|| Twin::sine_cosine(0.5 * phi));
         Pair::of_halves([half(phi0)?, half(phi1)?], phi0 < phi1)
@@ -109,7 +110,8 @@ mod tests {
     #[test]
     fn doubles_hold_the_constants() {
         let mut worst: f64 = 0.0;
-        let angles = [1e-300, 1e-12, 1e-3, 0.1, 0.7, 0.7000000001, 0.9, 1.5, std::f64::consts::FRAC_PI_2, 1.6, 2.2, 3.0, 3.1];
+        let angles =
+            [1e-300, 1e-12, 1e-3, 0.1, 0.7, 0.7000000001, 0.9, 1.5, std::f64::consts::FRAC_PI_2, 1.6, 2.2, 3.0, 3.1];
         let mut compared = 0;
         for phi0 in angles {
             for phi1 in angles {
@@ -118,7 +120,11 @@ mod tests {
                 let [s0, s1, square] = &pair.outer;
                 let [t0, t1, t2] = &truth.outer;
                 let mut all = vec![(pair.sin, &truth.sin), (pair.cos, &truth.cos), (*s0, t0), (*s1, t1)];
-                all.extend([(pair.right[0], &truth.right[0]), (pair.right[1], &truth.right[1]), (pair.skew, &truth.skew)]);
+                all.extend([
+                    (pair.right[0], &truth.right[0]),
+                    (pair.right[1], &truth.right[1]),
+                    (pair.skew, &truth.skew),
+                ]);
                 if pair.rising {
                     all.push((*square, t2));
                 }

@@ -12,8 +12,9 @@ use crate::num::Ball;
 const UNIT: f64 = 1.0 / (1u32 << 24) as f64;
 /// Relative error of a left-hand side against its right one, and of each of the four sums in a slope.
 ///
-/// Roundings in the longest term, `2Cβ'² t⁶ Z³`: cos Φ 1, β' 3 (table, 1/(4 sin Φ), product), twice; their products 3; t⁶ 5 and its
-/// product 1; three sums in the coefficient and around, Horner's rule 6; the right-hand side 1 and the difference 1: 27.
+/// Roundings in the longest term, `2Cβ'² t⁶ Z³`: cos Φ 1, β' 3 (table, 1/(4 sin Φ), product), twice; their products 3;
+/// t⁶ 5 and its product 1; three sums in the coefficient and around, Horner's rule 6; the right-hand side 1 and the
+/// difference 1: 27.
 const TERM: f64 = 36.0 * UNIT;
 /// The quintic: α', β' 3 each, up to three of them in a term; cos Φ 1; some 18 products and sums; 1/3 is off by 1 more.
 const SHAPE: f64 = 40.0 * UNIT;
@@ -22,8 +23,8 @@ const OUTER: f64 = 6.0 * UNIT;
 /// Curvatures beyond this, or nonzero ones below [`LEAST_KAPPA`], are left to f64.
 const MOST: f64 = (1u32 << 24) as f64;
 const LEAST_KAPPA: f64 = 1.0 / (1u64 << 60) as f64;
-/// Heights Z outside are left to f64: what is flushed below 2^-126 in a coefficient stays below 2^-50 in a sum that must be at least
-/// [`LEAST`].
+/// Heights Z outside are left to f64: what is flushed below 2^-126 in a coefficient stays below 2^-50 in a sum that
+/// must be at least [`LEAST`].
 const MOST_Z: f64 = (1u32 << 24) as f64;
 const LEAST_Z: f64 = 1.0 / MOST_Z;
 /// Constants of a pair must be at least this.

@@ -24,8 +24,8 @@ pub struct Quintic {
     pub energy: f64,
     /// Arc length in half chords.
     pub length: f64,
-    /// Least value of the numerator of κ' on [0, 1] over its largest Bernstein coefficient: positive inside the region of spirals, 0 on its
-    /// boundary, negative outside; in [-1, 1].
+    /// Least value of the numerator of κ' on [0, 1] over its largest Bernstein coefficient: positive inside the region
+    /// of spirals, 0 on its boundary, negative outside; in [-1, 1].
     pub margin: f64,
 }
 
@@ -62,13 +62,14 @@ impl Solutions {
 /// Solves one datum exactly.
 ///
 /// # Accuracy
-/// Flags, the number of solutions, the verdict of each, and which has the least energy are proved. A, B, energy and length are proved to
-/// 2^-36, relative, margins to 2^-30, absolute; pre-image and control points follow from them in doubles.
+/// Flags, the number of solutions, the verdict of each, and which has the least energy are proved. A, B, energy and
+/// length are proved to 2^-36, relative, margins to 2^-30, absolute; pre-image and control points follow from them in
+/// doubles.
 ///
 /// # Errors
-/// [`crate::Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`, or where A, B, energy or
-/// length of a solution is above 0 in truth and leaves the range of doubles ([`flags`] answers there too);
-/// [`crate::Error::Undecided`] at the precision cap.
+/// [`crate::Error::Domain`] for a datum that is not finite or has angles outside `0 < φ0, 0 < φ1, φ0 + φ1 < π`, or
+/// where A, B, energy or length of a solution is above 0 in truth and leaves the range of doubles ([`flags`] answers
+/// there too); [`crate::Error::Undecided`] at the precision cap.
 ///
 /// # Source
 /// Pythagorean-hodograph quintics in complex form (Farouki), (2)-(9); the two equations are in the module's `curves`.
@@ -100,7 +101,8 @@ fn within_range(datum: &Datum, quintic: &Quintic) -> Result<()> {
     }
 }
 
-/// The flags of one datum, as of [`Solutions::flags`], without its curves: several hundred times cheaper than [`solve`] where there is no spiral.
+/// The flags of one datum, as of [`Solutions::flags`], without its curves: several hundred times cheaper than [`solve`]
+/// where there is no spiral.
 ///
 /// # Errors
 /// Those of [`solve`].
@@ -114,7 +116,8 @@ pub fn flags(datum: &Datum) -> Result<u8> {
     if let Some(code) = Pair::twins(phi0, phi1).and_then(|pair| truth::verdict(&pair, kappa)) {
         return Ok(code.flags());
     }
-    climb(datum, "a verdict", |bits| truth::verdict(&*Pair::cached(phi0, phi1, bits)?, kappa)).map(|(code, _)| code.flags())
+    climb(datum, "a verdict", |bits| truth::verdict(&*Pair::cached(phi0, phi1, bits)?, kappa))
+        .map(|(code, _)| code.flags())
 }
 
 /// All numbers as accurate as [`solve`] promises, or `None`.
@@ -182,8 +185,8 @@ pub(super) fn answer(point: &[f64; 4]) -> Result<Answer> {
     Ok(Answer { code: solutions.code, derived: vec![], solutions: all, chosen: solutions.chosen })
 }
 
-/// The scalars A, B, energy, length, margin (0 to 4) of the chosen spiral of a datum that has one, each rounded to nearest f32 with proof;
-/// beyond the largest single, that.
+/// The scalars A, B, energy, length, margin (0 to 4) of the chosen spiral of a datum that has one, each rounded to
+/// nearest f32 with proof; beyond the largest single, that.
 pub(super) fn scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> Result<()> {
     let by_doubles = Pair::<Ball>::new(datum.phi0, datum.phi1).and_then(|pair| rounded(datum, &pair, which));
     match by_doubles.or_else(|| rounded(datum, &Pair::twins(datum.phi0, datum.phi1)?, which)) {

@@ -1,8 +1,9 @@
-//! The work for one datum is bounded by its digits: its counted steps stay few near every case where the equations degenerate.
+//! The work for one datum is bounded by its digits: its counted steps stay few near every case where the equations
+//! degenerate.
 //!
-//! A step is one knot, one height that starts from logarithms, or one piece of an energy, a margin or a sign. Brackets take some 60
-//! knots at most, and solutions a dozen each. The pieces are halved down to the sharpest bend, which data of doubles put as close to an end
-//! as 2^-1000. A few precisions are tried.
+//! A step is one knot, one height that starts from logarithms, or one piece of an energy, a margin or a sign. Brackets
+//! take some 60 knots at most, and solutions a dozen each. The pieces are halved down to the sharpest bend, which data
+//! of doubles put as close to an end as 2^-1000. A few precisions are tried.
 
 use super::{Datum, PhQuintic, SOLVABLE, flags, solve};
 use crate::error::Error;
@@ -54,7 +55,9 @@ fn few_steps_beside_the_limits_of_angles_and_curvatures() {
     let mut most = (0, None);
     let next = |x: f64| [x.next_down(), x, x.next_up()];
     for phi0 in next(0.7) {
-        for phi1 in next(0.7).into_iter().chain(next(PI - 0.7)).filter(|phi1| crate::num::sines::sum_below_pi(phi0, *phi1)) {
+        for phi1 in
+            next(0.7).into_iter().chain(next(PI - 0.7)).filter(|phi1| crate::num::sines::sum_below_pi(phi0, *phi1))
+        {
             for kappa in [0.3, 1.0, 1e40] {
                 for kappa1 in next(kappa) {
                     case(Datum { phi0, phi1, kappa0: kappa, kappa1 }, &mut most);
@@ -79,11 +82,12 @@ fn few_steps_where_tangents_all_but_run_against_each_other() {
     assert!(case(datum, &mut most) && most.0 < 1000, "{most:?}");
 }
 
-/// Circular arcs of small angles, in doubles, and their neighbours: one solution is about to become three, some angle apart. Doubles, sums of
-/// two and intervals of each precision try in turn, and each adds its steps.
+/// Circular arcs of small angles, in doubles, and their neighbours: one solution is about to become three, some angle
+/// apart. Doubles, sums of two and intervals of each precision try in turn, and each adds its steps.
 #[test]
 fn few_steps_near_a_fork_however_near() {
-    let sizes = [1e-1, 1e-2, 1e-4, 1e-7, 1e-10, 1e-20, 1e-40, 1e-50, 1e-100, 1e-150, 1e-200, 1e-300, 1e-307, 1e-310, 5e-324];
+    let sizes =
+        [1e-1, 1e-2, 1e-4, 1e-7, 1e-10, 1e-20, 1e-40, 1e-50, 1e-100, 1e-150, 1e-200, 1e-300, 1e-307, 1e-310, 5e-324];
     let mut most = (0, None);
     for x in sizes {
         let datum = Datum { phi0: x, phi1: x, kappa0: x, kappa1: x };

@@ -32,7 +32,13 @@ impl<'g> PhTable<'g> {
     }
 
     /// The scalars of a node, or none where there is no spiral.
-    fn fill(&self, node: u64, code: Code, out: &mut [f32], by: impl Fn(&Datum, &mut [f32]) -> Result<()>) -> Result<()> {
+    fn fill(
+        &self,
+        node: u64,
+        code: Code,
+        out: &mut [f32],
+        by: impl Fn(&Datum, &mut [f32]) -> Result<()>,
+    ) -> Result<()> {
         if code.flags() & super::SPIRAL == 0 {
             out.fill(NO_VALUE);
             return Ok(());

@@ -127,8 +127,9 @@ impl Measured for Interval {
     }
 }
 
-/// An energy as accurate as [`super::solve`] promises, not more: in doubles where they do, since a series of intervals costs a hundred times
-/// as much and more the longer they are. The f64 step seldom gets so far, because its solution is off by more than the roundings of the series.
+/// An energy as accurate as [`super::solve`] promises, not more: in doubles where they do, since a series of intervals
+/// costs a hundred times as much and more the longer they are. The f64 step seldom gets so far, because its solution is
+/// off by more than the roundings of the series.
 fn about<N: Measured>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
     let bits = speed[0].bits();
     let ball = energy(&speed.each_ref().map(Ball::enclosing), &turn.each_ref().map(Ball::enclosing));
@@ -162,13 +163,22 @@ pub(super) fn measure<N: Measured>(
     let fifth = N::of(5.0, z.bits());
     let length = formula!((s0 + s1 + s2 + s3 + s4) * z).over(&fifth)?;
     Some(Measures {
-        numbers: [a.times(curves.scale[0]), formula!(a * t * { curves.scale[1] }), energy_of(pair, solution, energy)?, length],
+        numbers: [
+            a.times(curves.scale[0]),
+            formula!(a * t * { curves.scale[1] }),
+            energy_of(pair, solution, energy)?,
+            length,
+        ],
         margin: N::margin(&solution.shape.quintic())?,
     })
 }
 
 /// The spiral of least energy, as an index; `None` when two cannot be told apart.
-pub(super) fn chosen<N: Measured>(pair: &Pair<N>, solutions: &[Solution<N>], energy: Energy<N>) -> Option<Option<usize>> {
+pub(super) fn chosen<N: Measured>(
+    pair: &Pair<N>,
+    solutions: &[Solution<N>],
+    energy: Energy<N>,
+) -> Option<Option<usize>> {
     let spirals: Vec<usize> = (0..solutions.len()).filter(|i| solutions[*i].spiral).collect();
     let (Some(first), true) = (spirals.first(), spirals.len() > 1) else { return Some(spirals.first().copied()) };
     let mut best = (*first, energy_of(pair, &solutions[*first], energy)?);

@@ -9,7 +9,8 @@ use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::rc::Rc;
 
-/// Relative error of `to_alpha` and `to_beta`, in units of 2^-53: tan is 10 + 10 + 1, squared and divided into a constant 44.
+/// Relative error of `to_alpha` and `to_beta`, in units of 2^-53: tan is 10 + 10 + 1, squared and divided into a
+/// constant 44.
 pub(super) const SCALE_ERROR: f64 = 45.0;
 
 /// The constants of an angle; see [`super::poly`] for L, g, α, β.

@@ -38,7 +38,12 @@ pub(super) fn judge<N: Rooted>(
 }
 
 /// The segment with this end point, if there is one.
-fn shape<N: Rooted>(kind: Kind, angle: &ExactAngle<N>, [xi, eta]: [f64; 2], case: usize) -> Option<Option<SegmentShape<N>>> {
+fn shape<N: Rooted>(
+    kind: Kind,
+    angle: &ExactAngle<N>,
+    [xi, eta]: [f64; 2],
+    case: usize,
+) -> Option<Option<SegmentShape<N>>> {
     let bits = angle.sin.bits();
     let h = formula!(angle.sin * { xi } - angle.cos * { eta });
     let eta = N::of(eta, bits);

@@ -1,7 +1,7 @@
 //! The f64 step: classifies a vector of nodes of one angle, with proof, or leaves them undecided.
 //!
-//! Guesses (division, square roots, Newton's method) only choose where to look; what is stored rests on `+ - *` with these
-//! bounds. The shaders do the same in f32, function by function (`shaders/reach/`).
+//! Guesses (division, square roots, Newton's method) only choose where to look; what is stored rests on `+ - *` with
+//! these bounds. The shaders do the same in f32, function by function (`shaders/reach/`).
 
 use super::angle::{Angle, SCALE_ERROR};
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
@@ -12,7 +12,8 @@ use crate::num::Verdict;
 use crate::num::bernstein::positive;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask};
 
-/// Constants of the error bounds: they count operations for each term, so they hold with fused multiply-adds and reassociation.
+/// Constants of the error bounds: they count operations for each term, so they hold with fused multiply-adds and
+/// reassociation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Precision {
     /// Unit roundoff u.
@@ -142,7 +143,14 @@ pub(super) fn sides<S: Simd>(simd: S, angle: &Angle, xi: f64, eta: S::f64s) -> [
 
 /// The segment with α from `a` and β from `b`.
 #[inline(always)]
-pub(super) fn shape<S: Simd>(simd: S, kind: Kind, angle: &Angle, a: &Near<S>, b: &Near<S>, none: u64) -> SegmentLanes<S> {
+pub(super) fn shape<S: Simd>(
+    simd: S,
+    kind: Kind,
+    angle: &Angle,
+    a: &Near<S>,
+    b: &Near<S>,
+    none: u64,
+) -> SegmentLanes<S> {
     let (alpha, beta) = (a.scaled(angle.to_alpha), b.scaled(angle.to_beta));
     let (least, most) = (S::f64s::splat(simd, 1.0 / P.most_alpha), S::f64s::splat(simd, P.most_alpha));
     let usable = alpha.value.simd_gt(least) & alpha.value.simd_lt(most);
@@ -216,7 +224,8 @@ impl<S: Simd> Curve<S> {
     }
 }
 
-/// Newton's method for G/u³ from where `m = LEAST_M`, then a proof: G has certain signs on both sides of a short interval.
+/// Newton's method for G/u³ from where `m = LEAST_M`, then a proof: G has certain signs on both sides of a short
+/// interval.
 #[inline(always)]
 fn ph<S: Simd>(simd: S, g: f64, alpha: &Near<S>, beta: &Near<S>, wanted: u64) -> SegmentLanes<S> {
     const MOST_STEPS: u32 = 16;
@@ -281,7 +290,8 @@ pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Segmen
     for i in 0..6 {
         error[i] = Lanes(error[i].0 * relative);
         if i < 4 {
-            (above[i], below[i]) = (bits::<S>(value[i].0.simd_gt(error[i].0)), bits::<S>(value[i].0.simd_lt(-error[i].0)));
+            (above[i], below[i]) =
+                (bits::<S>(value[i].0.simd_gt(error[i].0)), bits::<S>(value[i].0.simd_lt(-error[i].0)));
         }
     }
     let star = least_drawn_m(kind);
@@ -309,7 +319,8 @@ pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Segmen
     Planes { flags: [open & known, exact & known, theorem & known, paper & known], known: shape.none | known }
 }
 
-/// Whether the quintic is positive, from its coefficients and their errors: the least quintic may prove it, the greatest disprove it.
+/// Whether the quintic is positive, from its coefficients and their errors: the least quintic may prove it, the
+/// greatest disprove it.
 fn spiral(value: [f64; 6], error: [f64; 6]) -> Verdict {
     const DEPTH: u32 = 20;
     let sign = |side: f64| {
@@ -326,8 +337,8 @@ fn spiral(value: [f64; 6], error: [f64; 6]) -> Verdict {
 /// The codes of a vector of nodes that share θ and ξ.
 #[inline(always)]
 pub(super) fn classify<S: Simd>(simd: S, kind: Kind, angle: &Angle, xi: f64, eta: S::f64s, out: &mut [Code]) {
-    // No closures around what runs on vectors: they are not always inlined into code for a wider level, and then every operation
-    // becomes a call.
+    // No closures around what runs on vectors: they are not always inlined into code for a wider level, and then every
+    // operation becomes a call.
     let mut cases = [Planes::default(); 2];
     for (planes, (a, b, none)) in cases.iter_mut().zip(&sides(simd, angle, xi, eta)) {
         let shape = shape(simd, kind, angle, a, b, *none);

@@ -1,14 +1,16 @@
-//! Reachable end points of a spiral segment with given angle and end radius (Habib & Sakai, CGIV 2004): cubic and PH quintic.
+//! Reachable end points of a spiral segment with given angle and end radius (Habib & Sakai, CGIV 2004): cubic and PH
+//! quintic.
 //!
 //! # How it is done
-//! - One module for both; `Kind` chooses the polynomials (`poly.rs`). With u = L/q, L = sin θ or tan(θ/2), nothing of the angle is left in the quintic but
-//!   g = cos θ or cos²(θ/2), so a small angle is no special case.
+//! - One module for both; `Kind` chooses the polynomials (`poly.rs`). With u = L/q, L = sin θ or tan(θ/2), nothing of
+//!   the angle is left in the quintic but g = cos θ or cos²(θ/2), so a small angle is no special case.
 //! - Case 2 is the mirror of case 1 with (a, b) exchanged: one code for both, four bits each.
-//! - The cubic's inverse is explicit. That of the PH quintic is one root of a function that is monotone where m > -0.37 (proof in `poly.rs`), so one certified
-//!   bracket both finds and counts it.
+//! - The cubic's inverse is explicit. That of the PH quintic is one root of a function that is monotone where m > -0.37
+//!   (proof in `poly.rs`), so one certified bracket both finds and counts it.
 //! - The four terms of the theorems are `c0..c3 >= 0`; the exact test is the sign of the same quintic, as in `cubic`.
 //! - `region.rs` proves the flags over boxes.
-//! - Cases 3 and 4 are unions over angles: a kind of picture (`union`), not flags, because a flag must be a fact about its node.
+//! - Cases 3 and 4 are unions over angles: a kind of picture (`union`), not flags, because a flag must be a fact about
+//!   its node.
 
 mod angle;
 mod curve;
@@ -105,10 +107,22 @@ const FLAGS: &[Flag] = &[
 ];
 
 const SCALARS: &[Scalar] = &[
-    Scalar { name: "m1", doc: "shape m of the segment of case 1, above 0, no unit; the largest single where m is larger" },
-    Scalar { name: "q1", doc: "shape q of the segment of case 1, above 0, no unit; the largest single where q is larger" },
-    Scalar { name: "m2", doc: "shape m of the segment of case 2, above 0, no unit; the largest single where m is larger" },
-    Scalar { name: "q2", doc: "shape q of the segment of case 2, above 0, no unit; the largest single where q is larger" },
+    Scalar {
+        name: "m1",
+        doc: "shape m of the segment of case 1, above 0, no unit; the largest single where m is larger",
+    },
+    Scalar {
+        name: "q1",
+        doc: "shape q of the segment of case 1, above 0, no unit; the largest single where q is larger",
+    },
+    Scalar {
+        name: "m2",
+        doc: "shape m of the segment of case 2, above 0, no unit; the largest single where m is larger",
+    },
+    Scalar {
+        name: "q2",
+        doc: "shape q of the segment of case 2, above 0, no unit; the largest single where q is larger",
+    },
 ];
 
 const CUBIC_CHARTS: &[Chart] = &[Chart {

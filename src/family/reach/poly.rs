@@ -1,8 +1,8 @@
 //! The two spiral quintics and the map from a segment's shape to its end point, in a form without the angle's size.
 //!
-//! A segment of Habib & Sakai (CGIV'04) has the shape (m, q). With `q = L x`, `L = sin θ` (cubic) or `tan(θ/2)` (PH quintic),
-//! and `u = 1/x`, the numerator of κ'(t), `t = 1/(1+s)`, is `Σ c_i s^i` (case 1) or `-Σ c_i s^(5-i)` (case 2) with, up to the
-//! positive factor `L² x²` and with `g = cos θ` (cubic) or `cos²(θ/2)` (PH),
+//! A segment of Habib & Sakai (CGIV'04) has the shape (m, q). With `q = L x`, `L = sin θ` (cubic) or `tan(θ/2)` (PH
+//! quintic), and `u = 1/x`, the numerator of κ'(t), `t = 1/(1+s)`, is `Σ c_i s^i` (case 1) or `-Σ c_i s^(5-i)` (case 2)
+//! with, up to the positive factor `L² x²` and with `g = cos θ` (cubic) or `cos²(θ/2)` (PH),
 //!
 //! ```text
 //! cubic  c0 = 4u(3g - (4+m)u)        c1 = 2(6 - 2(5-4m)gu - 10mu²)       c2 = 2(13m - 2 - 4m(4-m)gu)
@@ -14,7 +14,8 @@
 //! Nothing but (m, u, g) is left of the angle, so a small θ is no special case.
 //!
 //! # End points
-//! With `h = ξ sin θ - η cos θ`, case 1 has `(a, b) = (η, h)` and case 2, its mirror, `(a, b) = (h, η)`. The end point is then
+//! With `h = ξ sin θ - η cos θ`, case 1 has `(a, b) = (η, h)` and case 2, its mirror, `(a, b) = (h, η)`. The end point
+//! is then
 //!
 //! ```text
 //! cubic  α = 3a/L²     αu  = 1                 β = 6b/L²     βu² = 1 + m
@@ -22,14 +23,16 @@
 //! ```
 //!
 //! The cubic's inverse is explicit. For the PH quintic put `m = αu² - 24gu - 3` into
-//! `G(u) = 2(3+m)u + 2 + 3m + 3m² - βu³`. With α fixed and `n = 3 + m`, the end point's β as a function of `x = 1/u` has the
-//! derivative `-48g + (360 - 144n)gx + (60 - 15n - 3n²)x²`, negative for `n > 2.63`; there m rises with u too. So `G/u³` increases
-//! wherever `m > -0.37`, at most one u is a root there, and [`LEAST_M`] is a safe place from which to look for it.
+//! `G(u) = 2(3+m)u + 2 + 3m + 3m² - βu³`. With α fixed and `n = 3 + m`, the end point's β as a function of `x = 1/u`
+//! has the derivative `-48g + (360 - 144n)gx + (60 - 15n - 3n²)x²`, negative for `n > 2.63`; there m rises with u too.
+//! So `G/u³` increases wherever `m > -0.37`, at most one u is a root there, and [`LEAST_M`] is a safe place from which
+//! to look for it.
 //!
 //! # Conditions
-//! Since `sin θ > 0` (and `cos θ > 0` for the cubic), the four terms of Theorems 2.1 and 3.1 and their `m > 3/10` or `3/7` say
-//! just `c0, c1, c2, c3 >= 0`: c3 >= 0 implies the bound on m, the second term is c2 >= 0, and the fourth is the positive root of
-//! c1 = 0, a quadratic in q with a negative constant term. The first term A1 is c0 >= 0, and the drawn region adds `m >= m*`.
+//! Since `sin θ > 0` (and `cos θ > 0` for the cubic), the four terms of Theorems 2.1 and 3.1 and their `m > 3/10` or
+//! `3/7` say just `c0, c1, c2, c3 >= 0`: c3 >= 0 implies the bound on m, the second term is c2 >= 0, and the fourth is
+//! the positive root of c1 = 0, a quadratic in q with a negative constant term. The first term A1 is c0 >= 0, and the
+//! drawn region adds `m >= m*`.
 
 use super::Kind;
 use crate::num::{Number, formula};
@@ -137,7 +140,8 @@ mod tests {
     /// The sums of absolute terms, by evaluating every term apart.
     #[test]
     fn sums_of_terms_match_the_largest_values_over_signs() {
-        // With u and g of either sign every combination of signs of the monomials' parities is met; none exceeds the sum.
+        // With u and g of either sign every combination of signs of the monomials' parities is met; none exceeds the
+        // sum.
         for kind in [Kind::Cubic, Kind::Ph] {
             let sizes = coefficients(kind, &0.7, &0.3, &0.6, 1.0);
             for (u, g) in [(0.3, 0.6), (-0.3, 0.6), (0.3, -0.6), (-0.3, -0.6)] {

@@ -155,8 +155,8 @@ fn ph_root(alpha: &Three, beta: &Three, g: &Three) -> Option<Three> {
     None
 }
 
-/// Whether `m >= m*`. Its double and the sum with the slack are each off by at most a quarter of 2^-52, and the slack is
-/// more than half of that.
+/// Whether `m >= m*`. Its double and the sum with the slack are each off by at most a quarter of 2^-52, and the slack
+/// is more than half of that.
 fn drawn(kind: Kind, m: &Three) -> Verdict {
     let least = least_drawn_m(kind);
     let slack = f64::EPSILON * least;
@@ -224,7 +224,9 @@ impl Region for Reach {
     }
 
     fn facts(&self, _: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
-        let (Ok(low), Ok(high)) = (<[f64; 3]>::try_from(low), <[f64; 3]>::try_from(high)) else { return Facts::default() };
+        let (Ok(low), Ok(high)) = (<[f64; 3]>::try_from(low), <[f64; 3]>::try_from(high)) else {
+            return Facts::default();
+        };
         let kind = self.0;
         let inside = check(kind, low[0]).is_ok() && check(kind, high[0]).is_ok();
         if !inside || !low.iter().chain(&high).all(|x| x.is_finite()) {

@@ -20,7 +20,8 @@ const MOST: f64 = (1u32 << 30) as f64;
 
 pub(super) fn shader(kind: Kind) -> Shader {
     const P: Precision = Precision::F32;
-    let flags = [("EXISTS", EXISTS), ("EXACT", EXACT), ("THEOREM", THEOREM), ("PAPER", PAPER), ("CASE_BITS", CASE_BITS as u8)];
+    let flags =
+        [("EXISTS", EXISTS), ("EXACT", EXACT), ("THEOREM", THEOREM), ("PAPER", PAPER), ("CASE_BITS", CASE_BITS as u8)];
     let star = least_drawn_m(kind);
     let numbers = [
         ("UNIT", P.unit),

@@ -82,8 +82,8 @@ pub struct Reached {
 /// Which exist, and their levels, are proved; m and q are correctly rounded.
 ///
 /// # Errors
-/// [`Error::Domain`] for an angle outside the family's range or a coordinate that is not finite, or a shape beyond the range of
-/// doubles; [`Error::Undecided`] at the precision cap.
+/// [`Error::Domain`] for an angle outside the family's range or a coordinate that is not finite, or a shape beyond the
+/// range of doubles; [`Error::Undecided`] at the precision cap.
 ///
 /// # Source
 /// Habib & Sakai (CGIV 2004), (7) and (20); the exact test replaces the sufficient one.
@@ -134,8 +134,8 @@ fn segment<N: Rooted>(
 /// What is true of the segment with an angle and a shape, proved for these doubles.
 ///
 /// # Errors
-/// [`Error::Domain`] for an angle outside the family's range or a shape that is not finite and positive; [`Error::Undecided`] at the
-/// precision cap.
+/// [`Error::Domain`] for an angle outside the family's range or a shape that is not finite and positive;
+/// [`Error::Undecided`] at the precision cap.
 pub fn level_of_shape(kind: Kind, theta: f64, m: f64, q: f64) -> Result<Level> {
     check(kind, theta)?;
     for (name, value) in [("m", m), ("q", q)] {

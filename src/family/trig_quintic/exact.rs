@@ -33,9 +33,9 @@ pub(super) const HALVINGS: u32 = 120;
 
 /// One attempt at all flags; `None` when something is undecided at this precision.
 ///
-/// A numerator that only touches 0 inside would stay undecided. But then its discriminant is 0, a polynomial in cos θ with rational
-/// coefficients; cos θ of a double θ is transcendental (Lindemann), so that it would have to vanish for all θ. At the end
-/// κ'(1) = 0 does happen, and is divided out.
+/// A numerator that only touches 0 inside would stay undecided. But then its discriminant is 0, a polynomial in cos θ
+/// with rational coefficients; cos θ of a double θ is transcendental (Lindemann), so that it would have to vanish for
+/// all θ. At the end κ'(1) = 0 does happen, and is divided out.
 pub(super) fn judge(shape: &Shape, bits: usize) -> Option<u8> {
     let Shape { ratio, theta, m, p, q } = *shape;
     let plain = flags(ratio, m, q);

@@ -12,16 +12,17 @@ use fearless_simd::{Simd, SimdBase};
 
 /// 2^-53.
 pub(super) const UNIT: f64 = 0.5 * f64::EPSILON;
-/// m, ratio and their inverses stay below this, so that nothing overflows or underflows: a coefficient has eight factors of
-/// each, and one of `(4 + p)⁴ > 2^-208`.
+/// m, ratio and their inverses stay below this, so that nothing overflows or underflows: a coefficient has eight
+/// factors of each, and one of `(4 + p)⁴ > 2^-208`.
 const MOST: f64 = (1u64 << 40) as f64;
 /// Halvings: a feature that deeper ones would show is hidden by the error anyway.
 const DEPTH: u32 = 40;
 
-/// Relative error of the numerator's coefficients against the sums of their terms' absolute values, given the errors of the frame.
+/// Relative error of the numerator's coefficients against the sums of their terms' absolute values, given the errors of
+/// the frame.
 ///
-/// The first side is `3(my)²`; then as [`hodograph`] and [`numerator`] count; one more for the Bernstein factor. The last 5 are two
-/// for adding the error itself, and what is of second order.
+/// The first side is `3(my)²`; then as [`hodograph`] and [`numerator`] count; one more for the Bernstein factor. The
+/// last 5 are two for adding the error itself, and what is of second order.
 pub(super) const fn coefficient_error([y, last, square]: [f64; 3], of_m: f64, of_pq: f64) -> f64 {
     let first = 2.0 * (y + of_m + 1.0) + 2.0;
     let sides = if first > last { first } else { last };
@@ -38,7 +39,8 @@ pub(super) const ERROR: f64 = coefficient_error(FRAME_ERRORS, 0.0, 1.0) * UNIT;
 
 /// The sign of the numerator from Bernstein coefficients and the sums of absolute values of their terms.
 pub(super) fn decide<N: Certain>(value: &[N; K], size: &[f64; K], relative: f64) -> Verdict {
-    // The least polynomial may prove it positive, the greatest disprove it: coefficients differ much in size, and so do their errors.
+    // The least polynomial may prove it positive, the greatest disprove it: coefficients differ much in size, and so do
+    // their errors.
     let side = |sign: f64| {
         let c: [N; K] = std::array::from_fn(|i| value[i].plus(sign * relative * size[i]));
         let largest = size.iter().fold(0.0f64, |most, s| most.max(*s)) * 1.01;

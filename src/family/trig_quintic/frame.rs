@@ -18,7 +18,8 @@ pub(super) const FRAME_ERRORS: [f64; 3] = [12.0, 23.0, 45.0];
 /// Checks one coordinate.
 ///
 /// # Errors
-/// [`Error::Domain`] outside the domain: ratio and m positive, θ in (0, π/2), p and q in (-4, 1]. At -4 a derivative at an end is 0.
+/// [`Error::Domain`] outside the domain: ratio and m positive, θ in (0, π/2), p and q in (-4, 1]. At -4 a derivative at
+/// an end is 0.
 pub(super) fn check(which: usize, value: f64) -> Result<()> {
     let (fine, domain) = match which {
         // The double next to π/2 lies below it.
@@ -40,7 +41,11 @@ impl Frame<f64> {
         let whole = 1.0 + cosine;
         let tangent = sine / whole;
         let least = 2f64.powi(-200);
-        (theta >= least).then_some(Frame { y: ratio / (2.0 * whole), last: 6.0 * cosine / whole, square: tangent * tangent })
+        (theta >= least).then_some(Frame {
+            y: ratio / (2.0 * whole),
+            last: 6.0 * cosine / whole,
+            square: tangent * tangent,
+        })
     }
 }
 

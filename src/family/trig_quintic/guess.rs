@@ -50,8 +50,9 @@ impl Side<'_> {
 
     fn jet(&self, ratio: f64, s: f64) -> Jet {
         let powers = self.powers(s);
-        let by =
-            |which: usize| powers.iter().rev().fold([0.0, 0.0], |[sum, rise], c| [sum * ratio + c[which], rise * ratio + sum]);
+        let by = |which: usize| {
+            powers.iter().rev().fold([0.0, 0.0], |[sum, rise], c| [sum * ratio + c[which], rise * ratio + sum])
+        };
         let ([value, rise], [slope, twist], [bend, _]) = (by(0), by(1), by(2));
         Jet { value, rise, slope, twist, bend }
     }

@@ -1,10 +1,13 @@
 //! Spirals among the quintic trigonometric Bézier curves of Misro, Ramli and Ali, from a straight line to a circle.
 //!
 //! # How it is done
-//! - With τ = tan(πt/4) the curve is rational and κ' has the sign of a polynomial of degree 38 in τ whose coefficients are sums of products of the hodograph's
-//!   (positive) ones (`poly.rs`); θ enters through cos θ alone. Its sign on [0, 1] is decided by Bernstein halving, as everywhere.
-//! - The ratio s / tan(θ/2) is an axis, not a parameter: a fifth one. Shaders keep four digits; the two slowest axes are one digit to them (`gpu/slot.rs`).
-//! - `threshold.rs` proves the least ratio from which all up to 64 give spirals; that a spiral stays one for larger ratios is false in general.
+//! - With τ = tan(πt/4) the curve is rational and κ' has the sign of a polynomial of degree 38 in τ whose coefficients
+//!   are sums of products of the hodograph's (positive) ones (`poly.rs`); θ enters through cos θ alone. Its sign on [0,
+//!   1] is decided by Bernstein halving, as everywhere.
+//! - The ratio s / tan(θ/2) is an axis, not a parameter: a fifth one. Shaders keep four digits; the two slowest axes
+//!   are one digit to them (`gpu/slot.rs`).
+//! - `threshold.rs` proves the least ratio from which all up to 64 give spirals; that a spiral stays one for larger
+//!   ratios is false in general.
 
 mod curve;
 mod exact;
@@ -43,7 +46,11 @@ const FLAGS: &[Flag] = &[
         label: "curvature does not fall at the end",
         doc: "kappa'(1) >= 0, that is 9 ratio >= 20 (1 + q); necessary for a spiral, and by no means sufficient",
     },
-    Flag { name: "SPIRAL", label: "spiral", doc: "the curvature is monotone on the whole curve: necessary and sufficient" },
+    Flag {
+        name: "SPIRAL",
+        label: "spiral",
+        doc: "the curvature is monotone on the whole curve: necessary and sufficient",
+    },
     Flag {
         name: "PRINTED_RATIO",
         label: "condition as printed",
@@ -78,7 +85,8 @@ pub fn flags(shape: &Shape) -> Result<u8> {
     verdict(&TrigQuintic, 0, &[ratio, theta, m, p, q]).map(|code| code.flags())
 }
 
-/// The scalar `threshold` at one shape, whatever its own ratio: rounded to nearest with proof, none where the ratio 64 gives no spiral.
+/// The scalar `threshold` at one shape, whatever its own ratio: rounded to nearest with proof, none where the ratio 64
+/// gives no spiral.
 ///
 /// # Errors
 /// As [`flags`].
@@ -111,8 +119,10 @@ impl Family for TrigQuintic {
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;
         let shape = Shape::from(*coordinates(point)?);
-        let mut derived =
-            vec![("s", (shape.ratio * (0.5 * shape.theta).tan()).into()), ("scale", (15.0 / (4.0 + shape.q).powi(2)).into())];
+        let mut derived = vec![
+            ("s", (shape.ratio * (0.5 * shape.theta).tan()).into()),
+            ("scale", (15.0 / (4.0 + shape.q).powi(2)).into()),
+        ];
         if let Some(threshold) = least_ratio(&shape)? {
             derived.push(("threshold", f64::from(threshold).into()));
         }

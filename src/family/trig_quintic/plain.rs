@@ -31,8 +31,8 @@ pub(super) fn printed_ratio(ratio: f64, m: f64) -> bool {
     compare(2.0, ratio, 6.0, 1.0, m) != Less
 }
 
-/// The least and the greatest q with `|15/(4 + q)² - 1| <= 1/100`: between `√(1500/101) - 4` and `√(1500/99) - 4`, rounded inwards.
-/// Both roots are irrational, so no double lies on a boundary.
+/// The least and the greatest q with `|15/(4 + q)² - 1| <= 1/100`: between `√(1500/101) - 4` and `√(1500/99) - 4`,
+/// rounded inwards. Both roots are irrational, so no double lies on a boundary.
 pub(super) const PRINTED_Q: [f64; 2] = [-0.146_237_533_459_690_32, -0.107_505_279_192_385_16];
 
 /// All of them but SPIRAL.

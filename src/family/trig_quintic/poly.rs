@@ -1,25 +1,27 @@
 //! The polynomials of the family, on any numbers: the sides of the control polygon, the hodograph, the numerator of κ'.
 //!
 //! # The curve in τ
-//! With `τ = tan(πt/4)`, `S = sin(πt/2) = 2τ/V` and `C = cos(πt/2) = (1-τ²)/V`, `V = 1 + τ²`, the basis (2) of Misro, Ramli and Ali
-//! becomes rational. Summed from the end, `z = P0 + Σ ΔPi Gi` with `Gi = g(i+1) + .. + g5`; here `g0 + g1 = (1-S)³(1+3S)` and
-//! `g4 + g5 = (1-C)³(1+3C)` are free of p and q, so p enters through `G0' = C(1-S)³(4 + p - 5pS)` alone and q through
-//! `G4' = S(1-C)³(4 + q - 5qC)`. All `V⁵ Gi'` (derivative by πt/2) are of degree 10 with non-negative coefficients in
-//! `τ^i (1-τ)^(10-i)`, for p and q in [-4, 1]: the rows of [`hodograph`], divided by 8.
+//! With `τ = tan(πt/4)`, `S = sin(πt/2) = 2τ/V` and `C = cos(πt/2) = (1-τ²)/V`, `V = 1 + τ²`, the basis (2) of Misro,
+//! Ramli and Ali becomes rational. Summed from the end, `z = P0 + Σ ΔPi Gi` with `Gi = g(i+1) + .. + g5`; here
+//! `g0 + g1 = (1-S)³(1+3S)` and `g4 + g5 = (1-C)³(1+3C)` are free of p and q, so p enters through
+//! `G0' = C(1-S)³(4 + p - 5pS)` alone and q through `G4' = S(1-C)³(4 + q - 5qC)`. All `V⁵ Gi'` (derivative by πt/2) are
+//! of degree 10 with non-negative coefficients in `τ^i (1-τ)^(10-i)`, for p and q in [-4, 1]: the rows of
+//! [`hodograph`], divided by 8.
 //!
 //! # Forms
-//! A list c stands for `Σ ci τ^i (1-τ)^(n-i)`: products are plain convolutions, and Bernstein coefficients are `ci / C(n, i)`.
+//! A list c stands for `Σ ci τ^i (1-τ)^(n-i)`: products are plain convolutions, and Bernstein coefficients are
+//! `ci / C(n, i)`.
 //!
 //! # Curvature
-//! By τ, `z'` is a constant times `A / V⁶`, so κ one times `X V⁶ / D^(3/2)`, `X = A × A'` (degree 18), `D = |A|²` (degree 20). That is
-//! of degree 0 as a form in (τ, 1-τ), so κ' has the sign of the form of degree 38 with the coefficients `Σ (2i - 3j + 12a) Xi Dj Va`,
-//! `i + j + a = k + 1`. X0 and X1 vanish, because the first two sides are parallel; so κ'(0) = 0 always, and a factor τ is left
-//! out: degree 37.
+//! By τ, `z'` is a constant times `A / V⁶`, so κ one times `X V⁶ / D^(3/2)`, `X = A × A'` (degree 18), `D = |A|²`
+//! (degree 20). That is of degree 0 as a form in (τ, 1-τ), so κ' has the sign of the form of degree 38 with the
+//! coefficients `Σ (2i - 3j + 12a) Xi Dj Va`, `i + j + a = k + 1`. X0 and X1 vanish, because the first two sides are
+//! parallel; so κ'(0) = 0 always, and a factor τ is left out: degree 37.
 //!
 //! # Sides
-//! (3) with (9) are sums of products of `u0 = mu1`, `u1` and `u2 + iv2 = d e^(iθ/2)`. Over `d² cos²(θ/2)/15` they are 3m²y², 3my², `y(2y + mω)`, `3yω`, `3ω²`
-//! with `ω = 1 + i tan(θ/2)` and `y = u1/(d cos(θ/2)) = ratio / (4 cos²(θ/2))`. Their upward parts are taken in units of
-//! `tan(θ/2)`; so X loses a positive factor, and D takes the square of it.
+//! (3) with (9) are sums of products of `u0 = mu1`, `u1` and `u2 + iv2 = d e^(iθ/2)`. Over `d² cos²(θ/2)/15` they are
+//! 3m²y², 3my², `y(2y + mω)`, `3yω`, `3ω²` with `ω = 1 + i tan(θ/2)` and `y = u1/(d cos(θ/2)) = ratio / (4 cos²(θ/2))`.
+//! Their upward parts are taken in units of `tan(θ/2)`; so X loses a positive factor, and D takes the square of it.
 
 use crate::num::{Number, formula};
 use std::array::from_fn;
@@ -70,8 +72,13 @@ fn tail<N: Number>([s2, s3, s4]: [&N; 3], [q1, q4, q9]: [&N; 3]) -> [N; 8] {
 pub(super) fn hodograph<N: Number>(frame: &Frame<N>, m: &N, p: &N, q: &N) -> Hodograph<N> {
     let y = &frame.y;
     let my = m.mul(y);
-    let sides =
-        [formula!(3.0 * (my * my)), formula!(3.0 * (my * y)), formula!((2.0 * y + m) * y), y.times(3.0), frame.last.clone()];
+    let sides = [
+        formula!(3.0 * (my * my)),
+        formula!(3.0 * (my * y)),
+        formula!((2.0 * y + m) * y),
+        y.times(3.0),
+        frame.last.clone(),
+    ];
     let up = [my, y.times(3.0), formula!(0.0 * y + 6.0)];
     let [p4, p1, q4, q1] = [p.plus(4.0), formula!(1.0 - p), q.plus(4.0), formula!(1.0 - q)];
     let q9 = formula!(16.0 * q1 + 4.0 * q4);
@@ -102,8 +109,8 @@ fn add<N: Number>(sum: &mut Option<N>, term: N) {
     });
 }
 
-// What follows runs on vectors: loops, since a closure is not always inlined into code for a wider level, and then every operation
-// becomes a call.
+// What follows runs on vectors: loops, since a closure is not always inlined into code for a wider level, and then
+// every operation becomes a call.
 
 /// `X2 .. X18`: `Xk = Σ (j - i) Ai × Aj` over `i < j`, `i + j = k + 1`. With `sign` 1 instead of -1 the sums of the
 /// absolute values of their terms.
@@ -159,9 +166,9 @@ fn speed<N: Number>(a: &Hodograph<N>, zero: &N, square: &N) -> [N; 21] {
 
 /// The coefficients of the numerator, or, with `sign` 1 instead of -1, the sums of the absolute values of their terms.
 ///
-/// Counting roundings, with h those of the hodograph and t those of the square: products of two have 2h + 1, X three more for
-/// difference, factor and up to five terms (2h + 8 in all), D with the square 2h + t + 3 and up to 8 terms (2h + t + 11), the
-/// sums below at most 21 terms, a factor and a product (24), and four terms at last: 4h + t + 48.
+/// Counting roundings, with h those of the hodograph and t those of the square: products of two have 2h + 1, X three
+/// more for difference, factor and up to five terms (2h + 8 in all), D with the square 2h + t + 3 and up to 8 terms
+/// (2h + t + 11), the sums below at most 21 terms, a factor and a product (24), and four terms at last: 4h + t + 48.
 #[inline(always)]
 pub(super) fn numerator<N: Number>(a: &Hodograph<N>, square: &N, sign: f64) -> [N; K] {
     let zero = square.times(0.0);

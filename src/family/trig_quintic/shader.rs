@@ -16,14 +16,14 @@ const MOST_LEVELS: usize = 12;
 const MOST_HALVINGS: usize = 32;
 /// 2^-24.
 const UNIT: f64 = 1.0 / (1u32 << 24) as f64;
-/// m, y and their inverses stay below this, and `1/(4 + p)`, `1/(4 + q)` below [`MOST_END`]. Then the sides, normalised, lie within
-/// 2^-42 and 1 and the hodograph's coefficients between 2^-66 and 170.
+/// m, y and their inverses stay below this, and `1/(4 + p)`, `1/(4 + q)` below [`MOST_END`]. Then the sides,
+/// normalised, lie within 2^-42 and 1 and the hodograph's coefficients between 2^-66 and 170.
 const MOST: f64 = (1u32 << 10) as f64;
 const MOST_END: f64 = (1u32 << 20) as f64;
 /// Words come rounded from doubles, sides are normalised (one operation more), and so are Bernstein factors.
 const ERROR: f64 = (coefficient_error([1.1, 1.1, 1.1], 1.0, 2.0) + 1.0) * UNIT;
-/// What flushed denormals may do to a coefficient: D is off by 2^-120, each of up to 21 terms has an X below 2^22 and a factor of
-/// up to 60, and of those sums there are seven.
+/// What flushed denormals may do to a coefficient: D is off by 2^-120, each of up to 21 terms has an X below 2^22 and a
+/// factor of up to 60, and of those sums there are seven.
 const FLOOR: f64 = 1.0 / (1u128 << 80) as f64;
 
 pub(super) fn shader() -> Shader {

@@ -34,7 +34,9 @@ fn thresholds_are_those_of_other_programs() {
 
 #[test]
 fn comparisons_are_exact_at_their_ties() {
-    assert!(printed_ratio(3.5, 1.0) && !printed_ratio(3.5f64.next_down(), 1.0) && !printed_ratio(3.5, 1.0f64.next_up()));
+    assert!(
+        printed_ratio(3.5, 1.0) && !printed_ratio(3.5f64.next_down(), 1.0) && !printed_ratio(3.5, 1.0f64.next_up())
+    );
     assert!(!printed_ratio(3.0, 5e-324) && printed_ratio(3.0f64.next_up(), 5e-324));
     assert_eq!(end_slope(2.5, 0.125), Equal);
     assert_eq!(end_slope(2.5, 0.125f64.next_up()), Less);
@@ -52,7 +54,10 @@ fn printed_end_curvatures_change_between_neighbouring_doubles() {
     };
     let [low, high] = PRINTED_Q;
     assert!(near(low) && near(high) && !near(low.next_down()) && !near(high.next_up()));
-    assert_eq!([low, low.next_down()].map(|q| flags(1.0, 1.0, q) & END_CURVATURE_AS_PRINTED), [END_CURVATURE_AS_PRINTED, 0]);
+    assert_eq!(
+        [low, low.next_down()].map(|q| flags(1.0, 1.0, q) & END_CURVATURE_AS_PRINTED),
+        [END_CURVATURE_AS_PRINTED, 0]
+    );
 }
 
 #[test]
@@ -62,7 +67,8 @@ fn a_tie_at_the_end_is_decided() {
     assert_eq!(flags, Some(END_RISES));
 }
 
-/// All of them: ratio and m of any size, angles down to the least and up to the double below π/2, shape parameters up to both ends.
+/// All of them: ratio and m of any size, angles down to the least and up to the double below π/2, shape parameters up
+/// to both ends.
 #[test]
 fn every_shape_is_decided_in_few_halvings() {
     const SIZES: [f64; 7] = [5e-324, 1e-160, 1e-20, 1.0, 6.0, 1e140, f64::MAX];
@@ -90,7 +96,9 @@ fn thresholds_of_any_shape_are_decided_in_few_halvings() {
     let (least, end) = ((-4f64).next_up(), std::f64::consts::FRAC_PI_2);
     let (mut most, mut found) = (0, 0);
     for m in [5e-324, 0.1, 1.0, 6.0, 1e3, 1e140] {
-        for (theta, p, q) in [(5e-324, 0.0, 0.0), (1e-9, 1.0, 1.0), (0.7, least, 1.0), (0.7, 1.0, least), (end, 0.5, 0.0)] {
+        for (theta, p, q) in
+            [(5e-324, 0.0, 0.0), (1e-9, 1.0, 1.0), (0.7, least, 1.0), (0.7, 1.0, least), (end, 0.5, 0.0)]
+        {
             let shape = Shape { ratio: 1.0, theta, m, p, q };
             let (steps, threshold) = counted(|| exact_least_ratio(&shape));
             found += usize::from(threshold.unwrap_or_else(|e| panic!("{e}")) != crate::family::NO_VALUE);

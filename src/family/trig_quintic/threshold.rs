@@ -1,11 +1,13 @@
 //! The least ratio from which on all curves of an angle and shape are spirals.
 //!
-//! The sides of the control polygon are polynomials in the ratio, so the numerator is one, too: `ratio f`, f of degree 6. In every
-//! case looked at, f grows with the ratio from the threshold up to [`MOST`], everywhere on the curve; then that it is positive at one ratio
+//! The sides of the control polygon are polynomials in the ratio, so the numerator is one, too: `ratio f`, f of degree
+//! 6. In every case looked at, f grows with the ratio from the threshold up to [`MOST`], everywhere on the curve; then
+//!    that it is positive at one ratio
 //! proves it positive above. That f grows is proved for each datum, by Bernstein's basis in both variables; where it
 //! does not, pieces of the range are proved one by one.
 //!
-//! No theorem says that a smaller ratio gives no spiral, and for small m large ratios give none at all; hence the definition.
+//! No theorem says that a smaller ratio gives no spiral, and for small m large ratios give none at all; hence the
+//! definition.
 
 use super::exact::{HALVINGS, Shape, bernstein};
 use super::filter::{ERROR, UNIT, decide, is_ordinary};
@@ -17,9 +19,9 @@ use crate::num::bernstein::{Certain, positive};
 use crate::num::{Interval, Number, Verdict, climb, formula};
 use std::array::from_fn;
 
-/// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute terms: the
-/// coefficients, for which products of polynomials add up to 7 terms on three levels; powers (6), weights (10), a product and a
-/// sum of 7.
+/// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute
+/// terms: the coefficients, for which products of polynomials add up to 7 terms on three levels; powers (6), weights
+/// (10), a product and a sum of 7.
 const F_ERROR: f64 = ERROR + (21.0 + 24.0 + 3.0) * UNIT;
 /// Pieces of the range are halved as often.
 const PIECES: u32 = 12;
@@ -58,8 +60,8 @@ pub(super) fn exact_least_ratio(shape: &Shape) -> Result<f32> {
 /// In doubles; `None` where they might overflow.
 fn fast(shape: &Shape) -> Option<Sweep<f64>> {
     let frame = Frame::new(1.0, shape.theta).filter(|_| is_ordinary(shape.m, 1.0))?;
-    let [c, size] =
-        [-1.0, 1.0].map(|sign| in_ratio(&frame, [shape.m, shape.p, shape.q], sign).map(|c| from_fn(|i| c[i] * BERNSTEIN[i])));
+    let [c, size] = [-1.0, 1.0]
+        .map(|sign| in_ratio(&frame, [shape.m, shape.p, shape.q], sign).map(|c| from_fn(|i| c[i] * BERNSTEIN[i])));
     Some(Sweep { c, size, error: F_ERROR })
 }
 
@@ -231,7 +233,8 @@ impl<N: Certain> Sweep<N> {
         }
     }
 
-    /// Whether a derivative of f by the ratio (the first, or f itself for 0) is positive for all ratios from `low` to `high`.
+    /// Whether a derivative of f by the ratio (the first, or f itself for 0) is positive for all ratios from `low` to
+    /// `high`.
     ///
     /// Its Bernstein coefficient number j is its polar form with j times `high` and otherwise `low`.
     fn all(&self, low: f64, high: f64, derivative: usize) -> bool {
@@ -239,7 +242,8 @@ impl<N: Certain> Sweep<N> {
         (0..=degree).all(|j| {
             let factor = |k: usize| if derivative == 1 { (k + 1) as f64 } else { 1.0 };
             let one = formula!(0.0 * self.c[0][0] + 1.0);
-            let weights: Vec<N> = (0..=degree).map(|k| polar(&one, [low, high], [degree, j, k]).times(factor(k))).collect();
+            let weights: Vec<N> =
+                (0..=degree).map(|k| polar(&one, [low, high], [degree, j, k]).times(factor(k))).collect();
             let sizes: Vec<f64> = (0..=degree).map(|k| polar(&1.0, [low, high], [degree, j, k]) * factor(k)).collect();
             let value = from_fn(|i| {
                 let terms = self.c[derivative..].iter().zip(&weights).map(|(c, w)| c[i].mul(w));
@@ -250,7 +254,8 @@ impl<N: Certain> Sweep<N> {
     }
 }
 
-/// The polar form of `x^k` as a polynomial of a degree, j times `high` and otherwise `low`, times [`WHOLE`]: a sum of positive terms.
+/// The polar form of `x^k` as a polynomial of a degree, j times `high` and otherwise `low`, times [`WHOLE`]: a sum of
+/// positive terms.
 fn polar<N: Number>(one: &N, [low, high]: [f64; 2], [degree, j, k]: [usize; 3]) -> N {
     let term = |i: usize| {
         let power = (0..i).fold(one.clone(), |x, _| x.times(high));

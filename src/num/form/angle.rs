@@ -94,7 +94,10 @@ mod tests {
                 let sum = &(&s0 * &c1) + &(&c0 * &s1);
                 let symbols = [0, 1].map(|i| {
                     let form = if i == 0 { &a } else { &b };
-                    Interval::new(at[i], 300).plus(-form.value).over(&Interval::new(form.slope[i], 300)).expect("not zero")
+                    Interval::new(at[i], 300)
+                        .plus(-form.value)
+                        .over(&Interval::new(form.slope[i], 300))
+                        .expect("not zero")
                 });
                 for (i, truth) in [s0, c0, sum].iter().enumerate() {
                     let q = found[i];

@@ -10,7 +10,8 @@ const NOISE: f64 = 1e-9;
 /// Halvings between two looks: then neighbouring doubles are left.
 const HALVINGS: usize = 60;
 
-/// Where a number changes its sign inside a piece, and numbers of the signs that it has beside both ends: 0 where it has none.
+/// Where a number changes its sign inside a piece, and numbers of the signs that it has beside both ends: 0 where it
+/// has none.
 #[derive(Debug)]
 pub struct Signs {
     pub inside: Vec<f64>,

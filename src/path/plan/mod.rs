@@ -1,6 +1,7 @@
 //! Paths of bounded curvature among polygons: the shortest polyline whose corners can be rounded, rounded.
 //!
-//! Places beside the vertices of obstacles, visibility, the search and the rounding are guesses; [`prove`] has the last word.
+//! Places beside the vertices of obstacles, visibility, the search and the rounding are guesses; [`prove`] has the last
+//! word.
 
 mod obstacles;
 mod open;
@@ -31,18 +32,19 @@ const TOLERANCE: f64 = 1e-9;
 const LEAST_REACH: f64 = 1e-9;
 /// Scenes within which no square leaves the range of doubles.
 const SIZES: [f64; 2] = [1e-100, 1e100];
-/// How much further off places are, in least radii, where those beside vertices and in the open give no path: one distance after the other,
-/// then several.
+/// How much further off places are, in least radii, where those beside vertices and in the open give no path: one
+/// distance after the other, then several.
 const WIDE: [f64; 12] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 const SEVERAL: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
-/// How close directions from start and goal to places in the open may be, radians: first few, which one search tells from each other whatever they
-/// see, then many.
+/// How close directions from start and goal to places in the open may be, radians: first few, which one search tells
+/// from each other whatever they see, then many.
 const CLOSE: [f64; 2] = [0.5, 0.15];
 /// Work for all searches but the first, some seconds, and for those after there is a path.
 const WORK: usize = 8_000_000;
 const MORE: usize = 1_000_000;
-/// Sides that the first search looks at: so many, and so many for each vertex. Scattered obstacles take 800 a vertex where they have 1,000
-/// vertices, and 3,500 where they have 10,000; only sides that crowd along many lines take more than twice that.
+/// Sides that the first search looks at: so many, and so many for each vertex. Scattered obstacles take 800 a vertex
+/// where they have 1,000 vertices, and 3,500 where they have 10,000; only sides that crowd along many lines take more
+/// than twice that.
 const SIDES_LOOKED_AT: [usize; 2] = [2_000_000, 6_000];
 /// Paths this much longer than without a limit of curvature are detours: then there may be shorter ones further off.
 const DETOUR: f64 = 2.0;
@@ -168,18 +170,20 @@ impl Scene {
     }
 }
 
-/// Plans a path among obstacles: a short polyline around their vertices whose corners are rounded by PH quintics ((15)-(21)).
+/// Plans a path among obstacles: a short polyline around their vertices whose corners are rounded by PH quintics
+/// ((15)-(21)).
 ///
-/// Each corner stands where the sharpest turn around its vertex would keep the clearance at the greatest curvature, or a part of that turn.
-/// Its curve is then as large as its legs and the obstacles allow. The polyline is the shortest with its corners at such places that can be
-/// rounded; where there is none, or it is a large detour, places in the open and further off are tried.
+/// Each corner stands where the sharpest turn around its vertex would keep the clearance at the greatest curvature, or
+/// a part of that turn. Its curve is then as large as its legs and the obstacles allow. The polyline is the shortest
+/// with its corners at such places that can be rounded; where there is none, or it is a large detour, places in the
+/// open and further off are tried.
 ///
 /// # Accuracy
 /// What [`prove`] says. The path is not the shortest of all paths of bounded curvature.
 ///
 /// # Errors
-/// [`Error::Domain`] naming what is wrong with the scene. [`Error::NoPath`] naming the corner that cannot be rounded, or why else none was
-/// found; "every way is blocked" alone proves that there is no path.
+/// [`Error::Domain`] naming what is wrong with the scene. [`Error::NoPath`] naming the corner that cannot be rounded,
+/// or why else none was found; "every way is blocked" alone proves that there is no path.
 ///
 /// ```
 /// use spiral_atlas::path::{Scene, plan};
@@ -197,7 +201,8 @@ pub fn plan(scene: &Scene) -> Result<Plan> {
     let points: Vec<[f64; 2]> = path.iter().map(|place| place.at).collect();
     let turns = points.windows(3).map(|w| Turn::new(minus(w[1], w[0]), minus(w[2], w[1])));
     // The search took the same turns.
-    let turns = turns.collect::<Option<Vec<Turn>>>().ok_or_else(|| Error::Domain("plan: the path turns back".into()))?;
+    let turns =
+        turns.collect::<Option<Vec<Turn>>>().ok_or_else(|| Error::Domain("plan: the path turns back".into()))?;
     let polyline = Polyline { points: &points, turns: &turns };
     let reaches = polyline.reaches(&limits, &obstacles);
     let spans = polyline.spans(&reaches)?;
@@ -212,12 +217,13 @@ pub fn plan(scene: &Scene) -> Result<Plan> {
     Ok(Plan { spans, polyline: points, corners, length_saved, proof })
 }
 
-/// Proves of spans, whoever made them, that they lead from start to goal, keep the clearance from every obstacle and bend no more than
-/// allowed, and encloses clearance and curvature.
+/// Proves of spans, whoever made them, that they lead from start to goal, keep the clearance from every obstacle and
+/// bend no more than allowed, and encloses clearance and curvature.
 ///
 /// # Accuracy
-/// The curve of a span is its start and the integral of its squared pre-image, or its Bézier form; both hold what is proved. The clearance
-/// is enclosed to 1e-9 of the size of the scene. What keeps a limit by less than roundings is refused.
+/// The curve of a span is its start and the integral of its squared pre-image, or its Bézier form; both hold what is
+/// proved. The clearance is enclosed to 1e-9 of the size of the scene. What keeps a limit by less than roundings is
+/// refused.
 ///
 /// # Errors
 /// [`Error::Domain`] naming what is wrong with the scene, or the span that is not proved and why.
@@ -269,7 +275,9 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
     let ends = [scene.start, scene.goal];
     if parted(obstacles, ends, scene.clearance, 32.0 * ROUNDINGS * scene.size()) {
         let clearance = scene.clearance;
-        return none(format!("every way is blocked: obstacles grown by the clearance {clearance:?} part `start` from `goal`"));
+        return none(format!(
+            "every way is blocked: obstacles grown by the clearance {clearance:?} part `start` from `goal`"
+        ));
     }
     let beside = |limits: Limits, wide: f64| places(obstacles, limits.keep, limits.most, wide);
     let near = beside(limits, 0.0);
@@ -306,7 +314,8 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
         match found {
             Found::Path(path, length) => {
                 (best, longest) = (Some(path), length);
-                // A path in the open alone may be long; but where places are too many for the first search, more work is in vain.
+                // A path in the open alone may be long; but where places are too many for the first search, more work
+                // is in vain.
                 if i >= tried || gave_up {
                     left = left.min(MORE);
                 }
@@ -343,10 +352,13 @@ fn explain(path: &[Place], scene: &Scene, obstacles: &Obstacles, limits: Limits)
     };
     let why = match limits.breach(&turn, place.at, needed, obstacles) {
         _ if needed > leg => format!("its curve needs {needed:?} of both legs, and one is {leg:?} long"),
-        Some(Why::Near(c)) => format!("its curve comes to {:?} of obstacles[{}], near {:?}", c.at_most, c.obstacle, c.point),
+        Some(Why::Near(c)) => {
+            format!("its curve comes to {:?} of obstacles[{}], near {:?}", c.at_most, c.obstacle, c.point)
+        }
         _ => format!("its curve takes {needed:?} of both legs, and no corners were found that leave room for that"),
     };
-    let vertex = place.vertex.map_or(String::new(), |v| format!(" around the vertex {:?} of obstacles[{}]", v.at, v.obstacle));
+    let vertex =
+        place.vertex.map_or(String::new(), |v| format!(" around the vertex {:?} of obstacles[{}]", v.at, v.obstacle));
     let (at, angle, most) = (place.at, turn.angle().to_degrees(), scene.greatest_curvature);
     format!(
         "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature {most:?} {why}; \

@@ -53,7 +53,9 @@ impl Obstacles {
     pub fn new(polygons: &[Vec<Point>]) -> Result<Obstacles> {
         let total: usize = polygons.iter().map(Vec::len).sum();
         if total > MOST_VERTICES {
-            return fail(format!("`obstacles` have {total} vertices together; at most {MOST_VERTICES} are planned for"));
+            return fail(format!(
+                "`obstacles` have {total} vertices together; at most {MOST_VERTICES} are planned for"
+            ));
         }
         let mut rings = polygons.iter().enumerate().map(|(i, p)| ring(i, p)).collect::<Result<Vec<_>>>()?;
         let size = rings.iter().flatten().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
@@ -69,8 +71,8 @@ impl Obstacles {
 
     /// Which polygons matter: not a copy of an earlier one, and none that lies wholly inside of another.
     ///
-    /// From a point outside of that one it is no nearer than that, and a path that starts outside and touches no side never gets in. So what
-    /// is left parts and blocks the same, and the work does not grow with what is redundant.
+    /// From a point outside of that one it is no nearer than that, and a path that starts outside and touches no side
+    /// never gets in. So what is left parts and blocks the same, and the work does not grow with what is redundant.
     fn needed(&self, rings: &[Vec<Point>]) -> Vec<bool> {
         let mut seen = HashSet::new();
         let mut needed: Vec<bool> = rings.iter().map(|ring| seen.insert(canonical(ring))).collect();
@@ -97,7 +99,9 @@ impl Obstacles {
 
     /// Sides that may be within a distance of a segment: all that are, and some more.
     pub fn near(&self, segment: [Point; 2], within: f64) -> impl Iterator<Item = &Side> {
-        self.tree.locate_with_selection_function(Near { segment, within }).inspect(|_| self.looks.set(self.looks.get() + 1))
+        self.tree
+            .locate_with_selection_function(Near { segment, within })
+            .inspect(|_| self.looks.set(self.looks.get() + 1))
     }
 
     /// How many sides [`Obstacles::near`] has given so far: what work is measured by where many sides nearly coincide.
@@ -158,7 +162,8 @@ fn sides(obstacle: usize, ring: &[Point]) -> impl Iterator<Item = Side> {
     (0..ring.len()).map(move |index| Side { ends: [ring[index], ring[(index + 1) % ring.len()]], obstacle, index })
 }
 
-/// The bits of a counterclockwise ring from its lowest, then leftmost, vertex on: the same for copies, wherever their lists begin.
+/// The bits of a counterclockwise ring from its lowest, then leftmost, vertex on: the same for copies, wherever their
+/// lists begin.
 fn canonical(ring: &[Point]) -> Vec<[u64; 2]> {
     let mut all = ring.to_vec();
     all.rotate_left(lowest(ring));
@@ -226,7 +231,8 @@ fn holds(ring: &[Point], p: Point) -> bool {
 /// Distance of a point from a segment.
 ///
 /// # Accuracy
-/// 16 units of 2^-53 of the largest distance among the three points: an error of the foot moves it along the segment by no more.
+/// 16 units of 2^-53 of the largest distance among the three points: an error of the foot moves it along the segment by
+/// no more.
 pub fn to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
     let (d, v, share) = (minus(b, a), minus(p, a), foot(p, [a, b]));
     (v[0] - share * d[0]).hypot(v[1] - share * d[1])
@@ -239,7 +245,8 @@ pub fn foot(p: Point, [a, b]: [Point; 2]) -> f64 {
     if square > 0.0 { ((d[0] * v[0] + d[1] * v[1]) / square).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// How far along the first line, as a share of the first segment, the second one crosses it, about; not finite for parallel ones.
+/// How far along the first line, as a share of the first segment, the second one crosses it, about; not finite for
+/// parallel ones.
 pub fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
     let (p, q, r) = (minus(b, a), minus(d, c), minus(c, a));
     (r[0] * q[1] - r[1] * q[0]) / (p[0] * q[1] - p[1] * q[0])
@@ -314,7 +321,9 @@ mod tests {
             found += close.len();
             left_out += all.len() - near.len();
             let nearest = obstacles.nearest(from).unwrap();
-            assert!(all.iter().all(|side| to_segment(from, side.ends) >= to_segment(from, nearest.ends) * (1.0 - 1e-12)));
+            assert!(
+                all.iter().all(|side| to_segment(from, side.ends) >= to_segment(from, nearest.ends) * (1.0 - 1e-12))
+            );
         }
         assert!(found > 1000 && left_out > 100_000, "{found} {left_out}");
     }

@@ -1,4 +1,5 @@
-//! Where a path may have corners away from all obstacles, which it needs when it must turn more gently than around vertices.
+//! Where a path may have corners away from all obstacles, which it needs when it must turn more gently than around
+//! vertices.
 
 use super::minus;
 use super::obstacles::Obstacles;
@@ -15,14 +16,15 @@ const APART: f64 = 0.8;
 
 /// Places that the ends see far ahead, in directions at least `close` radians apart, and places around everything.
 ///
-/// So there are no more than 7 for each `close` of a turn around either end, and 56 around everything, however crowded it is.
+/// So there are no more than 7 for each `close` of a turn around either end, and 56 around everything, however crowded
+/// it is.
 pub fn open(obstacles: &Obstacles, ends: [Point; 2], beside: &[Place], limits: &Limits, close: f64) -> Vec<Place> {
     let ahead = ends.into_iter().flat_map(|end| ahead(obstacles, end, beside, limits, close));
     ahead.chain(around(obstacles, ends, limits.most)).map(|at| Place { at, vertex: None, wide: true }).collect()
 }
 
-/// What an end sees in directions to places beside vertices and between those, so through the middle of gaps, too; of close directions in
-/// the one where it sees furthest.
+/// What an end sees in directions to places beside vertices and between those, so through the middle of gaps, too; of
+/// close directions in the one where it sees furthest.
 fn ahead(obstacles: &Obstacles, end: Point, beside: &[Place], limits: &Limits, close: f64) -> Vec<Point> {
     let clear = |at: Point| is_clear(obstacles, [end, at], limits.keep);
     let seen = beside.iter().filter(|place| clear(place.at)).map(|place| minus(place.at, end));
@@ -55,7 +57,8 @@ fn ahead(obstacles: &Obstacles, end: Point, beside: &[Place], limits: &Limits, c
 /// Corners and middles of the sides of growing boxes around everything.
 fn around(obstacles: &Obstacles, ends: [Point; 2], most: f64) -> impl Iterator<Item = Point> {
     let points = obstacles.rings.iter().flatten().copied().chain(ends);
-    let bounds = |[low, high]: [Point; 2], p: Point| [[0, 1].map(|i| p[i].min(low[i])), [0, 1].map(|i| p[i].max(high[i]))];
+    let bounds =
+        |[low, high]: [Point; 2], p: Point| [[0, 1].map(|i| p[i].min(low[i])), [0, 1].map(|i| p[i].max(high[i]))];
     let [low, high] = points.fold([ends[0]; 2], bounds);
     let steps = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [i, j])).filter(|step| *step != [0, 0]);
     FAR.iter().flat_map(move |far| {

@@ -8,7 +8,8 @@ type Point = [f64; 2];
 /// Pairs of sides looked at, at most.
 const PAIRS: usize = 20_000_000;
 
-/// A union-find structure whose members also know whether the way to their root crosses from one side of the segment to the other.
+/// A union-find structure whose members also know whether the way to their root crosses from one side of the segment to
+/// the other.
 struct Groups {
     parent: Vec<usize>,
     odd: Vec<bool>,
@@ -41,11 +42,12 @@ impl Groups {
     }
 }
 
-/// Whether no path from start to goal keeps the clearance, proved: some loop of sides, and of steps between sides less than twice the
-/// clearance apart, goes around one of the two alone.
+/// Whether no path from start to goal keeps the clearance, proved: some loop of sides, and of steps between sides less
+/// than twice the clearance apart, goes around one of the two alone.
 ///
-/// Such a loop is nowhere as far as the clearance from obstacles, and it crosses the segment between the ends an odd number of times. Without
-/// such a loop there is a path, for the plane is simply connected. `slack` covers the roundings of distances.
+/// Such a loop is nowhere as far as the clearance from obstacles, and it crosses the segment between the ends an odd
+/// number of times. Without such a loop there is a path, for the plane is simply connected. `slack` covers the
+/// roundings of distances.
 pub fn parted(obstacles: &Obstacles, ends: [Point; 2], clearance: f64, slack: f64) -> bool {
     let sides: Vec<&Side> = obstacles.sides().collect();
     let firsts = firsts(obstacles);
@@ -78,7 +80,8 @@ fn firsts(obstacles: &Obstacles) -> Vec<usize> {
     counts.scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count))).collect()
 }
 
-/// From the start of one side along it, over to another side, and along that to its start; none where they are too far apart.
+/// From the start of one side along it, over to another side, and along that to its start; none where they are too far
+/// apart.
 fn way(one: &Side, two: &Side, within: f64) -> Option<[Point; 4]> {
     let (one, two) = (one.ends, two.ends);
     let nearest = |p: Point, side: [Point; 2]| along(side, foot(p, side));
@@ -94,8 +97,8 @@ fn way(one: &Side, two: &Side, within: f64) -> Option<[Point; 4]> {
     (between(one, two) < within).then_some([a, least.0, least.1, c])
 }
 
-/// Whether a segment leads across the one between the ends. Points on their line count as right of it, so the loops that this counts for may
-/// be moved a little; the ends are on none.
+/// Whether a segment leads across the one between the ends. Points on their line count as right of it, so the loops
+/// that this counts for may be moved a little; the ends are on none.
 fn crosses([p, q]: [Point; 2], ends: [Point; 2]) -> bool {
     (turn(ends, p) > 0.0) != (turn(ends, q) > 0.0) && (turn([p, q], ends[0]) > 0.0) != (turn([p, q], ends[1]) > 0.0)
 }

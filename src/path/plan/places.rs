@@ -34,13 +34,15 @@ pub struct Place {
     pub at: Point,
     /// The vertex that it turns around; none at start and goal.
     pub vertex: Option<Vertex>,
-    /// Whether it is further off than the turn needs: then lines may lead there that only begin beside the sides around the vertex.
+    /// Whether it is further off than the turn needs: then lines may lead there that only begin beside the sides around
+    /// the vertex.
     pub wide: bool,
 }
 
-/// Places beside vertices nearly coincide where they and their vertices lie in one cell of a lattice; its step is this share of their distance, or
-/// up to half of that. One of them will do for all: a leg to it is as clear as one to another but for the diagonal of a cell, √2 2^-16 of the
-/// distance, and places are 1.001 times as far off the sides as the turn needs, which is 0.1 of the distance at least ([`SHARPEST`]).
+/// Places beside vertices nearly coincide where they and their vertices lie in one cell of a lattice; its step is this
+/// share of their distance, or up to half of that. One of them will do for all: a leg to it is as clear as one to
+/// another but for the diagonal of a cell, √2 2^-16 of the distance, and places are 1.001 times as far off the sides as
+/// the turn needs, which is 0.1 of the distance at least ([`SHARPEST`]).
 const CELL: f64 = 1.0 / 65536.0;
 
 impl Place {
@@ -54,8 +56,8 @@ impl Place {
         Some([step.to_bits(), x, y, u, v])
     }
 
-    /// On which side of a line through the place its vertex is, when the obstacle's boundary stays there for a while: 1 is left; 0 for
-    /// start and goal. `None` when it does not: shortest paths do not turn there.
+    /// On which side of a line through the place its vertex is, when the obstacle's boundary stays there for a while: 1
+    /// is left; 0 for start and goal. `None` when it does not: shortest paths do not turn there.
     pub fn side(&self, along: Point) -> Option<i8> {
         let Some(Vertex { at, before, after, .. }) = self.vertex else { return Some(0) };
         let from = |p: Point| minus(p, self.at);
@@ -89,11 +91,13 @@ pub fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Pla
     vertices.flat_map(|v| beside(v, keep, most, wide)).collect()
 }
 
-/// The convex vertices of a polygon. Of gentle bends in a row there is one, where the sides around them would meet: so round things have few.
+/// The convex vertices of a polygon. Of gentle bends in a row there is one, where the sides around them would meet: so
+/// round things have few.
 fn convex(obstacle: usize, ring: &[Point]) -> Vec<Vertex> {
     let n = ring.len();
     let at = |i: usize| ring[i % n];
-    let bend = |i: usize| Turn::new(minus(at(i), at(i + n - 1)), minus(at(i + 1), at(i))).map_or(0.0, |turn| turn.angle());
+    let bend =
+        |i: usize| Turn::new(minus(at(i), at(i + n - 1)), minus(at(i + 1), at(i))).map_or(0.0, |turn| turn.angle());
     let gentle = |bend: f64| bend > 0.0 && bend < GENTLE;
     let (mut all, mut first) = (vec![], 0);
     while first < n {
@@ -132,7 +136,11 @@ fn beside(vertex: Vertex, keep: f64, most: f64, wide: f64) -> Vec<Place> {
     let points = |(parts, part, far): (f64, f64, f64)| {
         (0..parts as i32).map(move |i| {
             let direction = first + part * (f64::from(i) + 0.5);
-            Place { at: [at[0] + far * direction.cos(), at[1] + far * direction.sin()], vertex: Some(vertex), wide: wide > 0.0 }
+            Place {
+                at: [at[0] + far * direction.cos(), at[1] + far * direction.sin()],
+                vertex: Some(vertex),
+                wide: wide > 0.0,
+            }
         })
     };
     parts.filter_map(offset).flat_map(points).collect()

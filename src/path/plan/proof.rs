@@ -59,10 +59,11 @@ struct Search<'o> {
     best: Clearance,
 }
 
-/// Encloses the least distance of spans from the sides of obstacles, until it is known to be at least `wanted` and above 0, or not to be, and,
-/// where it is, to a tolerance. `None` without obstacles.
+/// Encloses the least distance of spans from the sides of obstacles, until it is known to be at least `wanted` and
+/// above 0, or not to be, and, where it is, to a tolerance. `None` without obstacles.
 ///
-/// A piece is no further than `|r''| Δt²/8` from its chord. Errors of points and distances, the roundings of both, are taken off twice.
+/// A piece is no further than `|r''| Δt²/8` from its chord. Errors of points and distances, the roundings of both, are
+/// taken off twice.
 pub fn clearance(spans: &[PhQuintic], obstacles: &Obstacles, wanted: f64, tolerance: f64) -> Option<Clearance> {
     let wanted = wanted.max(f64::MIN_POSITIVE);
     let spans: Vec<Span> = spans.iter().map(|curve| Span::new(curve, obstacles.size)).collect();

@@ -16,7 +16,8 @@ pub struct Polyline<'p> {
 }
 
 impl Polyline<'_> {
-    /// Of each corner the largest reach that leaves room for its neighbours and keeps clear: large curves bend less and are shorter.
+    /// Of each corner the largest reach that leaves room for its neighbours and keeps clear: large curves bend less and
+    /// are shorter.
     ///
     /// What the least reaches leave of a leg is halved between its corners.
     pub fn reaches(&self, limits: &Limits, obstacles: &Obstacles) -> Vec<f64> {
@@ -27,7 +28,8 @@ impl Polyline<'_> {
             at(other).map_or(leg, |other| 0.5 * (leg + least[corner] - other))
         };
         let largest = |i: usize| share(i, i.checked_sub(1), i).min(share(i, Some(i + 1), i + 1)).max(least[i]);
-        let clear = |i: usize, reach: f64| limits.breach(&self.turns[i], self.points[i + 1], reach, obstacles).is_none();
+        let clear =
+            |i: usize, reach: f64| limits.breach(&self.turns[i], self.points[i + 1], reach, obstacles).is_none();
         (0..least.len()).map(|i| largest_clear([least[i], largest(i)], |reach| clear(i, reach))).collect()
     }
 

@@ -1,4 +1,5 @@
-//! The shortest polyline among places that can be rounded: a search over legs, since whether a path can turn depends on two of them.
+//! The shortest polyline among places that can be rounded: a search over legs, since whether a path can turn depends on
+//! two of them.
 
 use super::minus;
 use super::obstacles::{Obstacles, between};
@@ -130,7 +131,8 @@ pub struct Search<'o> {
 
 impl<'o> Search<'o> {
     pub fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
-        let free = |place: &Place| place.at.iter().all(|x| x.is_finite()) && is_clear(obstacles, [place.at; 2], limits.keep);
+        let free =
+            |place: &Place| place.at.iter().all(|x| x.is_finite()) && is_clear(obstacles, [place.at; 2], limits.keep);
         let ends = ends.map(|at| Place { at, vertex: None, wide: false }).into_iter();
         let mut known = HashSet::new();
         let new = |place: &Place| place.cell().is_none_or(|cell| known.insert(cell));
@@ -163,7 +165,8 @@ impl<'o> Search<'o> {
         Search { most_looks: self.looks + sides, ..self }
     }
 
-    /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than before.
+    /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than
+    /// before.
     ///
     /// Also tells how much work is left.
     pub fn run(mut self) -> (Found, usize) {
@@ -198,13 +201,15 @@ impl<'o> Search<'o> {
 
     /// Whether the curve at the start of a leg comes too near to something.
     fn breaches(&mut self, place: usize, turn: Option<(Turn, f64)>) -> bool {
-        let breach =
-            turn.is_some_and(|(turn, reach)| self.limits.breach(&turn, self.places[place].at, reach, self.obstacles).is_some());
+        let breach = turn.is_some_and(|(turn, reach)| {
+            self.limits.breach(&turn, self.places[place].at, reach, self.obstacles).is_some()
+        });
         self.spend(CURVE);
         breach
     }
 
-    /// Takes off work, and what the sides looked at since then took: where sides nearly coincide, one look meets all of them.
+    /// Takes off work, and what the sides looked at since then took: where sides nearly coincide, one look meets all of
+    /// them.
     fn spend(&mut self, work: usize) {
         let looks = self.obstacles.looks();
         self.work = self.work.saturating_sub(work + (looks - self.looks) / SIDES);
@@ -228,7 +233,8 @@ impl<'o> Search<'o> {
             if self.taken[from][index] <= takes || bound >= self.longest {
                 continue;
             }
-            let leg = Leg { places: [from, seen.place], index, length: seen.length, side: seen.there, turn, path, before };
+            let leg =
+                Leg { places: [from, seen.place], index, length: seen.length, side: seen.there, turn, path, before };
             self.work = self.work.saturating_sub(LEG);
             self.waiting.push(bound, self.legs.len());
             self.legs.push(leg);
@@ -264,7 +270,8 @@ impl<'o> Search<'o> {
         let here = &self.places[from];
         let look = |(i, there): (usize, &Place)| {
             let along = [there.at[0] - here.at[0], there.at[1] - here.at[1]];
-            let seen = Seen { place: i, length: along[0].hypot(along[1]), here: here.side(along)?, there: there.side(along)? };
+            let seen =
+                Seen { place: i, length: along[0].hypot(along[1]), here: here.side(along)?, there: there.side(along)? };
             let clear = seen.length > 0.0 && is_clear(self.obstacles, [here.at, there.at], self.limits.keep);
             clear.then_some(seen)
         };
@@ -296,8 +303,9 @@ mod tests {
     use crate::path::plan::places::places;
 
     fn squares(step: f64) -> Obstacles {
-        let square =
-            |i: usize| [[3.0, -2.0], [7.0, -2.0], [7.0, 2.0], [3.0, 2.0]].map(|p| p.map(|x| x + step * i as f64)).to_vec();
+        let square = |i: usize| {
+            [[3.0, -2.0], [7.0, -2.0], [7.0, 2.0], [3.0, 2.0]].map(|p| p.map(|x| x + step * i as f64)).to_vec()
+        };
         Obstacles::new(&(0..60).map(square).collect::<Vec<_>>()).unwrap()
     }
 
@@ -307,7 +315,8 @@ mod tests {
         Search::new(obstacles, LIMITS, [[0.0, 0.0], [10.0, 0.0]], places(obstacles, LIMITS.keep, LIMITS.most, 0.0))
     }
 
-    /// Squares that nearly coincide: each look from place to place meets the sides of all of them, and that is work, too.
+    /// Squares that nearly coincide: each look from place to place meets the sides of all of them, and that is work,
+    /// too.
     #[test]
     fn sides_that_nearly_coincide_are_work() {
         let obstacles = squares(1e-3);

@@ -44,7 +44,8 @@ fn squares_that_nearly_coincide_are_looked_at_as_often_as_their_number() {
 
 #[test]
 fn crowds_end_with_a_path_where_one_leads_around_in_the_open() {
-    let turned = |count: usize| (0..count).map(|i| round(7, 0.897 * i as f64 / count as f64, &[2.0])).collect::<Vec<_>>();
+    let turned =
+        |count: usize| (0..count).map(|i| round(7, 0.897 * i as f64 / count as f64, &[2.0])).collect::<Vec<_>>();
     let apart = |count: usize| (0..count).map(|i| square(1e-3 * i as f64)).collect();
     let star = |count: usize| vec![round(count, 0.0, &[1.0, 2.0])];
     let squares = |count: usize| (0..count).map(|i| round(4, 0.01 * i as f64, &[2.8])).collect::<Vec<_>>();

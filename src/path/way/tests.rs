@@ -38,8 +38,8 @@ fn lengths_are_off_by_no_more_than_told() {
             Piece::TrigQuintic(part) => counted(|| Way::integrated(Bezier::Trig(*part))),
             _ => continue,
         };
-        // Beside a zero of order m <= 8 of r', at the distance d, a half-width h is analytic once (1 + 17/8 h/d)^m is at
-        // most 5/4: h > d/77. So a doubling of d takes at most 39 cells, twice as many because widths are powers of
+        // Beside a zero of order m <= 8 of r', at the distance d, a half-width h is analytic once (1 + 17/8 h/d)^m is
+        // at most 5/4: h > d/77. So a doubling of d takes at most 39 cells, twice as many because widths are powers of
         // two, and twice as many nodes of the tree: 156. There are 61 doublings down to the smallest cell and two ends,
         // and the bounds of derivatives may ask for half the width: 2 * 2 * 61 * 156.
         assert!(steps < 38_064 && way.length_off < 1e-11, "{steps} {} {piece:?}", way.length_off);

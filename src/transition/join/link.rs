@@ -109,7 +109,9 @@ impl Chain {
         let leaves = |i: usize| match (&nodes[i], &nodes[i + 1]) {
             (Node::Line(pose), _) => pose.direction,
             (_, Node::Line(pose)) => pose.direction - links[i].angle(),
-            (Node::Arc { centre: a, .. }, Node::Arc { centre: b, .. }) => angle_of(sub(*b, *a)) - angle_of(links[i].hop(family)),
+            (Node::Arc { centre: a, .. }, Node::Arc { centre: b, .. }) => {
+                angle_of(sub(*b, *a)) - angle_of(links[i].hop(family))
+            }
         };
         let directions: Vec<f64> = (0..links.len()).map(leaves).collect();
         let arc = |i: usize| {
@@ -122,7 +124,9 @@ impl Chain {
         let (from, to) = (directions[0], directions[links.len() - 1] + links[links.len() - 1].angle());
         let start = match (&nodes[0], &nodes[1]) {
             (Node::Arc { centre, curvature }, _) => beside(*centre, *curvature, from),
-            (Node::Line(pose), Node::Arc { centre, .. }) => foot(pose, sub(*centre, turn(unit(from), links[0].hop(family)))),
+            (Node::Line(pose), Node::Arc { centre, .. }) => {
+                foot(pose, sub(*centre, turn(unit(from), links[0].hop(family))))
+            }
             (Node::Line(pose), Node::Line(_)) => pose.at,
         };
         let last = links.len() - 1;
@@ -204,7 +208,8 @@ pub(super) fn add_arc(pieces: &mut Vec<Piece>, at: Pose, curvature: f64, angle: 
     if angle == 0.0 {
         return at;
     }
-    let arc = Piece::Arc(Arc { start: at.at, start_direction: at.direction, curvature, length: angle / curvature.abs() });
+    let arc =
+        Piece::Arc(Arc { start: at.at, start_direction: at.direction, curvature, length: angle / curvature.abs() });
     let end = Pose { at: arc.end(), direction: at.direction + angle.copysign(curvature) };
     pieces.push(arc);
     end

@@ -45,7 +45,8 @@ impl Measures {
             k if k.abs() <= limit * (1.0 + ROUNDING) => k.clamp(-limit, limit),
             k => k,
         };
-        let curvature = |piece: &Piece, t: f64| jet(piece, t).map_or_else(|| piece.at(t).curvature, |jet| jet.curvature());
+        let curvature =
+            |piece: &Piece, t: f64| jet(piece, t).map_or_else(|| piece.at(t).curvature, |jet| jet.curvature());
         let curvatures = pieces.iter().flat_map(|p| p.range().map(|t| within(curvature(p, t))));
         let range = curvatures.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], k| [low.min(k), high.max(k)]);
         let mut rates = [0.0f64, 0.0];
@@ -105,7 +106,9 @@ fn rate(piece: &Piece, share: f64) -> f64 {
     let t = from + share * (to - from);
     match piece {
         Piece::Line(_) | Piece::Arc(_) => 0.0,
-        Piece::Cubic(_) | Piece::PhQuintic(_) | Piece::TrigQuintic(_) => jet(piece, t).map_or(0.0, |jet| jet.curvature_ds()),
+        Piece::Cubic(_) | Piece::PhQuintic(_) | Piece::TrigQuintic(_) => {
+            jet(piece, t).map_or(0.0, |jet| jet.curvature_ds())
+        }
         Piece::Involute(between) => {
             let step = 1e-5;
             let (low, high) = ((share - step).max(0.0), (share + step).min(1.0));
@@ -129,7 +132,11 @@ fn rate_range(piece: &Piece) -> [f64; 2] {
         let (mut low, mut high) = (share(best - 1), share(best + 1));
         for _ in 0..THIRDS {
             let third = (high - low) / 3.0;
-            if sign * rate(piece, low + third) < sign * rate(piece, high - third) { low += third } else { high -= third }
+            if sign * rate(piece, low + third) < sign * rate(piece, high - third) {
+                low += third
+            } else {
+                high -= third
+            }
         }
         sign * (sign * rates[best]).max(sign * rate(piece, 0.5 * (low + high)))
     })

@@ -73,7 +73,11 @@ pub fn join(request: &Request) -> Result<Outcome> {
     }
     let radii = |end: &End| if let End::Circle { radius, .. } = end { radius * limit } else { 0.0 };
     let apart = length(scale(sub(request.to.point(), request.from.point()), limit));
-    let far = [("the ends are", apart), ("the start radius is", radii(&request.from)), ("the end radius is", radii(&request.to))];
+    let far = [
+        ("the ends are", apart),
+        ("the start radius is", radii(&request.from)),
+        ("the end radius is", radii(&request.to)),
+    ];
     if let Some((what, far)) = far.into_iter().find(|(_, far)| far.is_nan() || *far > FARTHEST) {
         let apart = if what == "the ends are" { " apart" } else { "" };
         return Err(Error::Domain(format!(
@@ -109,7 +113,8 @@ fn tried(request: &Request, best: &mut Best) -> Result<String> {
     if let (End::State(from), End::State(to)) = (&request.from, &request.to) {
         states::states(request, [from, to], best)?;
         return Ok(
-            "no turns and lines of those tried fit between these states; a greater limit of curvature gives them room".into()
+            "no turns and lines of those tried fit between these states; a greater limit of curvature gives them room"
+                .into(),
         );
     }
     shapes::shapes(request, best)

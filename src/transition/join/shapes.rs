@@ -71,7 +71,10 @@ fn node(end: &End, origin: Vector, most: f64) -> Node {
         End::Line { point, direction } => Node::Line(Pose { at: place(point), direction }),
         End::Circle { centre, radius, turn } => {
             let curvature = (1.0 / (radius * most)).min(1.0);
-            Node::Arc { centre: place(centre), curvature: if turn == super::super::Turn::Left { curvature } else { -curvature } }
+            Node::Arc {
+                centre: place(centre),
+                curvature: if turn == super::super::Turn::Left { curvature } else { -curvature },
+            }
         }
     }
 }
@@ -110,7 +113,8 @@ struct Sought {
 
 impl Sought {
     fn chains(&self, nodes: [Node; 2]) -> Vec<Chain> {
-        let mut all: Vec<Chain> = self.direct(&nodes).iter().map(|link| Chain::new(self.family, &nodes, &[*link])).collect();
+        let mut all: Vec<Chain> =
+            self.direct(&nodes).iter().map(|link| Chain::new(self.family, &nodes, &[*link])).collect();
         if let [Node::Line(a), Node::Line(b)] = nodes {
             let turned = b.direction - a.direction;
             let corner = meet([Locus::Line(a), Locus::Line(b)])[0].filter(|_| !parallel(turned));
@@ -212,7 +216,8 @@ impl Sought {
         let mut add_chains = |links: [Link; 2]| {
             let loci = [self.locus(&nodes[0], &links[0], true), self.locus(&nodes[1], &links[1], false)];
             let centres = meet(loci);
-            let chain = |centre| Chain::new(self.family, &[nodes[0], Node::Arc { centre, curvature: k }, nodes[1]], &links);
+            let chain =
+                |centre| Chain::new(self.family, &[nodes[0], Node::Arc { centre, curvature: k }, nodes[1]], &links);
             all.extend(centres.into_iter().flatten().map(chain));
             centres[0].is_some()
         };
@@ -238,7 +243,9 @@ impl Sought {
                 let far = length(first.hop(self.family));
                 let stretched = |factor: f64| match last.second {
                     None => Link::direct(k, *to, factor * last.first.length),
-                    Some(second) => Link::over_line([k, *to], [last.first.length, second.length].map(|x| factor * x), 0.0),
+                    Some(second) => {
+                        Link::over_line([k, *to], [last.first.length, second.length].map(|x| factor * x), 0.0)
+                    }
                 };
                 let bend = (k.abs() + if last.second.is_none() { to.abs() } else { 0.0 }).max(to.abs());
                 let long = last.second.map_or(last.first.length, |second| second.length.max(last.first.length));
@@ -314,7 +321,9 @@ impl Sought {
         for other in [k, -k] {
             let outer = self.links(0.0, k).into_iter().zip(self.links(other, 0.0));
             let inner = self.links(k, other);
-            all.extend(outer.flat_map(|outer| inner.iter().map(move |next| (outer, (*next, other))).collect::<Vec<_>>()));
+            all.extend(
+                outer.flat_map(|outer| inner.iter().map(move |next| (outer, (*next, other))).collect::<Vec<_>>()),
+            );
         }
         all
     }
@@ -344,7 +353,8 @@ fn meet(loci: [Locus; 2]) -> [Option<Vector>; 2] {
             let t = cross(sub(b.at, a.at), v) / cross(u, v);
             [t.is_finite().then(|| add(a.at, scale(u, t))), None]
         }
-        [Locus::Line(line), Locus::Circle { centre, radius }] | [Locus::Circle { centre, radius }, Locus::Line(line)] => {
+        [Locus::Line(line), Locus::Circle { centre, radius }]
+        | [Locus::Circle { centre, radius }, Locus::Line(line)] => {
             let u = line.along();
             let to = sub(centre, line.at);
             let (along, beside) = (dot(u, to), cross(u, to));
@@ -373,21 +383,4 @@ fn meet(loci: [Locus; 2]) -> [Option<Vector>; 2] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::PI;
-
-    #[test]
-    fn loci_meet() {
-        let circle = |x: f64, radius: f64| Locus::Circle { centre: [x, 0.0], radius };
-        let [one, two] = meet([circle(0.0, 5.0), circle(6.0, 5.0)]).map(Option::unwrap);
-        assert!(length(sub(one, [3.0, 4.0])) < 1e-15 && length(sub(two, [3.0, -4.0])) < 1e-15);
-        assert_eq!(meet([circle(0.0, 1.0), circle(0.5, 3.0)]), [None, None]);
-        assert_eq!(meet([circle(2.0, 1.0), circle(2.0, 1.0)]), [Some([3.0, 0.0]), None]);
-        let line = |y: f64, direction: f64| Locus::Line(Pose { at: [0.0, y], direction });
-        assert_eq!(meet([line(3.0, 0.0), circle(0.0, 5.0)]), [Some([-4.0, 3.0]), Some([4.0, 3.0])]);
-        assert_eq!(meet([line(5.5, PI), circle(0.0, 5.0)]), [None, None]);
-        let [corner, none] = meet([line(1.0, 0.0), line(0.0, 0.25 * PI)]);
-        assert!(none.is_none() && length(sub(corner.unwrap(), [1.0, 1.0])) < 1e-15);
-    }
-}
+mod tests;

@@ -52,7 +52,11 @@ pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best
         for (j, b) in ends.iter().enumerate() {
             ways.extend(by_line(a, b, objective).map(|way| Way { first: i, last: j, ..way }));
             if a.exit == b.exit || (a.curvature.abs() == 1.0 && b.curvature.abs() == 1.0) {
-                ways.extend(by_turn(objective, &middles, a, b).into_iter().flatten().map(|way| Way { first: i, last: j, ..way }));
+                ways.extend(by_turn(objective, &middles, a, b).into_iter().flatten().map(|way| Way {
+                    first: i,
+                    last: j,
+                    ..way
+                }));
             }
         }
     }
@@ -63,8 +67,12 @@ pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best
     let mut shut = [vec![false; starts.len()], vec![false; ends.len()]];
     for way in ways {
         let (a, b) = (&starts[way.first], &ends[way.last]);
-        let between = if way.middle.is_some_and(|(_, arc)| arc > 0.0) { 3 } else { 1 + usize::from(way.middle.is_some()) };
-        if shut[0][way.first] || shut[1][way.last] || a.pieces(way.arcs[0]) + b.pieces(way.arcs[1]) + between > most_pieces {
+        let between =
+            if way.middle.is_some_and(|(_, arc)| arc > 0.0) { 3 } else { 1 + usize::from(way.middle.is_some()) };
+        if shut[0][way.first]
+            || shut[1][way.last]
+            || a.pieces(way.arcs[0]) + b.pieces(way.arcs[1]) + between > most_pieces
+        {
             continue;
         }
         match build(request, [from, to], [a, b], &way)? {
@@ -122,8 +130,8 @@ fn simple(family: Family, [from, to]: [&State; 2]) -> Result<Vec<Piece>> {
     Ok(all)
 }
 
-/// Between straight ends, two spirals without an arc: the legs from the ends to the corner may be unequal. The shares of the angle are found so
-/// that the direction between the ends is right; then the size is.
+/// Between straight ends, two spirals without an arc: the legs from the ends to the corner may be unequal. The shares
+/// of the angle are found so that the direction between the ends is right; then the size is.
 fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece>>> {
     let Request { greatest_curvature: most, family, .. } = *request;
     let turned = principal(to.direction - from.direction);
@@ -218,7 +226,8 @@ fn by_turn(objective: Objective, middles: &[Middle; 2], a: &Turn, b: &Turn) -> [
         let model = Turn { exit, ..model };
         let costs = [a.cost(arcs[0], objective), model.cost(arc, objective), b.cost(arcs[1], objective)];
         let length = a.length(arcs[0]) + model.length(arc) + b.length(arcs[1]);
-        *way = Some(Way { cost: together(objective, costs), length, first: 0, last: 0, arcs, middle: Some((side, arc)) });
+        *way =
+            Some(Way { cost: together(objective, costs), length, first: 0, last: 0, arcs, middle: Some((side, arc)) });
     }
     ways
 }

@@ -9,8 +9,17 @@ use std::f64::consts::TAU;
 /// join.
 const SHORT: &[(f64, f64)] = &[(1.0, 0.4), (1.0, 0.8), (0.5, 0.4), (0.25, 0.8), (0.125, 0.8)];
 /// The same for gentle joins. A spiral turns by at most 0.6 rad, where both families' are proved.
-const GENTLE: &[(f64, f64)] =
-    &[(1.0, 0.4), (1.0, 1.2), (0.5, 0.8), (0.5, 2.4), (0.25, 0.8), (0.25, 2.4), (0.25, 4.8), (0.125, 2.4), (0.125, 4.8)];
+const GENTLE: &[(f64, f64)] = &[
+    (1.0, 0.4),
+    (1.0, 1.2),
+    (0.5, 0.8),
+    (0.5, 2.4),
+    (0.25, 0.8),
+    (0.25, 2.4),
+    (0.25, 4.8),
+    (0.125, 2.4),
+    (0.125, 4.8),
+];
 /// Below this an arc goes on about a centre too far away to be of use.
 const HELD: f64 = 1.0 / 64.0;
 /// An arc of less than this, radians, is a rounding.

@@ -7,7 +7,8 @@ use crate::error::{Error, Result};
 use crate::transition::Ends;
 use serde::{Deserialize, Serialize, Serializer};
 
-/// A given end may miss the end of the curve by this share of the curve's size and place, for roundings of whoever wrote it.
+/// A given end may miss the end of the curve by this share of the curve's size and place, for roundings of whoever
+/// wrote it.
 const NEAR: f64 = 1e-10;
 
 type Points<const N: usize> = [[f64; 2]; N];
@@ -138,8 +139,13 @@ impl RawPiece {
 
     /// So many points of a list.
     fn all<const N: usize>(&self, name: &str, list: &[[f64; 2]]) -> Result<Points<N>> {
-        let wrong =
-            |_| Error::Domain(format!("`{name}` has {} points; a piece of the kind `{}` has {N}", list.len(), self.kind.name()));
+        let wrong = |_| {
+            Error::Domain(format!(
+                "`{name}` has {} points; a piece of the kind `{}` has {N}",
+                list.len(),
+                self.kind.name()
+            ))
+        };
         list.try_into().map_err(wrong)
     }
 
@@ -175,13 +181,17 @@ impl RawPiece {
                 let (points, legs) = self.polygon()?;
                 Ok(Piece::Cubic(Cubic { points: CubicBezier { p: points }, legs }))
             }
-            Kind::PhQuintic => ph(self.needs("start", start)?, end, self.needs("preimage", self.preimage)?).map(Piece::PhQuintic),
+            Kind::PhQuintic => {
+                ph(self.needs("start", start)?, end, self.needs("preimage", self.preimage)?).map(Piece::PhQuintic)
+            }
             Kind::TrigQuintic => {
                 let (points, sides) = self.polygon()?;
                 let (p, q) = (self.needs("p", self.p)?, self.needs("q", self.q)?);
                 let (from, to) = (self.from.unwrap_or(0.0), self.to.unwrap_or(1.0));
                 if !(0.0 <= from && from < to && to <= 1.0) {
-                    let what = format!("`from` is {from:?} and `to` is {to:?}; they must be 0 to 1, the first below the second");
+                    let what = format!(
+                        "`from` is {from:?} and `to` is {to:?}; they must be 0 to 1, the first below the second"
+                    );
                     return Err(Error::Domain(what));
                 }
                 let curve = TrigBezier { sides, ..TrigBezier::new(points, p, q)? };
@@ -201,7 +211,9 @@ impl RawPiece {
             Kind::Line => {
                 let (start, end) = (self.needs("start", start)?, self.needs("end", end)?);
                 if start == end {
-                    return Err(Error::Domain(format!("`start` and `end` are both {start:?}; a line has two different ends")));
+                    return Err(Error::Domain(format!(
+                        "`start` and `end` are both {start:?}; a line has two different ends"
+                    )));
                 }
                 Ok(Piece::Line(Line { start, end }))
             }

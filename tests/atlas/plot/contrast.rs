@@ -1,4 +1,5 @@
-//! What lies beside what in a drawn slice: each line and edge has at least 3 times the contrast of the Web Content Accessibility Guidelines.
+//! What lies beside what in a drawn slice: each line and edge has at least 3 times the contrast of the Web Content
+//! Accessibility Guidelines.
 
 use super::{axis, decode, spaced};
 use spiral_atlas::plot::*;
@@ -17,7 +18,8 @@ fn contrast(a: [u8; 3], b: [u8; 3]) -> f64 {
     a.max(b) / a.min(b)
 }
 
-/// Nested regions side by side in bands, so that each touches the next and, in the lower half, the paper; and outlines across all.
+/// Nested regions side by side in bands, so that each touches the next and, in the lower half, the paper; and outlines
+/// across all.
 fn bands(regions: usize, outlines: usize) -> Slice {
     let (columns, rows) = (2 * (regions + 1), 24);
     let region = |k: usize| Region {
@@ -40,7 +42,8 @@ fn bands(regions: usize, outlines: usize) -> Slice {
     }
 }
 
-/// All pairs of different colours of a list that lie beside each other in a picture's middle: letters around it have rims of all shades.
+/// All pairs of different colours of a list that lie beside each other in a picture's middle: letters around it have
+/// rims of all shades.
 fn neighbours(picture: &image::RgbImage, colors: &[[u8; 3]]) -> Vec<([u8; 3], [u8; 3])> {
     let (width, height) = picture.dimensions();
     let mut pairs = Vec::new();
@@ -48,7 +51,8 @@ fn neighbours(picture: &image::RgbImage, colors: &[[u8; 3]]) -> Vec<([u8; 3], [u
         for x in width * 3 / 20..width * 18 / 20 {
             let here = picture.get_pixel(x, y).0;
             for there in [picture.get_pixel(x + 1, y).0, picture.get_pixel(x, y + 1).0] {
-                if here != there && colors.contains(&here) && colors.contains(&there) && !pairs.contains(&(here, there)) {
+                if here != there && colors.contains(&here) && colors.contains(&there) && !pairs.contains(&(here, there))
+                {
                     pairs.push((here, there));
                 }
             }

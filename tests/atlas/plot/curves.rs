@@ -65,7 +65,8 @@ fn bad_curves_are_errors_and_odd_ones_are_drawn() {
 
 #[test]
 fn paths_are_drawn_beside_their_graphs_or_refused() {
-    let graph = |value: f64| Lines { across: "s".into(), up: "κ".into(), lines: vec![vec![[0.0, value], [1.0, value]]] };
+    let graph =
+        |value: f64| Lines { across: "s".into(), up: "κ".into(), lines: vec![vec![[0.0, value], [1.0, value]]] };
     let straight = |x: f64| vec![[x, 0.0], [x, 2.0]];
     let figure = PathsFigure {
         title: "two".into(),
@@ -76,7 +77,8 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         backdrop: None,
     };
     let square = |far: f64| vec![vec![[0.2, 0.2], [far, 0.2], [far, 0.4]]];
-    let behind = |far: f64| Some(Backdrop { obstacles: square(far), grown: 0.1, polyline: vec![[0.0, 0.0], [1.0, 0.5]] });
+    let behind =
+        |far: f64| Some(Backdrop { obstacles: square(far), grown: 0.1, polyline: vec![[0.0, 0.0], [1.0, 0.5]] });
     let picture = |figure: &PathsFigure| paths_png(figure, (700, 420));
     let first = picture(&figure).unwrap();
     assert!(first.starts_with(b"\x89PNG") && first == picture(&figure).unwrap());

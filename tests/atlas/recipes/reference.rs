@@ -38,8 +38,9 @@ fn looks_are_read_or_refused() {
 #[test]
 fn too_many_panels_are_refused() {
     let recipe = |counts: [usize; 3], at: &str| {
-        let [ratio, theta, m] =
-            counts.map(|count| if count == 1 { "values = [1]".into() } else { format!("linear = [0.5, 1.4], count = {count}") });
+        let [ratio, theta, m] = counts.map(|count| {
+            if count == 1 { "values = [1]".into() } else { format!("linear = [0.5, 1.4], count = {count}") }
+        });
         let axes = format!(
             "ratio = {{ {ratio} }}\ntheta = {{ {theta} }}\nm = {{ {m} }}\np = {{ values = [0, 1] }}\nq = {{ values = [0, 1] }}"
         );
@@ -76,7 +77,8 @@ fn the_examples_of_the_reference_run() {
         let recipe = folder.path().join(format!("example-{i}.toml"));
         std::fs::write(&recipe, block).unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_spiral-atlas"));
-        let done = command.args(["generate", "--backend", "cpu", "--out"]).arg(folder.path()).arg(&recipe).output().unwrap();
+        let done =
+            command.args(["generate", "--backend", "cpu", "--out"]).arg(folder.path()).arg(&recipe).output().unwrap();
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     }
     for entry in std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()) {

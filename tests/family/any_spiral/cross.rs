@@ -60,7 +60,11 @@ fn no_spiral_between_two_ends_where_there_is_none_at_all() {
             for (node, (code, all)) in codes(family, grid).iter().zip(all).enumerate() {
                 let [phi0, phi1, ..] = grid.node(node as u64);
                 if phi0 < phi1 {
-                    assert!(!contradict([spiral, bound], *code, *all), "{}: {code:?}, {all:?}", grid.describe(node as u64));
+                    assert!(
+                        !contradict([spiral, bound], *code, *all),
+                        "{}: {code:?}, {all:?}",
+                        grid.describe(node as u64)
+                    );
                     compared += 1;
                 } else {
                     // There is no spiral of rising curvature at all.
@@ -77,8 +81,9 @@ fn no_spiral_between_two_ends_where_there_is_none_at_all() {
     }
 }
 
-/// `Q < 0` and `ω > 0` of a segment from a line to the point (ξ, η), turning by θ, with the curvature 1 at its round end; of case 2
-/// that is the segment travelled backwards and mirrored. Wrong by less than `1e-12` of Q, which is given too.
+/// `Q < 0` and `ω > 0` of a segment from a line to the point (ξ, η), turning by θ, with the curvature 1 at its round
+/// end; of case 2 that is the segment travelled backwards and mirrored. Wrong by less than `1e-12` of Q, which is given
+/// too.
 fn any_segment(theta: f64, xi: f64, eta: f64, case: u32) -> (bool, f64) {
     let chord = eta.atan2(xi);
     let (alpha, beta) = if case == 0 { (-chord, theta - chord) } else { (chord - theta, chord) };

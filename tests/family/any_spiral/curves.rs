@@ -165,7 +165,9 @@ fn reference_points() {
         let by_parameter = samples.by_parameter.iter().map(|row| (row, curve.at(row[0])));
         let by_length = samples.by_arclength.iter().map(|row| (row, curve.at_length(row[0])));
         for ([_, x, y, direction, k], at) in by_parameter.chain(by_length) {
-            for (got, want) in [(c * at.point[0], x), (c * at.point[1], y), (at.direction, direction), (at.curvature / c, k)] {
+            for (got, want) in
+                [(c * at.point[0], x), (c * at.point[1], y), (at.direction, direction), (at.curvature / c, k)]
+            {
                 assert!(
                     (got - want).abs() < 1e-9 * want.abs().max(1.0),
                     "{}: {at:?}, not {x}, {y}, {direction}, {k}",
@@ -252,7 +254,8 @@ fn a_broken_curve_is_noticed() {
     assert!(broken(&Datum { k1: 4.0, ..chord }, curve).is_some());
 }
 
-/// Directions and curvatures are those of the points: differences of neighbours; and crossings of the chord's line are counted.
+/// Directions and curvatures are those of the points: differences of neighbours; and crossings of the chord's line are
+/// counted.
 #[test]
 fn points_directions_and_turns_agree() {
     let mut compared = 0;

@@ -17,12 +17,15 @@ fn curve(alpha: f64, beta: f64, k1: f64, k2: f64, turns: [u32; 2]) -> (f64, f64,
     (found.q, degrees(found.omega), curve)
 }
 
-/// Arcs of the involute itself: α, β and θ of three of them with Q = -0.04. The map of an arc onto itself is the identity.
+/// Arcs of the involute itself: α, β and θ of three of them with Q = -0.04. The map of an arc onto itself is the
+/// identity.
 #[test]
 fn figure_2() {
-    for (theta, omega, alpha, beta, turns) in
-        [(59.0f64, 7.164, 66.16, -51.84, [0, 0]), (92.0, 9.248, 101.25, -82.75, [0, 0]), (172.0, 55.633, 227.63, -116.37, [1, 0])]
-    {
+    for (theta, omega, alpha, beta, turns) in [
+        (59.0f64, 7.164, 66.16, -51.84, [0, 0]),
+        (92.0, 9.248, 101.25, -82.75, [0, 0]),
+        (172.0, 55.633, 227.63, -116.37, [1, 0]),
+    ] {
         let (q, theta) = (0.04, theta.to_radians());
         let (sin, cos) = theta.sin_cos();
         let t0 = (theta * theta + (theta * theta - sin * sin) / q).sqrt();

@@ -1,4 +1,5 @@
-//! An oracle of existence: circles by centre and radius, at whatever precision it takes; no formula in common with the library.
+//! An oracle of existence: circles by centre and radius, at whatever precision it takes; no formula in common with the
+//! library.
 
 use super::Datum;
 use super::iv::{Iv, Sure, Unsure};

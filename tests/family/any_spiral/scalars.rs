@@ -18,7 +18,8 @@ fn scalars_of(datum: Datum) -> (u8, [f32; 4]) {
     (code.flags(), out)
 }
 
-/// `sin(ω(θ) - ω)` times something positive, and t0: (4), and tan ω(θ) = P/(t0 sin θ) in the right quadrant, up to θ = 4.49.
+/// `sin(ω(θ) - ω)` times something positive, and t0: (4), and tan ω(θ) = P/(t0 sin θ) in the right quadrant, up to θ =
+/// 4.49.
 fn equation(datum: Datum, theta: f64) -> (Iv, Iv) {
     let [alpha, beta, ..] = datum;
     // Half angles are exact.
@@ -38,7 +39,8 @@ fn equation(datum: Datum, theta: f64) -> (Iv, Iv) {
 fn faults(datum: Datum, (flags, got): (u8, [f32; 4])) -> Vec<usize> {
     let mut faults = Vec::new();
     let between = |x: f32, truth: &Iv| -> Sure<bool> {
-        let (low, high) = (0.5 * (f64::from(x.next_down()) + f64::from(x)), 0.5 * (f64::from(x) + f64::from(x.next_up())));
+        let (low, high) =
+            (0.5 * (f64::from(x.next_down()) + f64::from(x)), 0.5 * (f64::from(x) + f64::from(x.next_up())));
         Ok((truth - &Iv::new(low, BITS)).at_least_zero()? && (&Iv::new(high, BITS) - truth).at_least_zero()?)
     };
     let sum = (&Iv::new(datum[0], BITS) + &Iv::new(datum[1], BITS)).times(0.5);
@@ -80,7 +82,10 @@ fn scalars_are_the_nearest_singles() {
             // ω close to 0, to π/2 and to π; Q close to 0.
             0 => datum[1] = -datum[0] + r.signed_decades(-9.0, -1.0),
             1 => datum[1] = if datum[0] > 0.0 { PI - datum[0] } else { -PI - datum[0] },
-            2 => datum = [PI - r.uniform(0.0, 1e-3), PI - r.uniform(0.0, 1e-3), -r.uniform(1e-3, 2.0), r.uniform(1e-3, 2.0)],
+            2 => {
+                datum =
+                    [PI - r.uniform(0.0, 1e-3), PI - r.uniform(0.0, 1e-3), -r.uniform(1e-3, 2.0), r.uniform(1e-3, 2.0)]
+            }
             3 => {
                 let side = if datum[0] + datum[1] > 0.0 { 1.0 } else { -1.0 };
                 let need = (0.5 * (datum[0] + datum[1])).sin().powi(2);

@@ -101,7 +101,8 @@ fn both_sides_of_boundaries() {
 /// Equal and opposite angles and curvatures, zeros, half turns, and numbers at the ends of their range.
 #[test]
 fn degenerate_data() {
-    let angles = [0.0, -0.0, 1e-300, -1e-300, 1e-17, 0.3, -0.3, 0.3 + f64::EPSILON, FRAC_PI_2, -FRAC_PI_2, 2.0, PI, -PI];
+    let angles =
+        [0.0, -0.0, 1e-300, -1e-300, 1e-17, 0.3, -0.3, 0.3 + f64::EPSILON, FRAC_PI_2, -FRAC_PI_2, 2.0, PI, -PI];
     let k = [0.0, -0.0, 5e-324, -1e-300, 1e-30, -1e-17, 0.3, -0.3, 1.0, -1.0, 1.0 + f64::EPSILON, -1e17, 1e200, -1e300];
     let mut tally = Tally::default();
     for alpha in angles {
@@ -116,7 +117,8 @@ fn degenerate_data() {
     tally.finish("degenerate data");
     assert!(tally.exist > 2_000 && tally.abstained < tally.nodes / 3);
     // Biarcs and circles, where Q is exactly 0.
-    for datum in [[0.0, 0.0, 0.0, 1.0], [0.3, 0.3, 0.0, 0.0], [-FRAC_PI_2, FRAC_PI_2, 1.0, 1.0], [0.0, 0.0, -1.0, 0.0]] {
+    for datum in [[0.0, 0.0, 0.0, 1.0], [0.3, 0.3, 0.0, 0.0], [-FRAC_PI_2, FRAC_PI_2, 1.0, 1.0], [0.0, 0.0, -1.0, 0.0]]
+    {
         assert_eq!(codes_of(datum).1.flags() & EXISTS, 0);
     }
 }

@@ -6,7 +6,8 @@ use spiral_atlas::family::cubic::{Datum, Root, Solutions, solve};
 use spiral_atlas::family::{Code, NO_VALUE, by_name};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 
-const FLAG_NAMES: [&str; 8] = ["SOLVABLE", "THEOREM31", "THEOREM31_ANY", "SPIRAL", "ANY_SPIRAL", "bit 5", "bit 6", "bit 7"];
+const FLAG_NAMES: [&str; 8] =
+    ["SOLVABLE", "THEOREM31", "THEOREM31_ANY", "SPIRAL", "ANY_SPIRAL", "bit 5", "bit 6", "bit 7"];
 
 /// Every field in which a code differs from the verdict.
 pub fn code_faults(want: &Verdict, code: Code) -> Vec<String> {
@@ -61,7 +62,8 @@ pub fn answer_faults(want: &Verdict, got: &Answer) -> Vec<String> {
             }
         }
         let numbers = [("f0", want.f0, got.f0, ROOT_ACCURACY), ("f1", want.f1, got.f1, ROOT_ACCURACY)];
-        for (name, want, got, near) in numbers.into_iter().chain([("margin", want.margin, got.margin, MARGIN_ACCURACY)]) {
+        for (name, want, got, near) in numbers.into_iter().chain([("margin", want.margin, got.margin, MARGIN_ACCURACY)])
+        {
             if (want - got).abs().partial_cmp(&near).is_none_or(|order| order.is_gt()) {
                 faults.push(format!("root {i}: {name} is {got:?}, must be {want:?}"));
             }

@@ -90,7 +90,9 @@ pub fn near_double(r: &mut Random) -> Case {
     let near = [0, 1, 3, 1 << 10, 1 << 30][r.below(5) as usize];
     let ends = match if r.below(2) == 0 { normalised(f0, f1) } else { curvatures(phi0, phi1, f0, f1) } {
         Ends::Normalised { a, k } => Ends::Normalised { a: r.nudge(a, near), k: r.nudge(k, near) },
-        Ends::Curvature { kappa0, kappa1 } => Ends::Curvature { kappa0: r.nudge(kappa0, near), kappa1: r.nudge(kappa1, near) },
+        Ends::Curvature { kappa0, kappa1 } => {
+            Ends::Curvature { kappa0: r.nudge(kappa0, near), kappa1: r.nudge(kappa1, near) }
+        }
     };
     Case { phi0, phi1, ends }
 }

@@ -137,7 +137,12 @@ impl Iv {
     pub fn meet(&self, other: &Iv) -> Iv {
         let lo = self.lo.max(&other.lo);
         let hi = self.hi.min(&other.hi);
-        assert!(order(&lo, &hi).is_le(), "two enclosures of one number do not meet: {} and {}", self.approx(), other.approx());
+        assert!(
+            order(&lo, &hi).is_le(),
+            "two enclosures of one number do not meet: {} and {}",
+            self.approx(),
+            other.approx()
+        );
         Iv { lo, hi, bits: self.bits }
     }
 

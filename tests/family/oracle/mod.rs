@@ -1,4 +1,5 @@
-//! An arbitrary-precision judge of one datum, from the Bézier curve itself: it shares no code and no formula with the library.
+//! An arbitrary-precision judge of one datum, from the Bézier curve itself: it shares no code and no formula with the
+//! library.
 //!
 //! Everything is decided on outward-rounded intervals, from 320 bits on; whatever is still open starts again with twice
 //! as many. Source of the questions: Habib & Sakai (the flags), Kneser and Kurnosenko (any spiral at all).

@@ -1,5 +1,5 @@
-//! PH quintics with given ends, from the pre-image itself: the chord's two components are polynomials in A² and B/A, a resultant leaves
-//! one in B/A, and Sturm's theorem finds its roots.
+//! PH quintics with given ends, from the pre-image itself: the chord's two components are polynomials in A² and B/A, a
+//! resultant leaves one in B/A, and Sturm's theorem finds its roots.
 
 use super::curve::{Frame, non_negative};
 use super::iv::{Iv, Sure, Unsure};
@@ -13,7 +13,8 @@ pub struct Curve {
     pub a: f64,
     pub b: f64,
     pub length: f64,
-    /// By quadrature, about; NaN where one end is so much faster than the other that a peak of the curvature is too narrow for it.
+    /// By quadrature, about; NaN where one end is so much faster than the other that a peak of the curvature is too
+    /// narrow for it.
     pub energy: f64,
     pub margin: f64,
     pub spiral: bool,
@@ -137,12 +138,14 @@ impl Ends {
                 *part = plus(part, &scaled(product));
             }
         }
-        let product = |x: &[Iv; 2], y: &[Iv; 2]| [&(&x[0] * &y[0]) - &(&x[1] * &y[1]), &(&x[0] * &y[1]) + &(&x[1] * &y[0])];
+        let product =
+            |x: &[Iv; 2], y: &[Iv; 2]| [&(&x[0] * &y[0]) - &(&x[1] * &y[1]), &(&x[0] * &y[1]) + &(&x[1] * &y[0])];
         let [f, g] = &self.basis;
         let units = [product(f, f), product(f, g), product(g, g)];
         [0, 1].map(|k| {
-            let scaled =
-                |part: &Double, unit: &Iv| part.iter().map(|c| Poly::new(c.0.iter().map(|x| x * unit).collect())).collect();
+            let scaled = |part: &Double, unit: &Iv| {
+                part.iter().map(|c| Poly::new(c.0.iter().map(|x| x * unit).collect())).collect()
+            };
             let terms: Vec<Double> = parts.iter().zip(&units).map(|(part, unit)| scaled(part, &unit[k])).collect();
             plus(&plus(&terms[0], &terms[1]), &terms[2])
         })
@@ -172,9 +175,10 @@ impl Ends {
         }
         let mut resultant = determinant(&rows);
         if self.bends[0].is_exact_zero() {
-            // Then the lowest parts of both polynomials in ρ³z share the factor 3 + 3βz + 2β²z², so the lowest coefficients are 0, which
-            // intervals show as uncertain signs.
-            let common = resultant.0.iter().take_while(|c| c.sign().is_ok_and(|s| s.is_eq()) || c.sign().is_err()).count();
+            // Then the lowest parts of both polynomials in ρ³z share the factor 3 + 3βz + 2β²z², so the lowest
+            // coefficients are 0, which intervals show as uncertain signs.
+            let common =
+                resultant.0.iter().take_while(|c| c.sign().is_ok_and(|s| s.is_eq()) || c.sign().is_err()).count();
             resultant.0.drain(..common);
         }
         let chain = Sturm::new(&resultant)?;
@@ -236,8 +240,8 @@ impl Ends {
 
 /// `∫ (2 turn)² / |w|⁶` by Simpson's rule, halved until it stands still.
 ///
-/// A piece is done when halving it changes its own part, which is positive, by less than 1e-10 of it. Roundings are far below that, even where
-/// w is small: its square is a sum of squares.
+/// A piece is done when halving it changes its own part, which is positive, by less than 1e-10 of it. Roundings are far
+/// below that, even where w is small: its square is a sum of squares.
 fn energy(turn: &[f64], w: [&[f64]; 2]) -> f64 {
     let value = |c: &[f64], x: f64| c.iter().rev().fold(0.0, |sum, c| sum * x + c);
     let f = |x: f64| 4.0 * value(turn, x).powi(2) / w.iter().map(|c| value(c, x).powi(2)).sum::<f64>().powi(3);
@@ -269,7 +273,8 @@ fn determinant(rows: &[Vec<Poly>]) -> Poly {
         if row[0].0.is_empty() {
             continue;
         }
-        let minor: Vec<Vec<Poly>> = rows.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, row)| row[1..].to_vec()).collect();
+        let minor: Vec<Vec<Poly>> =
+            rows.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, row)| row[1..].to_vec()).collect();
         let term = row[0].mul(&determinant(&minor));
         sum = sum.add(&if i % 2 == 0 { term } else { term.times(-1.0) });
     }

@@ -1,5 +1,6 @@
-//! Paths with given ends, by sampling: w1 from Newton's method on `∫ w² = 1`, end speeds of a given length by bisection, the curvature from the
-//! control polygon of the derivative, its peak by dense sampling and golden sections. Nothing is proved here, but 192 bits leave no doubt.
+//! Paths with given ends, by sampling: w1 from Newton's method on `∫ w² = 1`, end speeds of a given length by
+//! bisection, the curvature from the control polygon of the derivative, its peak by dense sampling and golden sections.
+//! Nothing is proved here, but 192 bits leave no doubt.
 
 use super::iv::Iv;
 use std::f64::consts::PI;
@@ -67,7 +68,8 @@ fn equation(w: &[Complex; 3]) -> (Complex, Complex) {
     ([sum[0].plus(-15.0), sum[1].clone()], slope)
 }
 
-/// Both pre-images with these outer coefficients, by deflation: Newton's method for the first root, Vieta for a guess at the second.
+/// Both pre-images with these outer coefficients, by deflation: Newton's method for the first root, Vieta for a guess
+/// at the second.
 fn preimages(w0: &Complex, w2: &Complex) -> Vec<[Complex; 3]> {
     let newton = |mut w1: Complex| {
         for _ in 0..200 {

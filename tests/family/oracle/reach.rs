@@ -1,4 +1,5 @@
-//! Reachable end points, from the end data and the curve itself: tangents, curvatures and positions of the control polygon.
+//! Reachable end points, from the end data and the curve itself: tangents, curvatures and positions of the control
+//! polygon.
 
 use super::iv::{Iv, Sure, Unsure};
 use super::poly::{Poly, Sturm};
@@ -29,7 +30,8 @@ pub fn judge(kind: Kind, theta: f64, xi: f64, eta: f64) -> Verdict {
     })
 }
 
-/// Curve coefficients (m, q), and the Bernstein coefficients of the (square root of the) hodograph, up to a positive factor.
+/// Curve coefficients (m, q), and the Bernstein coefficients of the (square root of the) hodograph, up to a positive
+/// factor.
 struct Curve {
     m: Iv,
     q: Iv,
@@ -58,7 +60,8 @@ fn cubic(case: usize, theta: f64, xi: f64, eta: f64, bits: usize) -> Sure<Option
     let (xi, eta, zero) = (Iv::new(xi, bits), Iv::new(eta, bits), Iv::new(0.0, bits));
     let up = eta.over(&s)?.times(3.0);
     if case == 0 {
-        // No curvature at the start: a1 along the x axis. a2 = d (cos θ, sin θ) gives y(1), and 2 a1 × a2 = d³ the curvature 1.
+        // No curvature at the start: a1 along the x axis. a2 = d (cos θ, sin θ) gives y(1), and 2 a1 × a2 = d³ the
+        // curvature 1.
         let d = up;
         if !d.positive()? {
             return Ok(None);
@@ -90,8 +93,8 @@ fn cubic(case: usize, theta: f64, xi: f64, eta: f64, bits: usize) -> Sure<Option
 fn ph(case: usize, theta: f64, xi: f64, eta: f64, bits: usize) -> Sure<Option<Curve>> {
     let ((s, c), (sh, ch)) = (Iv::sin_cos(theta, bits), Iv::sin_cos(theta / 2.0, bits));
     let (xi, eta, zero, one) = (Iv::new(xi, bits), Iv::new(eta, bits), Iv::new(0.0, bits), Iv::new(1.0, bits));
-    // The round end has |w|² = q, the flat one |w| = Y/√q, and curvature 1 makes the middle one q√q / (4 sin θ/2). Across the flat
-    // end's tangent the end point lies at `5 across = q sin θ + q²/4 + Y sin(θ/2)/3`.
+    // The round end has |w|² = q, the flat one |w| = Y/√q, and curvature 1 makes the middle one q√q / (4 sin θ/2).
+    // Across the flat end's tangent the end point lies at `5 across = q sin θ + q²/4 + Y sin(θ/2)/3`.
     let across = if case == 0 { eta.clone() } else { &(&xi * &s) - &(&eta * &c) };
     let poly = |c: &[&Iv]| Poly::new(c.iter().map(|c| (*c).clone()).collect());
     let by = |p: &Poly, f: &Iv| Poly::new(p.0.iter().map(|c| c * f).collect());
@@ -114,7 +117,10 @@ fn ph(case: usize, theta: f64, xi: f64, eta: f64, bits: usize) -> Sure<Option<Cu
         // y: w0 = √q real, w1 and w2 along (cos θ/2, sin θ/2)
         let thirds = by(&middle2, &s).add(&by(&y.mul(&q1), &sh));
         let mixed = q2.mul(&q1).times(0.25).add(&by(&y.mul(&q2), &(&quarter * &s)));
-        by(&square, &s).add(&mixed).add(&by(&thirds, &one.over(&Iv::new(3.0, bits))?)).add(&q1.times(-5.0).mul(&poly(&[&eta])))
+        by(&square, &s)
+            .add(&mixed)
+            .add(&by(&thirds, &one.over(&Iv::new(3.0, bits))?))
+            .add(&q1.times(-5.0).mul(&poly(&[&eta])))
     };
     if !across.positive()? {
         return Ok(None);
@@ -122,7 +128,8 @@ fn ph(case: usize, theta: f64, xi: f64, eta: f64, bits: usize) -> Sure<Option<Cu
     // Y > 0 needs q² < 20 across.
     let power = Iv::power_of_two(across.times(20.0).sqrt().exponent() + 1, bits);
     let chain = Sturm::new(&rest)?;
-    let end = [1.0, 1.25, 1.375].map(|w| power.times(w)).into_iter().find(|e| chain.changes(e).is_ok()).ok_or(Unsure)?;
+    let end =
+        [1.0, 1.25, 1.375].map(|w| power.times(w)).into_iter().find(|e| chain.changes(e).is_ok()).ok_or(Unsure)?;
     let mut found = None;
     for q in chain.roots(&zero, &end)? {
         let flat = y.at(&q);
@@ -134,8 +141,11 @@ fn ph(case: usize, theta: f64, xi: f64, eta: f64, bits: usize) -> Sure<Option<Cu
         let (flat, middle) = (flat.over(&q)?, &q * &quarter);
         let along = |f: &Iv| [f * &ch, f * &sh];
         let level = |f: &Iv| [f.clone(), zero.clone()];
-        let legs =
-            if case == 0 { [level(&flat), level(&middle), along(&one)] } else { [level(&one), along(&middle), along(&flat)] };
+        let legs = if case == 0 {
+            [level(&flat), level(&middle), along(&one)]
+        } else {
+            [level(&one), along(&middle), along(&flat)]
+        };
         found = Some(Curve { m: flat.over(&middle)?, q, legs });
     }
     Ok(found)
@@ -173,8 +183,8 @@ fn ph_slope(legs: &[[Iv; 2]; 3]) -> Poly {
     speed.mul(&turn.derivative()).add(&turn.mul(&speed.derivative()).times(-2.0))
 }
 
-/// Whether a polynomial is at least 0 on [0, 1]. The cubic's has no slope at its flat end, where no chain can be decided: a
-/// little of the interval is left to interval arithmetic on both sides.
+/// Whether a polynomial is at least 0 on [0, 1]. The cubic's has no slope at its flat end, where no chain can be
+/// decided: a little of the interval is left to interval arithmetic on both sides.
 fn non_negative(p: &Poly, bits: usize) -> Sure<bool> {
     let (zero, one) = (Iv::new(0.0, bits), Iv::new(1.0, bits));
     if !p.at(&zero).positive()? || !p.at(&one).positive()? {
@@ -188,7 +198,8 @@ fn non_negative(p: &Poly, bits: usize) -> Sure<bool> {
     let positive = |on: Iv| p.at(&on).positive() == Ok(true);
     let steps = || 3..(bits / 4) as i32;
     let low = steps().map(power).find(|x| positive(zero.to(x)) && chain.changes(x).is_ok()).ok_or(Unsure)?;
-    let high = steps().map(|k| &one - &power(k)).find(|x| positive(x.to(&one)) && chain.changes(x).is_ok()).ok_or(Unsure)?;
+    let high =
+        steps().map(|k| &one - &power(k)).find(|x| positive(x.to(&one)) && chain.changes(x).is_ok()).ok_or(Unsure)?;
     Ok(chain.count(&low, &high)? == 0)
 }
 

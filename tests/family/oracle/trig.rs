@@ -1,4 +1,5 @@
-//! Quintic trigonometric curves from the printed basis and control points: curvature by its definition, signs by Sturm's chain.
+//! Quintic trigonometric curves from the printed basis and control points: curvature by its definition, signs by
+//! Sturm's chain.
 
 use super::iv::{Iv, Sure, Unsure};
 use super::poly::{Poly, Sturm};
@@ -32,7 +33,8 @@ fn at([ratio, theta, m, p, q]: [f64; 5], bits: usize) -> Sure<u8> {
     // r = 1.
     let near = (&n(0.01) - &curvature.plus(-1.0)).positive()? && curvature.plus(-1.0).plus(0.01).positive()?;
     let slope = numerator(&points, p, q, bits)?;
-    // Both hold at their ties, which doubles can meet: 2 ratio against 6 + m in whole numbers of bits, κ'(1) by its own formula.
+    // Both hold at their ties, which doubles can meet: 2 ratio against 6 + m in whole numbers of bits, κ'(1) by its own
+    // formula.
     let printed = (&n(ratio).times(2.0) - &n(m).plus(6.0)).at_least_zero()?;
     let rises = (&n(ratio).times(9.0) - &n(q).plus(1.0).times(20.0)).at_least_zero()?;
     let end = slope.at(&n(1.0));
@@ -57,7 +59,8 @@ fn control_points(ratio: f64, theta: f64, m: f64, bits: usize) -> Sure<Vec<[Iv; 
         let ([a, b], [c, e]) = (&w[i], &w[j]);
         [&(a * c) - &(b * e), &(a * e) + &(b * c)]
     };
-    let over = |v: [Iv; 2], n: f64| -> Sure<[Iv; 2]> { Ok([v[0].over(&Iv::new(n, bits))?, v[1].over(&Iv::new(n, bits))?]) };
+    let over =
+        |v: [Iv; 2], n: f64| -> Sure<[Iv; 2]> { Ok([v[0].over(&Iv::new(n, bits))?, v[1].over(&Iv::new(n, bits))?]) };
     let ([a, b], [c, e]) = (product(1, 1), product(0, 2));
     let middle = [&a.times(2.0) + &c, &b.times(2.0) + &e];
     let steps = [
@@ -136,8 +139,8 @@ fn numerator(points: &[[Iv; 2]], p: f64, q: f64, bits: usize) -> Sure<Poly> {
     Ok(Poly(slope))
 }
 
-/// Whether a polynomial with a positive value at 0 is at least 0 on [0, 1]; it has no multiple roots. With a root at 1 itself there
-/// must be one before.
+/// Whether a polynomial with a positive value at 0 is at least 0 on [0, 1]; it has no multiple roots. With a root at 1
+/// itself there must be one before.
 fn never_negative(p: &Poly, root_at_1: bool, bits: usize) -> Sure<bool> {
     let (zero, mut one) = (Iv::new(0.0, bits), Iv::new(1.0, bits));
     assert!(p.at(&zero).positive()?, "κ' falls at the start");

@@ -65,8 +65,10 @@ fn the_papers_examples_are_spirals_in_every_orientation() {
             let found = answer(ends);
             assert_eq!((found.placement.reversed, found.placement.mirrored), (i >= 2, i % 2 == 1), "orientation {i}");
             let d = found.datum;
-            // The datum is that of the paper: to the bit in its own orientation, else within the rounding of ±π and ±2π.
-            let off = [d.phi0, d.phi1, d.kappa0, d.kappa1].iter().zip(data).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            // The datum is that of the paper: to the bit in its own orientation, else within the rounding of ±π and
+            // ±2π.
+            let off =
+                [d.phi0, d.phi1, d.kappa0, d.kappa1].iter().zip(data).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(off <= if i == 0 { 0.0 } else { 8.0 * EPS }, "{d:?}");
             let chosen = found.chosen().expect("a spiral");
             // 8 EPS of the datum, times a condition number below 100 away from double roots.
@@ -77,7 +79,12 @@ fn the_papers_examples_are_spirals_in_every_orientation() {
             let side = if ends.start_curvature > 0.0 { 1.0 } else { -1.0 };
             let growth = if i >= 2 { -side } else { side };
             assert!(figure.samples.iter().all(|s| growth * s.curvature_ds > 0.0 && growth * s.curvature_dt > 0.0));
-            assert!(!figure.samples.windows(2).any(|w| w[0].s >= w[1].s || growth * (w[1].curvature - w[0].curvature) <= 0.0));
+            assert!(
+                !figure
+                    .samples
+                    .windows(2)
+                    .any(|w| w[0].s >= w[1].s || growth * (w[1].curvature - w[0].curvature) <= 0.0)
+            );
             let (first, last) = (figure.samples[0], figure.samples[400]);
             assert_eq!((first.t, first.s, last.t, first.point), (0.0, 0.0, 1.0, ends.start));
             // 400 pieces, each within 1e-14 of its own length.
@@ -124,7 +131,8 @@ impl Point {
     }
 }
 
-/// Reference data computed elsewhere with 40 digits; their least distance from any boundary is 1e-7, far above rounding.
+/// Reference data computed elsewhere with 40 digits; their least distance from any boundary is 1e-7, far above
+/// rounding.
 #[test]
 fn curves_agree_with_the_reference() {
     let (mut curves, mut spirals) = (0, 0);
@@ -137,7 +145,8 @@ fn curves_agree_with_the_reference() {
                 let p = curve.p;
                 let size = p.iter().map(|z| length(*z)).fold(0.0, f64::max);
                 let shortest = (0..3).map(|i| length(minus(p[i + 1], p[i]))).fold(f64::INFINITY, f64::min);
-                // Points to 4 EPS of the largest, over the shortest side and the least sine; f itself, over its distance from 3.
+                // Points to 4 EPS of the largest, over the shortest side and the least sine; f itself, over its
+                // distance from 3.
                 let sine = point.phi0.sin().min((point.phi0 + point.phi1).sin()).min(0.1);
                 let tolerance = 32.0 * EPS * (size / shortest / sine + 3.0 / (3.0 - f0) + 3.0 / (3.0 - f1));
                 assert!(tolerance < 1e-6, "{tolerance}");
@@ -223,9 +232,15 @@ fn reasons_name_the_condition_with_its_numbers() {
         with(|e| e.start_direction = -1.5),
         &["the start direction is -85.9437° and the end direction 80.2141°", "above 0, and it is -5.72958°"],
     );
-    says(with(|e| e.start_curvature = 0.65), &["circles of curvature", "the start curvature 0.65 must be below 0.605213"]);
+    says(
+        with(|e| e.start_curvature = 0.65),
+        &["circles of curvature", "the start curvature 0.65 must be below 0.605213"],
+    );
     says(with(|e| e.end_curvature = 1.2), &["the end curvature 1.2 must be above 1.4669"]);
-    let far = says(ends_of([0.179064, 0.792727, 0.0231982, 32.2928]), &["no root of 3 - f1 = a f0^2", "the discriminant is "]);
+    let far = says(
+        ends_of([0.179064, 0.792727, 0.0231982, 32.2928]),
+        &["no root of 3 - f1 = a f0^2", "the discriminant is "],
+    );
     let Why::NoRoot { a, k, discriminant, .. } = far else { panic!("{far:?}") };
     // (A.3) at a maximum of F: no real root between 0 and 3 leaves F of one sign there.
     let sign = |x: f64| 3.0 - x - k * (3.0 - a * x * x).powi(2) > 0.0;
@@ -285,7 +300,13 @@ fn tiny_and_huge_chords() {
     let (data, [f0, _]) = EXAMPLES[0];
     for half in [1e-300, 1e-150, 1e150, 1e300, 8e307] {
         let unit = ends_of(data);
-        let ends = Ends { start: [-half, 0.0], end: [half, 0.0], start_curvature: 0.4 / half, end_curvature: 4.0 / half, ..unit };
+        let ends = Ends {
+            start: [-half, 0.0],
+            end: [half, 0.0],
+            start_curvature: 0.4 / half,
+            end_curvature: 4.0 / half,
+            ..unit
+        };
         let found = answer(&ends);
         // Even 0.4 / 8e307, subnormal, keeps 50 bits.
         assert!((found.datum.kappa1 - 4.0).abs() < 16.0 * EPS, "{half:e}: {:?}", found.datum);
@@ -306,7 +327,10 @@ fn answers_are_told_in_json() {
     assert!(yes.get("why").is_none());
     let no = json(&Ends { end_curvature: 1.2, ..ends_of(EXAMPLES[0].0) });
     assert!(no.get("chosen").is_none());
-    assert_eq!((&no["why"]["condition"], &no["why"]["cause"]), (&"no-spiral-of-any-kind".into(), &"circles-cross".into()));
+    assert_eq!(
+        (&no["why"]["condition"], &no["why"]["cause"]),
+        (&"no-spiral-of-any-kind".into(), &"circles-cross".into())
+    );
     let need = &no["why"]["needs"][0];
     assert_eq!((&need["which"], &need["curvature"]), (&"end".into(), &1.2.into()));
     assert!((need["above"].as_f64().unwrap() - 1.466_901).abs() < 1e-6, "{need}");

@@ -1,4 +1,5 @@
-//! The rules of normalising as docs/cubic.md gives them to whoever does it without this program: followed literally, number by number.
+//! The rules of normalising as docs/cubic.md gives them to whoever does it without this program: followed literally,
+//! number by number.
 
 use super::sides::ends;
 use super::{EPS, length, minus};
@@ -11,7 +12,8 @@ const PAGE: &str = include_str!("../../../docs/cubic.md");
 /// The cells of the page's table: for each kind of curve φ0, φ1, κ0, κ1.
 fn table() -> Vec<(&'static str, [&'static str; 4])> {
     let (_, rows) = PAGE.split_once("| curve | φ0 | φ1 | κ0 | κ1 |\n| --- | --- | --- | --- | --- |\n").unwrap();
-    let cells = |line: &'static str| -> Vec<&'static str> { line.trim_matches('|').split('|').map(str::trim).collect() };
+    let cells =
+        |line: &'static str| -> Vec<&'static str> { line.trim_matches('|').split('|').map(str::trim).collect() };
     let row = |line| match cells(line)[..] {
         [curve, a, b, c, d] => (curve, [a, b, c, d]),
         _ => panic!("{line}"),
@@ -53,7 +55,10 @@ fn by_hand(ends: &Ends) -> ([bool; 2], Datum) {
     let [(curve, cells)] = rows[..] else { panic!("{side} {way}: {rows:?}") };
     let [phi0, phi1, kappa0, kappa1] = cells.map(|cell| value(cell, ends));
     let both = curve.starts_with("both");
-    ([both || curve.starts_with("mirrored"), both || curve.starts_with("run backwards")], Datum { phi0, phi1, kappa0, kappa1 })
+    (
+        [both || curve.starts_with("mirrored"), both || curve.starts_with("run backwards")],
+        Datum { phi0, phi1, kappa0, kappa1 },
+    )
 }
 
 #[test]
@@ -90,7 +95,11 @@ fn the_pages_rules_give_datum_and_points() {
                 points.reverse();
             }
             for (by_hand, placed) in points.iter().zip(chosen.control_points.p) {
-                assert!(length(minus(*by_hand, placed)) < 8.0 * rounding * h, "{points:?}: {:?}", chosen.control_points);
+                assert!(
+                    length(minus(*by_hand, placed)) < 8.0 * rounding * h,
+                    "{points:?}: {:?}",
+                    chosen.control_points
+                );
             }
             kinds.push((mirror, backwards));
         }

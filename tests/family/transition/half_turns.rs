@@ -5,7 +5,8 @@ use spiral_atlas::family::any_spiral::{Datum, involute};
 use spiral_atlas::transition::{Ends, Placement, involute_between, ph_spiral};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// Directions of the chord, as vectors, and their angles in degrees: along the axes, along diagonals, and others with their neighbours.
+/// Directions of the chord, as vectors, and their angles in degrees: along the axes, along diagonals, and others with
+/// their neighbours.
 fn chords() -> Vec<([f64; 2], f64)> {
     let mut all = Vec::new();
     for quarter in 0..4 {
@@ -46,14 +47,21 @@ fn half_and_quarter_turns_land_in_the_domain_however_they_are_written() {
             for last in -2..=2 {
                 for k in [[-1.5, 2.5], [0.3, 7.0], [-7.0, -0.3], [2.5, -1.5], [7.0, 0.3], [-0.3, -7.0]] {
                     let plain =
-                        involute(&Datum { alpha: quarter(first), beta: quarter(last), k1: k[0], k2: k[1] }, [0, 0]).unwrap();
+                        involute(&Datum { alpha: quarter(first), beta: quarter(last), k1: k[0], k2: k[1] }, [0, 0])
+                            .unwrap();
                     for (a, b) in written(first, chord).into_iter().zip(written(last, chord)) {
                         // The directions that differ from the chord's by nothing may come out on either side of it.
                         let placed = ends(vector, [a, b], k);
-                        let (found, _) = involute_between(&placed, [0, 0]).unwrap_or_else(|e| panic!("{placed:?}: {e}"));
+                        let (found, _) =
+                            involute_between(&placed, [0, 0]).unwrap_or_else(|e| panic!("{placed:?}: {e}"));
                         let exact = chord == 0.0 || first.abs() == 2 && last.abs() == 2;
                         if first + last != 0 || exact && a.abs() < 100.0 {
-                            assert_eq!(found.curve().is_some(), plain.curve().is_some(), "{placed:?}: {:?}", found.chord);
+                            assert_eq!(
+                                found.curve().is_some(),
+                                plain.curve().is_some(),
+                                "{placed:?}: {:?}",
+                                found.chord
+                            );
                         }
                         for (got, want) in [(found.chord.alpha, first), (found.chord.beta, last)] {
                             if want.abs() == 2 && a.abs() < 100.0 {
@@ -71,7 +79,8 @@ fn half_and_quarter_turns_land_in_the_domain_however_they_are_written() {
     assert!(compared > 30_000 && curves > 5_000);
 }
 
-/// PH quintics, for directions at every eighth of a turn against the chord in every quadrant: the answer is that for ends on the x axis.
+/// PH quintics, for directions at every eighth of a turn against the chord in every quadrant: the answer is that for
+/// ends on the x axis.
 #[test]
 fn ph_quintics_are_placed_alike_in_every_quadrant() {
     let (mut compared, mut curves) = (0, 0);
@@ -84,7 +93,8 @@ fn ph_quintics_are_placed_alike_in_every_quadrant() {
                     let [a, b] = [first, last].map(|n| (chord + 45.0 * f64::from(n) + whole).to_radians());
                     let placed = ends(vector, [a, b], k);
                     let found = ph_spiral(&placed).unwrap_or_else(|e| panic!("{placed:?}: {e}"));
-                    // On a boundary of the domain rounding decides: along the chord, at opposite angles, and where tangents are parallel.
+                    // On a boundary of the domain rounding decides: along the chord, at opposite angles, and where
+                    // tangents are parallel.
                     if first * last * (first + last) == 0 || (last - first).abs() == 4 {
                         continue;
                     }
@@ -119,7 +129,8 @@ fn a_half_turn_has_the_side_of_the_other_end() {
                     same(o[0], a) && same(o[1], b)
                 });
                 for other in others {
-                    let (again, same) = Placement::normalise(&ends(vector, [chord + other[0], chord + other[1]], k)).unwrap();
+                    let (again, same) =
+                        Placement::normalise(&ends(vector, [chord + other[0], chord + other[1]], k)).unwrap();
                     assert_eq!(
                         (again.phi0.abs() == PI, again.phi1.abs() == PI),
                         (datum.phi0.abs() == PI, datum.phi1.abs() == PI)

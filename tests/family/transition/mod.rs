@@ -16,7 +16,8 @@ use spiral_atlas::transition::{Answer, Ends, Placement};
 
 const EPS: f64 = f64::EPSILON;
 
-/// Roots (f0, f1) of `3 - y = a x²`, `3 - x = k y²` by scan and bisection: the simplest thing that can work, in doubles.
+/// Roots (f0, f1) of `3 - y = a x²`, `3 - x = k y²` by scan and bisection: the simplest thing that can work, in
+/// doubles.
 fn roots(d: &Datum) -> Vec<Root> {
     let half = |sin: f64| sin / (d.phi0 + d.phi1).sin();
     let a = d.kappa0 * half(d.phi1.sin()).powi(2) / d.phi0.sin();

@@ -9,9 +9,13 @@ use spiral_atlas::transition::{Ends, ph_spiral};
 #[test]
 fn meets_its_ends_in_every_orientation() {
     let mut straight = 0;
-    for datum in
-        [[0.7, 1.4, 0.4, 4.0], [0.1, 1.5, 0.035, 100.0], [0.8, 0.9, 0.6, 0.874], [0.4, 0.9, 0.0, 2.0], [0.9, 1.7, 0.5, 4.0]]
-    {
+    for datum in [
+        [0.7, 1.4, 0.4, 4.0],
+        [0.1, 1.5, 0.035, 100.0],
+        [0.8, 0.9, 0.6, 0.874],
+        [0.4, 0.9, 0.0, 2.0],
+        [0.9, 1.7, 0.5, 4.0],
+    ] {
         for (mirrored, reversed) in [(false, false), (true, false), (false, true), (true, true)] {
             let ends = ends(datum, 0.3, 2.0, mirrored, reversed);
             let answer = ph_spiral(&ends).unwrap();
@@ -26,7 +30,10 @@ fn meets_its_ends_in_every_orientation() {
             let jet = |t: f64| Jet::of_bezier(&found.local_control_points, t);
             let length = arc_length(|t| jet(t).speed(), 0.0, 1.0);
             let energy = arc_length(|t| jet(t).curvature().powi(2) * jet(t).speed(), 0.0, 1.0);
-            assert!((found.length / length - 1.0).abs() < 1e-10 && (found.energy / energy - 1.0).abs() < 1e-10, "{found:?}");
+            assert!(
+                (found.length / length - 1.0).abs() < 1e-10 && (found.energy / energy - 1.0).abs() < 1e-10,
+                "{found:?}"
+            );
             // A Pythagorean hodograph: the speed is a quartic, so its fifth differences vanish.
             let speeds: Vec<f64> = (0..=5).map(|i| jet(f64::from(i) / 5.0).speed()).collect();
             let fifth = [-1.0, 5.0, -10.0, 10.0, -5.0, 1.0].iter().zip(&speeds).map(|(c, s)| c * s).sum::<f64>();
@@ -51,7 +58,10 @@ fn no_spiral_has_a_reason_with_numbers() {
     says([0.7, 1.4, 0.4, 1.2], &["the end curvature 0.6 must be above 0.733451"]);
     says([0.7, 1.4, 0.8, 4.0], &["the start curvature 0.4 must be below 0.3"]);
     says([0.7, 1.4, 0.4, -2.0], &["the curvature falls", "their sum must be below 0, and it is 40.107°"]);
-    says([0.7, 1.4, -0.4, 2.0], &["the start curvature -0.2 is to the right, but the directions turn left", "must be above 0"]);
+    says(
+        [0.7, 1.4, -0.4, 2.0],
+        &["the start curvature -0.2 is to the right, but the directions turn left", "must be above 0"],
+    );
     says([-0.7, 1.4, -1.0, 4.0], &["opposite sides"]);
     says([2.0, 1.5, 0.4, 2.0], &["their sum must be above 0"]);
     says([1.4, 0.7, 0.4, 2.0], &["their sum must be above 0, and it is -40.107°"]);

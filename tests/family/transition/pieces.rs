@@ -52,7 +52,8 @@ fn lengths() -> Vec<(&'static str, CubicBezier, f64)> {
             bezier([[0.0, 0.0], [1.0 / 3.0, 0.0], [2.0 / 3.0, 1.0 / 3.0], [1.0, 1.0]]),
             5f64.sqrt() / 2.0 + 2f64.asinh() / 4.0,
         ),
-        // (u², u³) for u in [-1, 1]: a cusp in the middle; in [-1/2, 1]: one between the nodes of every halving, at 1/3.
+        // (u², u³) for u in [-1, 1]: a cusp in the middle; in [-1/2, 1]: one between the nodes of every halving, at
+        // 1/3.
         ("cusp", bezier([[1.0, -1.0], [-1.0 / 3.0, 1.0], [-1.0 / 3.0, -1.0], [1.0, 1.0]]), cusp),
         (
             "cusp aside",
@@ -115,7 +116,10 @@ fn curvature_has_no_size_to_overflow_at() {
             assert_eq!(curve.jet(t).curvature_dt(), unit.jet(t).curvature_dt() / size);
         }
         let wavy = CubicBezier::from_ratios(0.7, 0.7, 1.2, 1.2);
-        assert_eq!(CubicBezier { p: wavy.p.map(|z| [z[0] * size, z[1] * size]) }.curvature_extrema(), wavy.curvature_extrema());
+        assert_eq!(
+            CubicBezier { p: wavy.p.map(|z| [z[0] * size, z[1] * size]) }.curvature_extrema(),
+            wavy.curvature_extrema()
+        );
     }
 }
 

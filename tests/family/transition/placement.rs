@@ -12,9 +12,9 @@ fn angle(a: f64, b: f64) -> f64 {
     (a - b).sin().atan2((a - b).cos())
 }
 
-/// How rounding of the control points (2 EPS of the largest distance P from the first) shows at an end: in the direction
-/// `2 EPS P / |e0|`, and relatively in the curvature `(2/3) e0×e1 / |e0|³`: 3 times that, and by each factor of the product
-/// `2 EPS P (1/|e0| + 1/|e1|) / sin(e0, e1)`. Returned for start and end as (direction, curvature).
+/// How rounding of the control points (2 EPS of the largest distance P from the first) shows at an end: in the
+/// direction `2 EPS P / |e0|`, and relatively in the curvature `(2/3) e0×e1 / |e0|³`: 3 times that, and by each factor
+/// of the product `2 EPS P (1/|e0| + 1/|e1|) / sin(e0, e1)`. Returned for start and end as (direction, curvature).
 fn rounding(p: &[[f64; 2]; 4]) -> [(f64, f64); 2] {
     let size = p.iter().map(|z| length(minus(*z, p[0]))).fold(0.0, f64::max);
     let of = |a: [f64; 2], b: [f64; 2]| {
@@ -84,7 +84,12 @@ fn end_curvatures([phi0, phi1, f0, f1]: Shape) -> [f64; 2] {
 
 /// Normalises the moved curve and places it back; the errors in units of their tolerance. `spoil` may corrupt the ends,
 /// `twist` the placement; the tolerances know of neither.
-fn round_trip(shape: Shape, motion: &Motion, spoil: fn(&mut Ends), twist: fn(&mut Placement)) -> Vec<(&'static str, f64)> {
+fn round_trip(
+    shape: Shape,
+    motion: &Motion,
+    spoil: fn(&mut Ends),
+    twist: fn(&mut Placement),
+) -> Vec<(&'static str, f64)> {
     let unit = CubicBezier::from_ratios(shape[0], shape[1], shape[2], shape[3]);
     let (mut ends, want) = motion.ends(&unit);
     spoil(&mut ends);
@@ -101,8 +106,9 @@ fn round_trip(shape: Shape, motion: &Motion, spoil: fn(&mut Ends), twist: fn(&mu
         round.reverse();
         sides.reverse();
     }
-    // Shift and size round the end points by 2 EPS (1 + shift) half chords each. Directions: two atan2 (2 EPS each), sums with
-    // turn and π up to 4π (4 EPS each, and π's own error), reduction to [-π, π] (2 EPS), points (3 EPS), difference (2 EPS).
+    // Shift and size round the end points by 2 EPS (1 + shift) half chords each. Directions: two atan2 (2 EPS each),
+    // sums with turn and π up to 4π (4 EPS each, and π's own error), reduction to [-π, π] (2 EPS), points (3 EPS),
+    // difference (2 EPS).
     let far = 1.0 + length(motion.shift);
     let angles = [0, 1].map(|i| round[i].0 + (24.0 + 4.0 * far) * EPS);
     let sum = phi0 + phi1;
@@ -153,7 +159,13 @@ fn shapes() -> impl Strategy<Value = Shape> {
 
 fn motions() -> impl Strategy<Value = Motion> {
     let drawn = (-140.0..140.0f64, -PI..PI, -4.0..4.0f64, -4.0..4.0f64, any::<bool>(), any::<bool>());
-    drawn.prop_map(|(size, turn, x, y, mirror, reverse)| Motion { size: 10f64.powf(size), turn, shift: [x, y], mirror, reverse })
+    drawn.prop_map(|(size, turn, x, y, mirror, reverse)| Motion {
+        size: 10f64.powf(size),
+        turn,
+        shift: [x, y],
+        mirror,
+        reverse,
+    })
 }
 
 proptest! {

@@ -93,7 +93,8 @@ fn curvatures_past_the_printed_bound_give_a_spiral() {
     assert!(seen.len() == 10 && seen.values().all(|n| *n >= 50), "{seen:?}");
 }
 
-/// The bound of some spiral of any kind, at which curvatures instead are measured: where the circles of curvature touch.
+/// The bound of some spiral of any kind, at which curvatures instead are measured: where the circles of curvature
+/// touch.
 fn bound(ends: &Ends, which: Which) -> f64 {
     let chord = [ends.end[0] - ends.start[0], ends.end[1] - ends.start[1]];
     let (half, along) = (0.5 * chord[0].hypot(chord[1]), chord[1].atan2(chord[0]));

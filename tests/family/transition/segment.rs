@@ -10,8 +10,9 @@ type Point = [f64; 2];
 /// First two derivatives by de Casteljau's algorithm, from the sides of the control polygon.
 fn jet(legs: &[Point], t: f64) -> [Point; 2] {
     let n = legs.len() as f64;
-    let mix =
-        |row: &[Point]| -> Vec<Point> { row.windows(2).map(|w| [0, 1].map(|i| w[0][i] + t * (w[1][i] - w[0][i]))).collect() };
+    let mix = |row: &[Point]| -> Vec<Point> {
+        row.windows(2).map(|w| [0, 1].map(|i| w[0][i] + t * (w[1][i] - w[0][i]))).collect()
+    };
     let steps = |row: &[Point]| -> Vec<Point> { row.windows(2).map(|w| [0, 1].map(|i| w[1][i] - w[0][i])).collect() };
     let value = |row: &[Point]| {
         let mut row = row.to_vec();
@@ -28,8 +29,8 @@ fn curvature(legs: &[Point], t: f64) -> f64 {
     (a[0] * b[1] - a[1] * b[0]) / a[0].hypot(a[1]).powi(3)
 }
 
-/// All end data that are off by more than 1e-12, in units of r, and curvatures by more than directions rounded to doubles allow: 4 ulp of the
-/// neighbour's length over the square of the end leg's.
+/// All end data that are off by more than 1e-12, in units of r, and curvatures by more than directions rounded to
+/// doubles allow: 4 ulp of the neighbour's length over the square of the end leg's.
 fn faults(request: &Request, added: &Added) -> Vec<String> {
     let legs = &added.legs;
     let length = |i: usize| legs[i][0].hypot(legs[i][1]) / request.radius;
@@ -113,9 +114,13 @@ fn shapes_have_their_end_data_and_their_level() {
                 let (mut wrong, mut other) = (added.clone(), added.clone());
                 wrong.local_control_points[i][1] += 1e-5;
                 other.legs[i][1] += 1e-11;
-                assert!(!faults(&request, &wrong).is_empty() && !faults(&request, &other).is_empty(), "{kind:?} {i} {request:?}");
+                assert!(
+                    !faults(&request, &wrong).is_empty() && !faults(&request, &other).is_empty(),
+                    "{kind:?} {i} {request:?}"
+                );
             }
-            let wrong = Added { level: if added.level == Level::Exists { Level::Exact } else { Level::Exists }, ..added };
+            let wrong =
+                Added { level: if added.level == Level::Exists { Level::Exact } else { Level::Exists }, ..added };
             assert!(!faults(&request, &wrong).is_empty());
         }
         assert!(levels.iter().all(|n| *n > 0), "{kind:?} {levels:?}");

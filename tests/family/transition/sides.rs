@@ -31,7 +31,8 @@ pub fn ends([phi0, phi1, kappa0, kappa1]: [f64; 4], turned: f64, half: f64, mirr
     }
 }
 
-/// How far, relative to the curvature's own size, the curve is from its ends, and whether its curvature is monotone at 400 points.
+/// How far, relative to the curvature's own size, the curve is from its ends, and whether its curvature is monotone at
+/// 400 points.
 pub fn check(ends: &Ends, legs: &[[f64; 2]]) -> (f64, bool) {
     let degree = legs.len() as f64;
     // The derivative, and the second, over the degree.

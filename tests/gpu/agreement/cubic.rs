@@ -58,12 +58,18 @@ fn grids() -> Vec<(&'static str, Grid)> {
         ("boundaries at the scale of f32", boundaries()),
         (
             "normalised, through cusp and fold",
-            grid(vec![lin("phi0", 0.1, 0.9, 5), lin("phi1", 0.7, 1.5, 7), lin("a", 0.01, 0.5, 199), lin("k", 0.005, 1.0, 211)]),
+            grid(vec![
+                lin("phi0", 0.1, 0.9, 5),
+                lin("phi1", 0.7, 1.5, 7),
+                lin("a", 0.01, 0.5, 199),
+                lin("k", 0.005, 1.0, 211),
+            ]),
         ),
     ]
 }
 
-/// Values of κ1 packed around every boundary along κ1, a few f32 units apart: what an f32 bound that is too small gets wrong.
+/// Values of κ1 packed around every boundary along κ1, a few f32 units apart: what an f32 bound that is too small gets
+/// wrong.
 fn boundaries() -> Grid {
     let (phi0, phi1, kappa0) = ([0.25, 0.6, 0.8], [0.9, 1.3, 1.65, 1.9], [0.08, 0.2, 0.33, 0.45, 0.6]);
     let mut kappa1 = Vec::new();

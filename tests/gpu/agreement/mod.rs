@@ -106,7 +106,12 @@ fn every_byte(subject: Subject) {
         let name = format!("{}, {name}", family.about().name);
         let job = Job { family, grid: &grid, scalars: &[] };
         let (cpu, report) = all_chunks(&job, &Backend::Cpu);
-        println!("{name}: {} nodes, {} undecided after f64, {} bits", grid.len(), report.undecided_f64, report.most_bits);
+        println!(
+            "{name}: {} nodes, {} undecided after f64, {} bits",
+            grid.len(),
+            report.undecided_f64,
+            report.most_bits
+        );
         for adapter in crate::adapters::labels() {
             let (gpu, report) = all_chunks(&job, &Backend::Gpu(Some(adapter.clone())));
             let f32 = report.undecided_f32.unwrap();

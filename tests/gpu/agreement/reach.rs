@@ -27,6 +27,9 @@ fn grids(most: f64) -> Vec<(&'static str, Grid)> {
             "all signs, up to the largest angle",
             grid(vec![lin("theta", 0.01, most, 37), lin("xi", -3.0, 9.0, 107), lin("eta", -0.5, 6.0, 131)]),
         ),
-        ("tiny and huge", grid(vec![log("theta", 1e-9, most, 41), log("xi", 1e-15, 1e9, 113), log("eta", 1e-18, 1e8, 127)])),
+        (
+            "tiny and huge",
+            grid(vec![log("theta", 1e-9, most, 41), log("xi", 1e-15, 1e9, 113), log("eta", 1e-18, 1e8, 127)]),
+        ),
     ]
 }

@@ -8,7 +8,8 @@ pub fn subject() -> Subject {
     Subject { family: &TrigQuintic, grids: grids(), nodes: 67_000, rare: 25, flag: SPIRAL, often: 10 }
 }
 
-/// Five axes of different counts; the paper's own data, ties of the plain flags and all ends of the domain among the nodes.
+/// Five axes of different counts; the paper's own data, ties of the plain flags and all ends of the domain among the
+/// nodes.
 fn grids() -> Vec<(&'static str, Grid)> {
     vec![
         (

@@ -102,7 +102,8 @@ fn copies_and_what_lies_inside_change_nothing() {
         }
         copy
     });
-    let nested = (1..100)
-        .map(|i| square.iter().map(|p| [1.5 + (p[0] - 1.5) * f64::from(i) / 100.0, p[1] * f64::from(i) / 100.0]).collect());
+    let nested = (1..100).map(|i| {
+        square.iter().map(|p| [1.5 + (p[0] - 1.5) * f64::from(i) / 100.0, p[1] * f64::from(i) / 100.0]).collect()
+    });
     assert_eq!(plan(&scene([square.clone()].into_iter().chain(copies).chain(nested).collect())).unwrap(), alone);
 }

@@ -5,7 +5,8 @@ use super::*;
 #[test]
 fn verdicts_at_the_very_limit() {
     // A straight path, its distance from a side exact in doubles.
-    let given = |clearance: f64| scene([0.0, 0.0], [8.0, 0.0], vec![vec![[2.0, 0.5], [5.0, 0.5], [3.0, 2.0]]], clearance, 1.0);
+    let given =
+        |clearance: f64| scene([0.0, 0.0], [8.0, 0.0], vec![vec![[2.0, 0.5], [5.0, 0.5], [3.0, 2.0]]], clearance, 1.0);
     let path = [line([0.0, 0.0], [8.0, 0.0])];
     let proved = |clearance: f64| prove(&given(clearance), &path);
     assert!(proved(0.5 - 1e-9).is_ok());
@@ -20,8 +21,10 @@ fn verdicts_at_the_very_limit() {
     let (at, reach) = ([2.0, 0.0], 1.5);
     let corner = turn.corner(at, reach).unwrap();
     let allowed = |share: f64| {
-        let given =
-            Scene { greatest_curvature: turn.curvature(reach) * share, ..scene(corner.start, corner.end, vec![], 0.0, 1.0) };
+        let given = Scene {
+            greatest_curvature: turn.curvature(reach) * share,
+            ..scene(corner.start, corner.end, vec![], 0.0, 1.0)
+        };
         prove(&given, &[corner])
     };
     assert!(allowed(1.0 + 1e-13).is_ok());
@@ -37,12 +40,14 @@ fn samples_that_miss_a_needle_fool_nobody() {
     let path = [line([0.0, 0.0], corner.start), corner, line(corner.end, [10.0, 12.0])];
     let t = 0.500_25;
     let (p, along) = (corner.point(t), corner.tangent(t));
-    let place =
-        |across: f64, ahead: f64| [p[0] - along[1] * across + along[0] * ahead, p[1] + along[0] * across + along[1] * ahead];
+    let place = |across: f64, ahead: f64| {
+        [p[0] - along[1] * across + along[0] * ahead, p[1] + along[0] * across + along[1] * ahead]
+    };
     let needle = |tip: f64| vec![vec![place(tip, 0.0), place(3.0, -1e-4), place(3.0, 1e-4)]];
     let given = |tip: f64, clearance: f64| scene([0.0, 0.0], [10.0, 12.0], needle(tip), clearance, 1.0);
-    let sampled =
-        |scene: &Scene| (0..=2000).all(|i| apart_from_all(corner.point(f64::from(i) / 2000.0), &scene.obstacles) > 1e-4);
+    let sampled = |scene: &Scene| {
+        (0..=2000).all(|i| apart_from_all(corner.point(f64::from(i) / 2000.0), &scene.obstacles) > 1e-4)
+    };
     let through = given(-0.5e-4, 1e-5);
     assert!(sampled(&given(1e-4, 0.0)) && prove(&given(1e-4, 0.0), &path).is_ok());
     assert!(prove(&through, &path).is_err() && audit(&through, &path).is_err());
@@ -64,7 +69,8 @@ fn samples_that_miss_a_needle_fool_nobody() {
 
 #[test]
 fn vehicles_in_step_on_planned_paths_are_told_apart_exactly() {
-    // Lines and corners join with directions that differ by rounding; taken for corners, 400,000 stretches would not do.
+    // Lines and corners join with directions that differ by rounding; taken for corners, 400,000 stretches would not
+    // do.
     let given = scene([-1.0, -0.8], [4.0, 3.7], field(&mut Noise(8), 4), 0.03, 9.0);
     let spans = plan(&given).unwrap().spans;
     let moved = |p: [f64; 2]| [p[0] + 0.3, p[1] + 0.4];

@@ -23,11 +23,17 @@ fn what_makes_no_sense_or_has_no_path_is_named() {
     says(&|s| s.obstacles.push(vec![[5.0, 5.0], [6.0, 5.0]]), &["obstacles[1] has 2 different vertices"]);
     says(&|s| s.obstacles.push(vec![[5.0, 5.0]; 9]), &["obstacles[1] has 1 different vertices"]);
     says(&|s| s.obstacles.push(vec![]), &["obstacles[1] has 0"]);
-    says(&|s| s.obstacles.push(vec![[5.0, 5.0], [6.0, 6.0], [6.0, 5.0], [5.0, 6.0]]), &["obstacles[1] meets itself", "split it"]);
+    says(
+        &|s| s.obstacles.push(vec![[5.0, 5.0], [6.0, 6.0], [6.0, 5.0], [5.0, 6.0]]),
+        &["obstacles[1] meets itself", "split it"],
+    );
     // Back on itself, flat, and a vertex on a side.
     says(&|s| s.obstacles.push(vec![[5.0, 5.0], [8.0, 5.0], [6.0, 5.0], [6.0, 7.0]]), &["obstacles[1] meets itself"]);
     says(&|s| s.obstacles.push(vec![[5.0, 5.0], [6.0, 6.0], [7.0, 7.0]]), &["obstacles[1] meets itself"]);
-    says(&|s| s.obstacles.push(vec![[5.0, 5.0], [7.0, 5.0], [7.0, 7.0], [6.0, 5.0], [5.0, 7.0]]), &["obstacles[1] meets itself"]);
+    says(
+        &|s| s.obstacles.push(vec![[5.0, 5.0], [7.0, 5.0], [7.0, 7.0], [6.0, 5.0], [5.0, 7.0]]),
+        &["obstacles[1] meets itself"],
+    );
     says(&|s| s.start = [0.5, 0.5], &["`start` [0.5, 0.5] lies in or on obstacles[0]"]);
     says(&|s| s.goal = [1.0, 0.3], &["`goal` [1.0, 0.3] lies in or on obstacles[0]"]);
     says(&|s| s.goal = [1.05, 0.0], &["`goal` [1.05, 0.0]", "away from obstacles[0]", "clearance 0.1"]);
@@ -52,7 +58,9 @@ fn what_makes_no_sense_or_has_no_path_is_named() {
     // Curvature that no leg has room for: the corner is named, with what it needs.
     let error = error(room(1.9, 1e-3));
     assert!(
-        ["the shortest way turns", "obstacles[", "degrees", "curvature 0.001", "needs"].iter().all(|p| error.contains(p)),
+        ["the shortest way turns", "obstacles[", "degrees", "curvature 0.001", "needs"]
+            .iter()
+            .all(|p| error.contains(p)),
         "{error}"
     );
 }
@@ -68,15 +76,17 @@ fn blocked_is_said_at_once_and_only_where_it_is_so() {
         (0..4).map(side)
     };
     let squares = || (0..144).filter(|k| *k != 6 * 12 + 6).map(|k| square([f64::from(k / 12), f64::from(k % 12)], 0.3));
-    let given =
-        |slit: f64, clearance: f64| scene([-1.0, -1.0], [6.0, 6.0], walls(slit).chain(squares()).collect(), clearance, 1e4);
+    let given = |slit: f64, clearance: f64| {
+        scene([-1.0, -1.0], [6.0, 6.0], walls(slit).chain(squares()).collect(), clearance, 1e4)
+    };
     let says = |scene: Scene| plan(&scene).map_or_else(|e| e.to_string(), |_| "found".into());
     for (slit, clearance) in [(0.0, 0.0), (0.0, 0.05), (0.15, 0.0501)] {
         assert!(says(given(slit, clearance)).contains("every way is blocked: obstacles grown"), "{slit} {clearance}");
     }
     assert_eq!([says(given(0.15, 0.0)), says(given(0.15, 0.04))], ["found", "found"]);
     // A ring around both ends, or beside them, parts nothing.
-    let ring = |x: f64| walls(0.0).map(move |ring| ring.into_iter().map(|p| [p[0] - 6.0 + x, p[1] - 6.0]).collect::<Ring>());
+    let ring =
+        |x: f64| walls(0.0).map(move |ring| ring.into_iter().map(|p| [p[0] - 6.0 + x, p[1] - 6.0]).collect::<Ring>());
     for x in [0.0, 2.0, 4.0] {
         let blocked = says(scene([x - 0.1, 0.0], [0.1, 0.2], ring(0.0).collect(), 0.01, 1e3)).contains("blocked");
         assert_eq!(blocked, x != 0.0, "{x}");

@@ -4,16 +4,18 @@
 //! z(t)) e^(iT)` for the involute z. Then
 //! the map is `z' = -σ + 2σ A/(2 + pA)` with `A = r e^(iγ) a`. At the start σ = 1, t = T + v, γ = α, `r =
 //! ρ/c` and `p = 1 - 1/m`; at the end
-//! σ = -1, t = T - v, γ = β, `r = 1/(ρc)` and `p = 1 - m`. This is the form (m(1 + z) - (1 - z))/(m(1 + z) + (1 - z)) divided by its
-//! end's dominant terms. In the expansion of the image's curvature in a, everything that cancels does so in letters:
+//! σ = -1, t = T - v, γ = β, `r = 1/(ρc)` and `p = 1 - m`. This is the form (m(1 + z) - (1 - z))/(m(1 + z) + (1 - z))
+//! divided by its end's dominant terms. In the expansion of the image's curvature in a, everything that cancels does so
+//! in letters:
 //!
 //! `t k = T k(0) + σ qr h - qi sin v + r|q|²/4 (v² - 2h + 2σT(v - sin v))`, `q = p e^(iγ)`, `h = 1 - cos v`.
 //!
 //! # Units
 //! All these numbers may be far outside the range of doubles. So v is measured by a unit s, the width of the
 //! peak that the speed may have at the
-//! end: `w = v/s`, and a by `s(s + T)`, with `r max(1, |q|) s(s + T) <= 2` and s <= 1, s <= θ. The divisor `2 + pA` is measured by
-//! `n = (1 + w)(1 + εw)`, `ε = s/(s + T)`, which grows like a does. What is left are numbers of moderate size: [`Half`] has nothing else.
+//! end: `w = v/s`, and a by `s(s + T)`, with `r max(1, |q|) s(s + T) <= 2` and s <= 1, s <= θ. The divisor `2 + pA` is
+//! measured by `n = (1 + w)(1 + εw)`, `ε = s/(s + T)`, which grows like a does. What is left are numbers of moderate
+//! size: [`Half`] has nothing else.
 
 use super::super::differences::Differences;
 use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn};
@@ -86,8 +88,8 @@ impl Half {
         let h = 0.5 * half * half;
         let p = Differences::by_powers(v).p;
         let shrink = 1.0 / (1.0 + far * w);
-        let a =
-            [side * far * w * (sinc - h) + near * sinc, -v * (p * far * w + side * near * h)].map(|x| w / (1.0 + w) * shrink * x);
+        let a = [side * far * w * (sinc - h) + near * sinc, -v * (p * far * w + side * near * h)]
+            .map(|x| w / (1.0 + w) * shrink * x);
         let divisor = add([2.0 / (1.0 + w) * shrink, 0.0], turn(grow, a));
         Seen { v, w, shrink, t: near + side * far * w, sinc, h, a, divisor }
     }
@@ -108,10 +110,15 @@ impl Half {
         let last = 0.25 * length(self.grow) * (square * far * w + 2.0 * side * near * Differences::by_powers(v).rest);
         let bend = self.bend * u * u * (w * far * (last / t));
         let turning = side * self.swing * u * h - self.sway * sinc;
-        Place { point: [x - side, y], direction: angle - side * v, curvature: (near * curvature + turning * far * w) / t + bend }
+        Place {
+            point: [x - side, y],
+            direction: angle - side * v,
+            curvature: (near * curvature + turning * far * w) / t + bend,
+        }
     }
 
-    /// Length for each unit of `y = ln(1 + w)`, and how far rounding may move it: about 8 units of the divisor's terms, twice.
+    /// Length for each unit of `y = ln(1 + w)`, and how far rounding may move it: about 8 units of the divisor's terms,
+    /// twice.
     pub fn speed(&self, u: f64) -> [f64; 2] {
         let Seen { w, shrink, t, divisor, .. } = self.seen(u);
         let size = length(divisor);
@@ -159,7 +166,8 @@ impl Half {
         let (v, t) = (theta * u, end + side * theta * u);
         // z - W, each in the frame of z(T) and in a unit that is no less than |z|, about.
         let unit = end + theta;
-        let away = |divisor: Vector, by: f64| scale(turn(divisor, [grow[0], -grow[1]]), side * (by / unit) / dot(grow, grow));
+        let away =
+            |divisor: Vector, by: f64| scale(turn(divisor, [grow[0], -grow[1]]), side * (by / unit) / dot(grow, grow));
         let first = away([2.0, 0.0], s * (s + end));
         let last = away(self.seen(u).divisor, (s + v) * (s + end + v));
         let (sin, cos) = (side * v).sin_cos();

@@ -1,5 +1,5 @@
-//! The spiral between two ends that is the Möbius image of an involute of a circle (Kurnosenko 2026): any ends that some
-//! spiral joins, short or long, with increasing or decreasing curvature, with or without an inflection.
+//! The spiral between two ends that is the Möbius image of an involute of a circle (Kurnosenko 2026): any ends that
+//! some spiral joins, short or long, with increasing or decreasing curvature, with or without an inflection.
 //!
 //! ```
 //! use spiral_atlas::family::any_spiral::{Datum, involute};
@@ -42,7 +42,8 @@ pub struct Spiral {
     pub chord: Datum,
     /// Turns about start and end that were asked for.
     pub turns: [u32; 2],
-    /// `(k1 + sin α)(k2 - sin β) + sin²((α + β)/2)`: an invariant of the two circles of curvature, negative where they are disjoint.
+    /// `(k1 + sin α)(k2 - sin β) + sin²((α + β)/2)`: an invariant of the two circles of curvature, negative where they
+    /// are disjoint.
     pub q: f64,
     /// `(α + β)/2`, and π for each turn, with the sign of k2 - k1; radians.
     pub omega: f64,
@@ -96,20 +97,20 @@ impl Spiral {
     }
 }
 
-/// Finds the involute's image between two ends with `turns[0]` turns about the start and `turns[1]` about the end (0, 0: a short
-/// spiral, which meets the line of the chord outside the chord nowhere inside). Only their sum is sure to be had:
-/// [`Image::split`] says whether the split is as asked.
+/// Finds the involute's image between two ends with `turns[0]` turns about the start and `turns[1]` about the end (0,
+/// 0: a short spiral, which meets the line of the chord outside the chord nowhere inside). Only their sum is sure to be
+/// had: [`Image::split`] says whether the split is as asked.
 ///
-/// Directions of exactly ±π (the double) are a half turn: they count as π where the curvature increases and as -π where it
-/// decreases, as (1) in the paper has it.
+/// Directions of exactly ±π (the double) are a half turn: they count as π where the curvature increases and as -π where
+/// it decreases, as (1) in the paper has it.
 ///
 /// # Accuracy
-/// Existence is proved for the doubles given. θ, t0 and the factors of the map are correctly rounded from intervals; see
-/// [`Involute::at`] for points.
+/// Existence is proved for the doubles given. θ, t0 and the factors of the map are correctly rounded from intervals;
+/// see [`Involute::at`] for points.
 ///
 /// # Errors
-/// [`Error::Domain`] for a value that is not finite, an angle beyond ±π, a curvature beyond 1e100 or more than 1000 turns;
-/// [`Error::Undecided`] at the precision cap.
+/// [`Error::Domain`] for a value that is not finite, an angle beyond ±π, a curvature beyond 1e100 or more than 1000
+/// turns; [`Error::Undecided`] at the precision cap.
 ///
 /// # Source
 /// Kurnosenko, arXiv 2603.29596, (2) to (6), with the sign of z0 in (6) corrected.

@@ -129,7 +129,8 @@ fn split(datum: &Datum, turns: [u32; 2], curve: &Involute) -> Split {
 fn found(datum: &Datum, half_turns: u32, turns: u32, mirrored: bool) -> Result<(Involute, Work)> {
     let ((numbers, evaluations), bits) = climb(datum, "the arc of the involute", |bits| {
         // Differences of the data may take far more bits than the arc does, but sines of two angles only.
-        let wanted = climb(datum, "Q", |b| if b < bits { None } else { Wanted::new(datum, half_turns, b, bits) }).ok()?.0;
+        let wanted =
+            climb(datum, "Q", |b| if b < bits { None } else { Wanted::new(datum, half_turns, b, bits) }).ok()?.0;
         Numbers::new(datum, &wanted, bits)
     })?;
     let curve = Involute::new(datum, numbers, turns, mirrored);
@@ -194,8 +195,12 @@ impl Numbers {
             [&x - &u, &y - &v]
         };
         let start = End { side: 1.0, t: &t1, scale: rho.over(&half_chord)?, q: factor(&alpha, &inverse, &ahead) };
-        let end =
-            End { side: -1.0, t: &(&t0 + &theta), scale: inverse.over(&half_chord)?, q: factor(&beta, &rho, &(&omega - &theta)) };
+        let end = End {
+            side: -1.0,
+            t: &(&t0 + &theta),
+            scale: inverse.over(&half_chord)?,
+            q: factor(&beta, &rho, &(&omega - &theta)),
+        };
         let halves = [start.half(&theta, datum.alpha, datum.k1)?, end.half(&theta, datum.beta, datum.k2)?];
         // θ from the nearest multiple of π.
         let turns = (theta.approx() / PI).round();
@@ -277,14 +282,14 @@ impl Involute {
         self.t0
     }
 
-    /// ρ and λ of the map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature decreases. A ρ beyond the
-    /// range of normal doubles is told as the nearest of them.
+    /// ρ and λ of the map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature decreases. A ρ
+    /// beyond the range of normal doubles is told as the nearest of them.
     pub fn map(&self) -> [f64; 2] {
         [self.rho, self.lambda]
     }
 
-    /// Turns about the start and about the end: how often the line of the chord is met strictly inside the curve, before the
-    /// start and beyond the end.
+    /// Turns about the start and about the end: how often the line of the chord is met strictly inside the curve,
+    /// before the start and beyond the end.
     pub fn turns(&self) -> [u32; 2] {
         self.turns
     }
@@ -298,8 +303,9 @@ impl Involute {
     /// The point at a parameter from 0 to 1.
     ///
     /// # Accuracy
-    /// About 1e-14, relative to its distance from the nearer end and, if larger, times that distance; directions 1e-14 times one plus the
-    /// turns; curvatures 1e-13 relative to the largest term they are the sum of. The ends are exact, up to the rounding of their direction.
+    /// About 1e-14, relative to its distance from the nearer end and, if larger, times that distance; directions 1e-14
+    /// times one plus the turns; curvatures 1e-13 relative to the largest term they are the sum of. The ends are exact,
+    /// up to the rounding of their direction.
     pub fn at(&self, f: f64) -> InvolutePoint {
         let (which, u) = side(f);
         InvolutePoint { f, ..self.seen(which, u) }
@@ -323,8 +329,8 @@ impl Involute {
     /// The point where a share, from 0 to 1, of the length is behind.
     ///
     /// # Accuracy
-    /// 1e-13 of the length, and as [`Involute::at`], but that the point's parameter, rounded to a double, may tell less than the point where
-    /// the curve begins or ends far within a rounding of the parameter.
+    /// 1e-13 of the length, and as [`Involute::at`], but that the point's parameter, rounded to a double, may tell less
+    /// than the point where the curve begins or ends far within a rounding of the parameter.
     pub fn at_length(&self, share: f64) -> InvolutePoint {
         let wanted = share.max(0.0) * self.length();
         // The end itself, even where its half is shorter than a rounding.

@@ -1,11 +1,13 @@
 //! The work for one curve is bounded by the digits of its data, not by how near they are to a case where no
 //! curve exists or the formulas break.
 //!
-//! Bounds, for doubles with at most 2150 bits between the largest and the smallest digit of what is added, and at most 2000 turns:
+//! Bounds, for doubles with at most 2150 bits between the largest and the smallest digit of what is added, and at most
+//! 2000 turns:
 //! - Precision doubles from 128 bits. Only digits that the data share cost any: where Q is small against its
 //!   terms, or nearly 3ω² for small ω.
-//! - The equation is solved by Newton's method from a start with at least 10 right bits, so that each step doubles them: log2(bits/10)
-//!   evaluations, two for the bracket, two for the proof at the first δ, and as many again where rounding asks for a wider one.
+//! - The equation is solved by Newton's method from a start with at least 10 right bits, so that each step doubles
+//!   them: log2(bits/10) evaluations, two for the bracket, two for the proof at the first δ, and as many again where
+//!   rounding asks for a wider one.
 //! - The length has pieces of a unit and a half of y, which is at most ln of the largest w; of a unit and a half of v,
 //!   which is at most θ; and some 4 for each halving towards a peak inside, of which doubles leave 54.
 
@@ -68,8 +70,13 @@ fn signed() -> Vec<f64> {
 fn few_steps_near_every_limit_of_the_angles() {
     let mut most = Most::default();
     for alpha in [0.0, 1e-300, 1e-17, 0.3, 1.1993755400291874, FRAC_PI_2, 3.0, PI].iter().flat_map(|a| [-a, *a]) {
-        for beta in
-            around(-alpha).into_iter().chain(around(0.0)).chain(around(PI)).chain(around(-PI)).chain(around(FRAC_PI_2)).step_by(3)
+        for beta in around(-alpha)
+            .into_iter()
+            .chain(around(0.0))
+            .chain(around(PI))
+            .chain(around(-PI))
+            .chain(around(FRAC_PI_2))
+            .step_by(3)
         {
             for (i, k1) in signed().into_iter().enumerate() {
                 // Two k2 for each k1, others for each.
@@ -100,8 +107,11 @@ fn few_steps_near_circles_that_touch() {
                     continue;
                 }
                 for _ in 0..2100 {
-                    let middle =
-                        if high > 0.0 && low > 0.0 && high > 4.0 * low { low.sqrt() * high.sqrt() } else { 0.5 * (low + high) };
+                    let middle = if high > 0.0 && low > 0.0 && high > 4.0 * low {
+                        low.sqrt() * high.sqrt()
+                    } else {
+                        0.5 * (low + high)
+                    };
                     if middle <= low || middle >= high {
                         break;
                     }
@@ -127,9 +137,15 @@ fn steps_grow_with_the_turns_alone() {
         let mut most = Most::default();
         for alpha in [-PI, -1.0, -1e-300, 0.0, 0.5, PI] {
             for beta in around(-alpha).into_iter().step_by(7) {
-                for (k1, k2) in
-                    [(-1e100, 1e100), (-8.0, 13.0), (-1e17, 1e-300), (-1e-300, 0.6), (-3.0, -1.0), (2.0, 1e8), (7.0, -3.0)]
-                {
+                for (k1, k2) in [
+                    (-1e100, 1e100),
+                    (-8.0, 13.0),
+                    (-1e17, 1e-300),
+                    (-1e-300, 0.6),
+                    (-3.0, -1.0),
+                    (2.0, 1e8),
+                    (7.0, -3.0),
+                ] {
                     most.case(Datum { alpha, beta, k1, k2 }, turns);
                 }
             }

@@ -5,10 +5,11 @@ use crate::curve::gauss;
 
 /// A half in pieces on each of which one Gauss-Legendre rule gives the length.
 ///
-/// The speed may have a peak at the end, far narrower than the half is long: over `y = ln(1 + w)` its width is about 1. Inside it may
-/// have one more, where the curve goes far away, and there its width is bounded below by the rounding of the parameter. So pieces of one
-/// and a half units of y, and of at most as much of v, are halved until halves agree with the whole to 1e-15 of the length or to the
-/// rounding of the speed: about 50 times next to a peak, and nowhere else. Their number is bounded by the digits of the data and by the turns.
+/// The speed may have a peak at the end, far narrower than the half is long: over `y = ln(1 + w)` its width is about 1.
+/// Inside it may have one more, where the curve goes far away, and there its width is bounded below by the rounding of
+/// the parameter. So pieces of one and a half units of y, and of at most as much of v, are halved until halves agree
+/// with the whole to 1e-15 of the length or to the rounding of the speed: about 50 times next to a peak, and nowhere
+/// else. Their number is bounded by the digits of the data and by the turns.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Track {
     pub half: Half,

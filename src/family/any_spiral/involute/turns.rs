@@ -23,11 +23,12 @@ pub enum Split {
 
 /// Fewest and most turns about the start among all spirals of increasing curvature with `turns` in all.
 ///
-/// The spiral stays outside of, or inside, both end circles of curvature, as the signs of the curvatures say. With k1 >= 0 it
-/// lies within the first circle, which the line beyond the start meets nowhere else, so that it never turns about the
-/// start; likewise for k2 <= 0 and the end. Between, its tangent at the inflection parts the two circles: directions of such lines
-/// lie in an interval within (-π, 0), and the curve turns right from its start, and left to its end, from or to one of them.
-/// Without a turn about the start (the end) α (β) must lie above the least of these directions.
+/// The spiral stays outside of, or inside, both end circles of curvature, as the signs of the curvatures say. With
+/// k1 >= 0 it lies within the first circle, which the line beyond the start meets nowhere else, so that it never turns
+/// about the start; likewise for k2 <= 0 and the end. Between, its tangent at the inflection parts the two circles:
+/// directions of such lines lie in an interval within (-π, 0), and the curve turns right from its start, and left to
+/// its end, from or to one of them. Without a turn about the start (the end) α (β) must lie above the least of these
+/// directions.
 pub(super) fn range(chord: &Datum, turns: u32) -> (u32, u32) {
     if turns == 0 || chord.k1 >= 0.0 {
         return (0, 0);
@@ -39,7 +40,8 @@ pub(super) fn range(chord: &Datum, turns: u32) -> (u32, u32) {
     (u32::from(chord.alpha <= least), turns - u32::from(chord.beta <= least))
 }
 
-/// The least direction, in (-π, 0), of lines with the circle at the start on their right and that at the end on their left.
+/// The least direction, in (-π, 0), of lines with the circle at the start on their right and that at the end on their
+/// left.
 fn least_direction(chord: &Datum) -> f64 {
     let (r1, r2) = (-1.0 / chord.k1, 1.0 / chord.k2);
     // From centre to centre; centres lie to the right at the start and to the left at the end.

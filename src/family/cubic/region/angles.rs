@@ -27,6 +27,13 @@ impl Angles {
         let (q0, q1) = (sin0.mul(&inverse), sin1.mul(&inverse));
         let (g0, g1) = (q0.mul(&q0), q1.mul(&q1));
         let p = q0.mul(&second.cosine());
-        Some(Angles { p, r: formula!(1.0 - p), g0, g1, curve0: g1.mul(&sin0.inverse()?), curve1: g0.mul(&sin1.inverse()?) })
+        Some(Angles {
+            p,
+            r: formula!(1.0 - p),
+            g0,
+            g1,
+            curve0: g1.mul(&sin0.inverse()?),
+            curve1: g0.mul(&sin1.inverse()?),
+        })
     }
 }

@@ -90,7 +90,9 @@ impl Region for Cubic {
     }
 
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
-        let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else { return Facts::default() };
+        let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else {
+            return Facts::default();
+        };
         let sides: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
         if holds_box(&sides) {
             return prove(chart == 1, &sides, wanted);
@@ -150,7 +152,8 @@ fn prove(normalised: bool, sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
         return facts;
     };
     let ends = [Four::centred(kappa0, 2), Four::centred(kappa1, 3)];
-    let data = Data::new(angles, if normalised { ends } else { [angles.curve0.mul(&ends[0]), angles.curve1.mul(&ends[1])] });
+    let data =
+        Data::new(angles, if normalised { ends } else { [angles.curve0.mul(&ends[0]), angles.curve1.mul(&ends[1])] });
     let solvable = data.solvable();
     // What holds of some datum only where it has roots needs both curvatures positive.
     let rooted = kappa0[0] > 0.0 && kappa1[0] > 0.0;

@@ -162,7 +162,8 @@ pub(super) fn span(a: &Four, k: &Four) -> Option<[f64; 2]> {
     const NEAR: f64 = 1e-7;
     let m = settle(most, least, 1.0 / most.sqrt())? * (1.0 - NEAR);
     let (value, slope, y, bend) = at(m);
-    (m > 0.0 && sure(&value, Less) && sure(&y, Greater) && (sure(&bend, Less) || sure(&slope, Greater))).then_some(())?;
+    (m > 0.0 && sure(&value, Less) && sure(&y, Greater) && (sure(&bend, Less) || sure(&slope, Greater)))
+        .then_some(())?;
     if !sure(&formula!(3.0 * k - 1.0), Greater) {
         let l = settle(most, least, 0.0)? * (1.0 + NEAR);
         let (value, _, _, bend) = at(l);

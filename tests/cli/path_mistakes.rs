@@ -1,0 +1,110 @@
+//! Mistakes in the input of `path`, each named.
+
+use super::path::run_or_pipe;
+
+#[test]
+fn mistakes_are_named() {
+    let cases: &[(&[&str], &str, &[&str])] = &[
+        (&["hermite", "-"], "{", &["standard input: it ends in the middle of its JSON (line 1, column 1)"]),
+        (&["measure", "-"], r#"{"paths": [{"pieces": []}]}"#, &["paths[0]: `pieces` is empty"]),
+        (
+            &["measure", "-"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}, {"kind": "ph-quintic", "start": [7, 7], "preimage": [[1, 0], [1, 0], [1, 0]]}]}]}"#,
+            &["paths[0]: pieces[0] ends at [1.0, 0.0], pieces[1] starts at [7.0, 7.0]"],
+        ),
+        (
+            &["measure", "-", "--offset", "1e308"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[100, 0], [50, 60], [1, 90]]}]}]}"#,
+            &["paths[0]: pieces[0]: its offset at distance 1e308"],
+        ),
+        (&["measure", "-", "--offset", "inf"], r#"{"paths": []}"#, &["--offset is inf"]),
+        (
+            &["measure", "-", "--samples", "1000001"],
+            r#"{"paths": []}"#,
+            &["\"1000001\" is no whole number from 2 to 1000000", "--samples"],
+        ),
+        (&["hermite", "-"], r#"{"start": [0, 0]}"#, &["standard input: the field `end` is missing (line 1"]),
+        (
+            &["hermite", "-"],
+            r#"{"start": [0, 0], "end": [1, 0], "start_derivative": [0, 0], "end_derivative": [1, 0]}"#,
+            &["standard input", "`start_derivative` is 0"],
+        ),
+        (&["spline", "-"], r#"{"points": [[0, 0], [1, 0], [1, 0]]}"#, &["points[1] and points[2]", "[1.0, 0.0]"]),
+        (
+            &["spline", "-"],
+            r#"{"points": [[0, 0], [1e999, 0]]}"#,
+            &["standard input: points[1][0] is beyond the range of doubles"],
+        ),
+        (
+            &["spline", "-"],
+            r#"{"points": [[0, 0], [1, 0, 0]]}"#,
+            &["standard input: points[1] has more values than belong there (line 1"],
+        ),
+        (
+            &["spline", "-"],
+            r#"{"points": [[0, 0], [1, 0]]} {}"#,
+            &["standard input: it is not JSON (line 1, column 30): something follows after its end"],
+        ),
+        (
+            &["spline", "-"],
+            "[[[0, 0], [1, 0]]]",
+            &["standard input: it must be an object with the fields points, closed; it is a list"],
+        ),
+        (&["spline", "-"], r#"{"point": []}"#, &["there is no field `point`; known are `points` or `closed`"]),
+        (
+            &["equal-length", "-"],
+            r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": 0.1, "end_direction": "5deg"}]}"#,
+            &["paths[0]", "`length` is 2.0", "distance 3.0"],
+        ),
+        (
+            &["equal-length", "-"],
+            r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": "4dg", "end_direction": 0}]}"#,
+            &["standard input: paths[0].start_direction: \"4dg\" is no angle"],
+        ),
+        (
+            &["equal-length", "-"],
+            r#"{"length": 2, "paths": [[[0, 0], [1, 0], 1, 1]]}"#,
+            &["paths[0] must be an object with the fields start, end, start_direction, end_direction; it is a list"],
+        ),
+        (
+            &["separation", "-", "--minimum", "0"],
+            r#"{"paths": [{"pieces": [[[0, 0], null, [[1, 0], [1, 0], [1, 0]]]]}]}"#,
+            &["paths[0].pieces[0] must be an object with the fields kind, start, end, start_direction"],
+        ),
+        (
+            &["separation", "-", "--minimum", "0"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            &["paths[1]: `pieces` is empty"],
+        ),
+        (
+            &["plan", "-"],
+            r#"{"obstacles": [[[0, 1], [1, 2], [3]]]}"#,
+            &["standard input: obstacles[0][2] must be a pair of numbers [x, y]; it has 1 value (line 1"],
+        ),
+        (&["equal-length", "-"], r#"{"length": 2, "paths": []}"#, &["`paths` is empty"]),
+        (&["separation", "-", "--minimum", "0"], r#"{"paths": []}"#, &["0 paths"]),
+        (
+            &["separation", "-", "--minimum", "0"],
+            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            &["paths[0]", "pieces[0]", "`end` is [7.0, 0.0]", "[1.0, 0.0]"],
+        ),
+        (
+            &["separation", "-", "--minimum", "0"],
+            r#"{"paths": [{"speed": 0, "pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            &["paths[0]", "`speed` is 0.0"],
+        ),
+        (
+            &["plan", "-"],
+            r#"{"start": [0, 0], "goal": [3, 0], "obstacles": [[[1, 1], [2, 2]]], "clearance": 0, "greatest_curvature": 1}"#,
+            &["standard input", "obstacles[0] has 2 different vertices"],
+        ),
+        (&["plan", "-"], r#"{"start": [0, 0], "heading": 1}"#, &["there is no field `heading`"]),
+        (&["separation", "missing.json", "--minimum", "1"], "", &["missing.json", "No such file"]),
+        (&["spline", "-", "--figure", "x.jpg"], "{}", &["x.jpg", ".png"]),
+    ];
+    for (args, input, parts) in cases {
+        let said = run_or_pipe(args, input);
+        assert_eq!((said.code, &said.out[..]), (Some(2), ""), "{args:?} {input}");
+        assert!(parts.iter().all(|part| said.err.contains(part)), "{args:?} {input}: {}", said.err);
+    }
+}
