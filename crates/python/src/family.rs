@@ -130,7 +130,7 @@ fn values<'py>(py: Python<'py>, all: &[(&'static str, Value)]) -> PyResult<Bound
 }
 
 /// The family of a name.
-fn known(name: &str) -> PyResult<&'static dyn Family> {
+pub(crate) fn known(name: &str) -> PyResult<&'static dyn Family> {
     family::by_name(name).ok_or_else(|| {
         let names: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
         PyValueError::new_err(format!("`{name}` is no family; there are {}", names.join(", ")))
@@ -138,7 +138,7 @@ fn known(name: &str) -> PyResult<&'static dyn Family> {
 }
 
 /// Chart and coordinates of a datum that was given by name.
-fn datum(family: &dyn Family, given: &[(String, Bound<'_, PyAny>)]) -> PyResult<(usize, Vec<f64>)> {
+pub(crate) fn datum(family: &dyn Family, given: &[(String, Bound<'_, PyAny>)]) -> PyResult<(usize, Vec<f64>)> {
     let fits = |chart: &Chart| {
         chart.axes.len() == given.len() && given.iter().all(|(name, _)| chart.axes.contains(&&name[..]))
     };
@@ -167,7 +167,8 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// Args:
 ///     family: its name.
 ///     data: numbers of shape (n, k); a float64 array is not copied; a row for each datum, in the order of the chart's
-///     axes. chart: the name of the chart; by default the first with k axes.
+///     axes.
+///     chart: the name of the chart; by default the first with k axes.
 ///     threads: workers; by default as many as the machine has cores.
 ///
 /// Returns:

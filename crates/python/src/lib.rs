@@ -9,6 +9,7 @@ mod generate;
 mod join;
 mod outline;
 mod picture;
+mod question;
 mod writer;
 
 use pyo3::prelude::*;
@@ -35,5 +36,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(family::families, module)?)?;
     module.add_function(wrap_pyfunction!(family::solve, module)?)?;
     module.add_function(wrap_pyfunction!(family::solve_batch, module)?)?;
+    module.add_function(wrap_pyfunction!(question::ranges, module)?)?;
+    module.add_function(wrap_pyfunction!(question::nearest, module)?)?;
+    module.add_function(wrap_pyfunction!(question::boundary, module)?)?;
     module.add_function(wrap_pyfunction!(generate::generate, module)?)
 }

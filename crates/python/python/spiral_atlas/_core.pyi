@@ -228,3 +228,27 @@ def join(
     longest: float | None = None,
     most_pieces: int | None = None,
 ) -> Join: ...
+def ranges(
+    family: str,
+    axis: str,
+    within: Sequence[float],
+    *,
+    flag: str | None = None,
+    **coordinates: float | str,
+) -> dict[str, Any]: ...
+def nearest(
+    family: str,
+    *,
+    flag: str | None = None,
+    weights: dict[str, float] | None = None,
+    **coordinates: float | str,
+) -> dict[str, Any]: ...
+def boundary(
+    family: str,
+    axes: Sequence[str],
+    within: Sequence[Sequence[float]],
+    *,
+    cells: int = 256,
+    flag: str | None = None,
+    **coordinates: float | str,
+) -> dict[str, Any]: ...
