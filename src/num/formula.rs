@@ -1,8 +1,8 @@
 //! Formulas written as in the papers, for every [`Number`]: `formula!(2.0 * p * (u + v) - q)`.
 //!
 //! Operators on references would need a bound on references in every generic function. Here each letter of a formula
-//! becomes a [`Term`], which has the operators whatever its number. The operations and their order are those that the
-//! text shows, so an error bound may count them.
+//! becomes a [`Term`], which has the operators for every type of number. The operations and their order are those that
+//! the text shows, so an error bound may count them (`c - x` is computed as `-x + c`; the negation is exact).
 
 use super::Number;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -11,9 +11,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 #[derive(Debug, Clone, Copy)]
 pub struct Term<'n, N>(pub &'n N);
 
-/// What can be a letter of a formula: every number.
+/// Makes every number usable as a letter.
 pub trait Letter: Number {
-    /// The letter.
+    /// This number as a letter.
     #[inline(always)]
     fn term(&self) -> Term<'_, Self> {
         Term(self)
@@ -22,12 +22,13 @@ pub trait Letter: Number {
 
 impl<N: Number> Letter for N {}
 
-/// What a part of a formula gives.
+/// The value of a part of a formula.
 #[derive(Debug, Clone, Copy)]
 pub struct Part<N>(pub N);
 
 /// The value of an expression of `+ - *` and parentheses. Its letters may be variables, fields, elements and calls
-/// that are numbers or references to them. Literals are constants, and so are expressions of doubles in braces.
+/// that are numbers or references to them. Literals are constants, and so are f64 expressions in braces:
+/// `x * { 2.0 * c }`.
 macro_rules! formula {
     // An operand is expected: a sign, parentheses, a constant, or a letter.
     (@operand [$($done:tt)*] - $($rest:tt)+) => { formula!(@operand [$($done)* -] $($rest)+) };

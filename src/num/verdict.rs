@@ -2,10 +2,10 @@
 
 /// A condition's verdict: `Some(true)`, it is proved to hold; `Some(false)`, it is proved to fail; `None`, undecided.
 ///
-/// In shaders and in codes of nodes the same are `YES`, `NO` and `OPEN`.
+/// Shaders call the three `YES`, `NO` and `OPEN`. An undecided node has the code `Code::UNDECIDED`.
 pub type Verdict = Option<bool>;
 
-/// Whether all hold: it fails as soon as one is proved to fail.
+/// Whether all hold: no where one fails, else undecided where one is undecided.
 pub(crate) fn all(conditions: impl IntoIterator<Item = Verdict>) -> Verdict {
     let mut known = Some(true);
     for condition in conditions {
@@ -28,7 +28,7 @@ pub(crate) fn or(a: Verdict, b: Verdict) -> Verdict {
     not(and(not(a), not(b)))
 }
 
-/// Whether it fails.
+/// The verdict with yes and no exchanged.
 pub(crate) fn not(a: Verdict) -> Verdict {
     a.map(|holds| !holds)
 }

@@ -19,9 +19,8 @@ pub struct Boundary {
     /// Cells, as their least and greatest corners, in which the property may change although it is the same at their
     /// four corners: mostly beside an outline that bends, or where the region is narrower than a cell.
     pub open: Vec<[[f64; 2]; 2]>,
-    /// The sides of a cell. The property changes at no point that is not in a cell that an outline passes, or in an
-    /// open one: proved. So the outline is off by the diagonal of a cell at most. Its vertices are off by a millionth
-    /// of a side.
+    /// The sides of a cell. Proved: the property changes only in cells that an outline passes and in open ones. So the
+    /// outline is off by the diagonal of a cell at most. Its vertices are off by a millionth of a side.
     pub cell: [f64; 2],
     /// How many boxes were looked at.
     pub boxes: usize,
@@ -147,7 +146,7 @@ impl<'p> Slice<'p> {
         cell
     }
 
-    /// The cells in which the property may change, by quarters of quarters, and the boxes that were looked at.
+    /// The cells in which the property may change, by a quadtree, and the boxes that were looked at.
     fn mixed(&self, cells: usize) -> (Vec<[usize; 2]>, usize) {
         let (mut mixed, mut boxes, mut waiting) = (Vec::new(), 0, VecDeque::from([([0, 0], cells)]));
         while let Some((at, size)) = waiting.pop_front() {
@@ -191,7 +190,7 @@ impl<'p> Slice<'p> {
 
     /// The pairs of edges between which the outline passes a cell: none, one or two (marching squares).
     fn crossed(&mut self, [i, j]: [usize; 2]) -> Result<Vec<[Edge; 2]>> {
-        // Counter-clockwise, and the edges after each corner.
+        // Corners counter-clockwise; edge k follows corner k.
         let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
         let edges: [Edge; 4] = [([i, j], 0), ([i + 1, j], 1), ([i, j + 1], 0), ([i, j], 1)];
         let mut holds = [false; 4];

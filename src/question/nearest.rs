@@ -6,17 +6,17 @@ use crate::family::MOST_SIDES;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// What is returned is no farther than the nearest there is, times 1 and this, where the budget suffices.
+/// The search ends when the best distance is at most 1 + this times the proved lower bound.
 const CLOSE: f64 = 1e-3;
 /// Most boxes that one answer looks at.
 const MOST_BOXES: usize = 60_000;
-/// Most boxes that are looked at for each two coordinates, to begin with.
+/// Most boxes of each first search, in which two coordinates vary.
 const SLICE_BOXES: usize = 1000;
-/// Of so many boxes one is asked for a datum that has the property.
+/// One box in so many has its middle tried.
 const OFFERS: usize = 16;
 /// Rounds of moves of the best datum.
 const STEPS: usize = 60;
-/// Coordinates that may change do so up to this size.
+/// Coordinates that may change lie within this size, or between it and the datum's own.
 const FAR: f64 = 1e6;
 
 /// The nearest datum with a property, as far as it is known.
@@ -94,7 +94,7 @@ impl Metric<'_> {
 ///
 /// # Accuracy
 /// The datum that is returned has the property: its verdict is exact. `at_least` is proved by boxes of which none has
-/// the property, rounded down. Both differ by 0.1 %, unless the answer stops after 60,000 boxes.
+/// the property, rounded down. Both differ by 0.1 % at most, unless the answer stops after 60,000 boxes.
 ///
 /// # Errors
 /// [`Error::Domain`] for a datum or weights that are none; [`Error::Undecided`] at the precision cap.
@@ -105,7 +105,8 @@ pub fn nearest(property: &Property, point: &[f64], weights: &[f64]) -> Result<Ne
         return Ok(Nearest { point: Some(point.to_vec()), distance: Some(0.0), at_least: 0.0, boxes: 0 });
     }
     let mut search = Search { property, metric, best: None, boxes: 0 };
-    // Two coordinates at a time are searched in no time, and give a datum to beat. Then it is moved as it gets nearer.
+    // Searches over two coordinates at a time are cheap and give a first bound. Then the best is improved by small
+    // moves.
     let free: Vec<usize> = (0..point.len()).filter(|i| weights[*i].is_finite()).collect();
     for (k, i) in free.iter().enumerate() {
         for j in &free[..k] {
@@ -122,7 +123,7 @@ pub fn nearest(property: &Property, point: &[f64], weights: &[f64]) -> Result<Ne
     search.descend(&free)?;
     let Search { best, boxes, .. } = search;
     let (distance, point) = best.unzip();
-    // What is left may be nearer than what was found, by the roundings of a distance: eight at most.
+    // Each distance has at most eight roundings; the bound is lowered by as much.
     let at_least = distance.map_or(at_least, |found| at_least.min(found)) * (1.0 - 8.0 * f64::EPSILON);
     Ok(Nearest { point, distance, at_least, boxes })
 }
@@ -137,8 +138,8 @@ struct Search<'p> {
 }
 
 impl Search<'_> {
-    /// Looks at boxes of one box, those that come nearest first. Returns a distance that no datum with the property in
-    /// it comes below; infinity when there is none at all.
+    /// Searches a box, nearest parts first. Returns a lower bound of the distance of every datum in it that has the
+    /// property; infinity where there is none.
     fn run(&mut self, whole: Cell, budget: usize) -> Result<f64> {
         let mut waiting = BinaryHeap::new();
         self.push(&mut waiting, whole);
@@ -163,10 +164,10 @@ impl Search<'_> {
                 }
                 None => {}
             }
-            // A single datum, of which nothing is known, has been asked for its verdict.
             if let Some(parts) = divided(&self.metric, &cell, facts.pull) {
                 parts.into_iter().for_each(|part| self.push(&mut waiting, part));
             } else {
+                // The box cannot be divided: its nearest point is asked for its verdict.
                 self.offer(self.metric.clamped(&cell))?;
             }
         }
@@ -179,8 +180,8 @@ impl Search<'_> {
         }
     }
 
-    /// Takes a datum that has the property, and moves it towards the given one as far as it keeps it, if it is nearer
-    /// than the best then. Says whether it is.
+    /// Tries a datum. If it has the property, moves it towards the given one as far as the property lasts, and keeps it
+    /// if it is then the nearest. Returns whether it was kept.
     fn offer(&mut self, to: Vec<f64>) -> Result<bool> {
         let best = self.best.as_ref().map_or(f64::INFINITY, |(found, _)| *found);
         // Those beyond twice the best are seldom much nearer when moved.
@@ -190,7 +191,7 @@ impl Search<'_> {
         let at = |share: f64| -> Vec<f64> {
             self.metric.point.iter().zip(&to).map(|(from, to)| from + share * (to - from)).collect()
         };
-        // The datum itself has it not.
+        // At share 0 lies the given datum, which lacks the property.
         let (mut fails, mut holds, mut found) = (0.0, 1.0, to.clone());
         for _ in 0..40 {
             let share = 0.5 * (fails + holds);

@@ -82,13 +82,13 @@ impl Property {
         }
     }
 
-    /// What a box has of the family's domain; false where it has nothing of it.
+    /// Shrinks a box to its part in the family's domain. False where there is none.
     pub(super) fn clip(&self, cell: &mut Cell) -> bool {
         let n = self.axes().len();
         self.region.clip(self.chart, &mut cell.low[..n], &mut cell.high[..n])
     }
 
-    /// A point as the questions take it.
+    /// Checks a point, and returns it as a box without width.
     ///
     /// # Errors
     /// [`Error::Domain`] for another number of coordinates, or one that is not finite.
@@ -127,8 +127,8 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// A number to halve a side at: the middle of sizes where they differ much, else the middle. None where no double
-    /// lies between the ends.
+    /// Where to divide a side: at 0 between opposite signs, at the geometric mean where the ends differ by more than a
+    /// factor of 4, else at the arithmetic mean. None where no double lies between the ends.
     pub fn middle(&self, side: usize) -> Option<f64> {
         let (low, high) = (self.low[side], self.high[side]);
         let middle = if low < 0.0 && high > 0.0 {
@@ -136,7 +136,7 @@ impl Cell {
         } else {
             let (small, large) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
             let size = if small == 0.0 {
-                // Towards 0 the exponents are halved, so that no number is far.
+                // Towards 0 the exponent is doubled, so that a few divisions reach any double.
                 if large > 1e-3 { large / 64.0 } else { large * large }
             } else if large > 4.0 * small {
                 small.sqrt() * large.sqrt()
@@ -148,7 +148,7 @@ impl Cell {
         (low < middle && middle < high).then_some(middle)
     }
 
-    /// Both parts of a side divided at a number.
+    /// The two parts of the box, divided at `at` along this side.
     pub fn parts(&self, side: usize, at: f64) -> [Cell; 2] {
         let (mut first, mut second) = (*self, *self);
         (first.high[side], second.low[side]) = (at, at);

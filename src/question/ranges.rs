@@ -54,7 +54,6 @@ pub fn ranges(property: &Property, point: &[f64], axis: usize, within: [f64; 2])
     let Some(slot) = point.get_mut(axis) else {
         return Err(Error::Domain(format!("the coordinate is number {axis}; there are {}", point.len())));
     };
-    // Whatever it was, it does not matter.
     *slot = within[0];
     let mut whole = property.point(&point)?;
     let [low, high] = within;
@@ -156,15 +155,15 @@ fn gathered(parts: &[([f64; 2], Verdict)], boxes: usize) -> Ranges {
     for (i, (side, known)) in merged.iter().enumerate() {
         let before = i.checked_sub(1).and_then(|i| merged.get(i));
         let after = merged.get(i + 1);
-        let limits = |known: Option<&([f64; 2], Verdict)>| known.is_some_and(|(_, known)| known.is_none());
+        let is_open = |known: Option<&([f64; 2], Verdict)>| known.is_some_and(|(_, known)| known.is_none());
         match known {
             Some(true) => {
-                let low = before.filter(|_| limits(before)).map_or(side[0], |(gap, _)| gap[0]);
-                let high = after.filter(|_| limits(after)).map_or(side[1], |(gap, _)| gap[1]);
+                let low = before.filter(|_| is_open(before)).map_or(side[0], |(gap, _)| gap[0]);
+                let high = after.filter(|_| is_open(after)).map_or(side[1], |(gap, _)| gap[1]);
                 found.ranges.push(Range { ends: *side, inner: *side, outer: [low, high] });
             }
             Some(false) => {}
-            // Between where it holds and where it fails: the end of a range, which says it.
+            // Undecided between a yes and a no: the end of a range, already told by its `outer`.
             None => {
                 let known = |part: Option<&([f64; 2], Verdict)>| part.and_then(|(_, known)| *known);
                 if !matches!((known(before), known(after)), (Some(true), Some(false)) | (Some(false), Some(true))) {
