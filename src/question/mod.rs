@@ -14,7 +14,7 @@
 //! let found = ranges(&spiral, &[0.7, 1.4, 0.4, 0.0], 3, [0.0, 100.0])?;
 //! assert_eq!(found.ranges.len(), 1);
 //! let [start, end] = found.ranges[0].ends;
-//! assert!(3.0 < start && start < 4.0 && 4.0 < end);
+//! assert!(2.0 < start && start < 3.0 && 15.0 < end && end < 16.0);
 //! # Ok::<(), spiral_atlas::Error>(())
 //! ```
 
