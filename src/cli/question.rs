@@ -62,7 +62,9 @@ impl QuestionArgs {
         if let [name] = free[..] {
             let found = ranges(&property, &point, place(&name), within()?[0])?;
             print(&found, json, |found| ranges_text(&property, name, found))?;
-            return Ok(if found.ranges.is_empty() { Outcome::Bad } else { Outcome::Fine });
+            // A no is said only where nothing is left open.
+            let no = found.ranges.is_empty() && found.open.is_empty();
+            return Ok(if no { Outcome::Bad } else { Outcome::Fine });
         }
         let [first, second] = free[..] else {
             super::refuse("--boundary takes two coordinates, such as kappa0,kappa1")
@@ -70,7 +72,8 @@ impl QuestionArgs {
         let within = within()?;
         let found = boundary(&property, &point, [place(&first), place(&second)], [within[0], within[1]], self.cells)?;
         print(&found, json, |found| boundary_text([first, second], found))?;
-        Ok(if found.outlines.is_empty() { Outcome::Bad } else { Outcome::Fine })
+        let no = found.outlines.is_empty() && found.open.is_empty();
+        Ok(if no { Outcome::Bad } else { Outcome::Fine })
     }
 
     /// Where to look along a coordinate.
@@ -98,7 +101,7 @@ fn ranges_text(property: &Property, name: &str, found: &Ranges) -> String {
         text += &format!("{} holds for {name} from {a:?} to {b:?}\n", property.name());
         text += &format!("  proved all over {c:?} to {d:?}, and to fail beyond {e:?} and {f:?}\n");
     }
-    if found.ranges.is_empty() {
+    if found.ranges.is_empty() && found.open.is_empty() {
         text += &format!("{} holds for no {name} there\n", property.name());
     }
     for [a, b] in &found.open {

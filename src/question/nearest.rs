@@ -90,7 +90,7 @@ impl Metric<'_> {
 /// a property fails.
 ///
 /// # Arguments
-/// - `weights`: one for each coordinate, above 0; infinity for one that must stay as it is.
+/// - `weights`: one for each coordinate, 1e-50 to 1e50; infinity for one that must stay as it is.
 ///
 /// # Accuracy
 /// The datum that is returned has the property: its verdict is exact. `at_least` is proved by boxes of which none has
@@ -238,10 +238,14 @@ fn searched(property: &Property, point: &[f64], weights: &[f64]) -> Result<Cell>
         return Err(Error::Domain(format!("there are {} weights; there must be {}", weights.len(), point.len())));
     }
     for (i, (weight, axis)) in weights.iter().zip(property.axes()).enumerate() {
-        if weight.is_nan() || *weight <= 0.0 {
+        if !(1e-50..=1e50).contains(weight) && *weight != f64::INFINITY {
             return Err(Error::Domain(format!(
-                "the weight of {axis} is {weight}; it must be above 0 (infinity keeps {axis})"
+                "the weight of {axis} is {weight}; it must be 1e-50 to 1e50 (infinity keeps {axis})"
             )));
+        }
+        // So no distance leaves the range of doubles.
+        if weight.is_finite() && point[i].abs() > 1e50 {
+            return Err(Error::Domain(format!("{axis} is {:?}; it must be at most 1e50 in size", point[i])));
         }
         if weight.is_finite() {
             (whole.low[i], whole.high[i]) = (point[i].min(-FAR), point[i].max(FAR));

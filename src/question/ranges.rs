@@ -15,8 +15,8 @@ const MOST_BOXES: usize = 4_000;
 /// An interval in which a property holds.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Range {
-    /// Its ends: it holds at these doubles, and at their neighbours outside it does not, unless the interval that was
-    /// asked about ends here. Both by exact verdicts.
+    /// Its ends: it holds at these doubles, and at their neighbours outside it does not, unless an open interval or the
+    /// end of the interval that was asked about is here. Both by exact verdicts.
     pub ends: [f64; 2],
     /// It holds at each number from the first to the second, both included: proved.
     pub inner: [f64; 2],
@@ -100,7 +100,8 @@ fn last(property: &Property, point: &mut [f64], axis: usize, mut holds: f64, fai
     }
 }
 
-/// A part of an interval: wider ones first, so that the budget is not spent on what hardly matters.
+/// A part of an interval: wider ones first, so that the budget is not spent on what hardly matters. Widths count on a
+/// scale that is even up to 1 and logarithmic beyond, so that neither tiny nor huge numbers take it all.
 #[derive(PartialEq)]
 struct Part {
     width: f64,
@@ -123,7 +124,7 @@ impl Ord for Part {
 
 /// The parts of an interval, each with what is known of it.
 fn divided(property: &Property, whole: Cell, axis: usize) -> (Vec<([f64; 2], Verdict)>, usize) {
-    let part = |cell: Cell| Part { width: cell.high[axis] - cell.low[axis], cell };
+    let part = |cell: Cell| Part { width: cell.high[axis].asinh() - cell.low[axis].asinh(), cell };
     let (mut parts, mut waiting, mut boxes) = (Vec::new(), BinaryHeap::from([part(whole)]), 0);
     while let Some(Part { cell, .. }) = waiting.pop() {
         let side = [cell.low[axis], cell.high[axis]];
@@ -155,11 +156,15 @@ fn gathered(parts: &[([f64; 2], Verdict)], boxes: usize) -> Ranges {
     for (i, (side, known)) in merged.iter().enumerate() {
         let before = i.checked_sub(1).and_then(|i| merged.get(i));
         let after = merged.get(i + 1);
+        // An open interval between two ranges ends neither.
+        let beyond = |part: Option<usize>| part.and_then(|i| merged.get(i)).and_then(|(_, known)| *known) == Some(true);
         let is_open = |known: Option<&([f64; 2], Verdict)>| known.is_some_and(|(_, known)| known.is_none());
         match known {
             Some(true) => {
-                let low = before.filter(|_| is_open(before)).map_or(side[0], |(gap, _)| gap[0]);
-                let high = after.filter(|_| is_open(after)).map_or(side[1], |(gap, _)| gap[1]);
+                let low =
+                    before.filter(|_| is_open(before) && !beyond(i.checked_sub(2))).map_or(side[0], |(gap, _)| gap[0]);
+                let high =
+                    after.filter(|_| is_open(after) && !beyond(i.checked_add(2))).map_or(side[1], |(gap, _)| gap[1]);
                 found.ranges.push(Range { ends: *side, inner: *side, outer: [low, high] });
             }
             Some(false) => {}

@@ -198,6 +198,10 @@ fn what_cannot_be_asked_is_refused() {
     }
     let spiral = Property::new("cubic", axes, "SPIRAL").unwrap();
     let point = [0.7, 1.4, 0.4, 4.0];
+    // Wide intervals do not spend the work on huge numbers, and huge weights do not overflow.
+    assert_eq!(ranges(&spiral, &point, 3, [-1e308, 1e308]).unwrap().ranges.len(), 1);
+    assert!(told(nearest(&spiral, &point, &[1e60; 4]).unwrap_err()).contains("1e-50 to 1e50"));
+    assert!(told(nearest(&spiral, &[0.7, 1.4, 1e300, 4.0], &[1.0; 4]).unwrap_err()).contains("kappa0 is 1e300"));
     assert!(told(ranges(&spiral, &point, 4, [0.0, 1.0]).unwrap_err()).contains("number 4"));
     assert!(told(ranges(&spiral, &point, 3, [1.0, 1.0]).unwrap_err()).contains("1.0 to 1.0"));
     assert!(told(ranges(&spiral, &point[..3], 2, [0.0, 1.0]).unwrap_err()).contains("3 coordinates"));
