@@ -482,7 +482,7 @@ def joins_are_those_of_the_program(browser):
         page.rest()
         path = page.tell("joined()").get("path")
         assert path, name
-        native = json.loads(run(*shlex.split(page.copied("command"))[1:]))
+        native = json.loads(run(*shlex.split(page.copied("command"))[1:]))["paths"][0]
         assert [p["kind"] for p in path["pieces"]] == [p["kind"] for p in native["pieces"]], name
         assert abs(path["length"] - native["length"]) < 1e-9 * native["length"], name
     page.page.click("#presets button:text-is('Two states')")
