@@ -144,6 +144,7 @@ pub mod question;
 pub mod recipe;
 pub mod transition;
 
+mod queue;
 mod steps;
 
 pub use error::{Error, Result};

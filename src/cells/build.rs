@@ -2,7 +2,7 @@
 
 use super::classify::{Bounds, Prover};
 use super::tree::{Known, Layout, MOST_AXES, top_count};
-use super::{Spec, all_flags, by_weight, check_resolution, region};
+use super::{Spec, by_weight, check_resolution, region};
 use crate::error::{Error, Result};
 use crate::grid::{Grid, Spacing};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -57,7 +57,7 @@ struct Tree {
 pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(u64) + Sync)) -> Result<Built> {
     let (region, chart) = region(spec.family, spec.grid)?;
     let (shape, prover) = (shape(spec.grid, spec.family.about().flags.len())?, prover(spec.grid, region, chart));
-    let (edges, all) = (Edges::new(spec.grid, shape), all_flags(spec.family));
+    let (edges, all) = (Edges::new(spec.grid, shape), spec.family.about().all_flags());
     let work = Work { threads: threads.max(1), stop };
     let size = shape.depth - shape.top;
     let tops: Vec<[u16; MOST_AXES]> = (0..shape.top_cells()).map(|at| unpack(at, shape.top, shape.axes)).collect();

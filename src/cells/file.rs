@@ -2,7 +2,7 @@
 
 use super::build::{Built, shape};
 use super::tree::{Known, Layout, MOST_AXES, Words};
-use super::{Spec, all_flags, region};
+use super::{Spec, region};
 use crate::atlas::header::{Header, ROOTS, TOP, TREES};
 use crate::atlas::{About, Kind, Map, map_bytes, map_path};
 use crate::error::{Error, Result};
@@ -163,7 +163,7 @@ impl Cells {
     /// [`Error::Domain`], naming the coordinate, outside the family's domain; [`Error::Undecided`] at the precision
     /// cap.
     pub fn verdict(&self, point: &[f64], wanted: u8) -> Result<u8> {
-        let wanted = wanted & all_flags(self.family);
+        let wanted = wanted & self.family.about().all_flags();
         let known = self.find(point, wanted).unwrap_or_default();
         if known.inside | known.outside == wanted {
             return Ok(known.inside);

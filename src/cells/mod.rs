@@ -63,11 +63,6 @@ pub fn check(spec: &Spec) -> crate::Result<()> {
     build::shape(spec.grid, spec.family.about().flags.len()).map(|_| ())
 }
 
-/// The mask of all flags of a family.
-fn all_flags(family: &dyn Family) -> u8 {
-    (0..family.about().flags.len()).fold(0, |mask, bit| mask | 1 << bit)
-}
-
 /// The flags in the order in which a budget is spent on them: those that answer the family's question first.
 fn by_weight(family: &dyn Family) -> Vec<usize> {
     let answers = |bit: &usize| family.about().yes.contains(&family.about().flags[*bit].name);

@@ -134,6 +134,18 @@ pub struct About {
     pub scalars: &'static [Scalar],
 }
 
+impl About {
+    /// The bit number of a flag.
+    pub fn bit(&self, flag: &str) -> Option<usize> {
+        self.flags.iter().position(|f| f.name == flag)
+    }
+
+    /// The mask of all flags.
+    pub fn all_flags(&self) -> u8 {
+        (0..self.flags.len()).fold(0, |mask, bit| mask | 1 << bit)
+    }
+}
+
 /// A kind of curve or criterion with its own mathematics.
 pub trait Family: Sync {
     /// What it is, and what its verdicts and numbers mean.

@@ -1,10 +1,10 @@
 //! Paths that bend as little as possible: both minimisations of section 6, by branch and bound.
 
-use super::queue::Queue;
 use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::ph_path::{Candidate, Search};
+use crate::queue::Queue;
 use crate::steps::step;
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};

@@ -44,7 +44,6 @@ mod course;
 mod least_curvature;
 mod motion;
 mod plan;
-mod queue;
 mod separation;
 mod spline;
 mod tridiagonal;

@@ -8,9 +8,9 @@
 //! other does not change ([`Motion::drift`]).
 
 use super::motion::{Motion, State};
-use super::queue::Queue;
 use super::{distance, finite};
 use crate::error::{Error, Result};
+use crate::queue::Queue;
 use crate::steps::step;
 
 /// Stretches at most.

@@ -49,7 +49,7 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
 /// The slice, of what is known of each finest cell, x fastest.
 pub(super) fn slice(name: &str, family: &dyn Family, grid: &Grid, plan: &PicturePlan, known: &[Known]) -> Slice {
     let axes = grid.axes();
-    let named = |name: &&str| family.about().flags.iter().position(|flag| flag.name == *name);
+    let named = |name: &&str| family.about().bit(name);
     let usual =
         || family.about().nested.iter().take(1).chain(family.about().yes).filter_map(named).collect::<Vec<usize>>();
     let shown = if plan.regions.is_empty() { usual() } else { plan.regions.clone() };

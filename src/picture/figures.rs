@@ -241,8 +241,7 @@ fn at_most(subject: &Subject, plan: &PicturePlan, levels: &Levels, at: &[(usize,
 fn compared(subject: &Subject, plan: &PicturePlan, with: &str) -> Result<Vec<Region>> {
     let (own, other) = (subject.family, family::by_name(with));
     let other = other.ok_or_else(|| Error::Domain(format!("this program has no family `{with}`")))?;
-    let bit =
-        |family: &dyn Family, name: &str| family.about().flags.iter().position(|f| f.name == name).unwrap_or_default();
+    let bit = |family: &dyn Family, name: &str| family.about().bit(name).unwrap_or_default();
     let (ours, theirs) = (plane(subject, plan, &plan.at)?, evaluated(other, subject, plan)?);
     let (a, b) = (bit(own, "SPIRAL"), bit(other, "SPIRAL"));
     let region = |label: String, holds: &dyn Fn(bool, bool) -> bool| {

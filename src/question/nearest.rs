@@ -3,8 +3,7 @@
 use super::property::{Cell, Property};
 use crate::error::{Error, Result};
 use crate::family::MOST_SIDES;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use crate::queue::Queue;
 
 /// The search ends when the best distance is at most 1 + this times the proved lower bound.
 const CLOSE: f64 = 1e-3;
@@ -36,33 +35,6 @@ pub struct Nearest {
 /// Infinity is null in JSON.
 fn finite<S: serde::Serializer>(x: &f64, serializer: S) -> std::result::Result<S::Ok, S::Error> {
     serde::Serialize::serialize(&x.is_finite().then_some(*x), serializer)
-}
-
-/// A box that may hold data with the property, and how near it comes.
-struct Waiting {
-    distance: f64,
-    cell: Cell,
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Waiting) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Waiting {}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Waiting) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-/// The nearest first.
-impl Ord for Waiting {
-    fn cmp(&self, other: &Waiting) -> Ordering {
-        other.distance.total_cmp(&self.distance)
-    }
 }
 
 /// Weighted distances from a datum.
@@ -141,10 +113,10 @@ impl Search<'_> {
     /// Searches a box, nearest parts first. Returns a lower bound of the distance of every datum in it that has the
     /// property; infinity where there is none.
     fn run(&mut self, whole: Cell, budget: usize) -> Result<f64> {
-        let mut waiting = BinaryHeap::new();
+        let mut waiting = Queue::new();
         self.push(&mut waiting, whole);
         let end = self.boxes + budget;
-        while let Some(Waiting { distance, cell }) = waiting.pop() {
+        while let Some((distance, cell)) = waiting.pop() {
             let enough = self.best.as_ref().is_some_and(|(found, _)| distance * (1.0 + CLOSE) >= *found);
             if enough || self.boxes >= end {
                 return Ok(distance);
@@ -174,9 +146,9 @@ impl Search<'_> {
         Ok(f64::INFINITY)
     }
 
-    fn push(&self, waiting: &mut BinaryHeap<Waiting>, mut cell: Cell) {
+    fn push(&self, waiting: &mut Queue<Cell>, mut cell: Cell) {
         if self.property.clip(&mut cell) {
-            waiting.push(Waiting { distance: self.metric.distance(&self.metric.clamped(&cell)), cell });
+            waiting.push(self.metric.distance(&self.metric.clamped(&cell)), cell);
         }
     }
 

@@ -35,7 +35,7 @@ impl Property {
                 about.charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(" ")).collect();
             Error::Domain(format!("the axes are {}; of `{family}` they must be {}", axes.join(" "), all.join(", or ")))
         })?;
-        let bit = about.flags.iter().position(|f| f.name == flag).ok_or_else(|| {
+        let bit = about.bit(flag).ok_or_else(|| {
             let all = about.flags.iter().map(|f| f.name).collect();
             Error::Domain(format!("the property is `{flag}`; of `{family}` it must be one of {}", names(all)))
         })?;

@@ -3,8 +3,7 @@
 use super::property::{Cell, Property};
 use crate::error::{Error, Result};
 use crate::num::Verdict;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use crate::queue::Queue;
 
 /// Parts are halved until they are as narrow as this share of their larger end.
 const NARROW: f64 = 1e-13;
@@ -100,33 +99,17 @@ fn last(property: &Property, point: &mut [f64], axis: usize, mut holds: f64, fai
     }
 }
 
-/// A part of an interval: wider ones first, so that the budget is not spent on what hardly matters. Widths count on a
-/// scale that is even up to 1 and logarithmic beyond, so that neither tiny nor huge numbers take it all.
-#[derive(PartialEq)]
-struct Part {
-    width: f64,
-    cell: Cell,
-}
-
-impl Eq for Part {}
-
-impl PartialOrd for Part {
-    fn partial_cmp(&self, other: &Part) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Part {
-    fn cmp(&self, other: &Part) -> Ordering {
-        self.width.total_cmp(&other.width)
-    }
-}
-
 /// The parts of an interval, each with what is known of it.
+///
+/// Wider parts come first, so that the budget is not spent on what hardly matters. Widths count on a scale that is even
+/// up to 1, logarithmic beyond and bounded at last, so that neither tiny nor huge numbers take it all.
 fn divided(property: &Property, whole: Cell, axis: usize) -> (Vec<([f64; 2], Verdict)>, usize) {
-    let part = |cell: Cell| Part { width: cell.high[axis].asinh() - cell.low[axis].asinh(), cell };
-    let (mut parts, mut waiting, mut boxes) = (Vec::new(), BinaryHeap::from([part(whole)]), 0);
-    while let Some(Part { cell, .. }) = waiting.pop() {
+    let (mut parts, mut waiting, mut boxes) = (Vec::new(), Queue::new(), 0);
+    let scale = |x: f64| x.asinh().atan();
+    let push =
+        |waiting: &mut Queue<Cell>, cell: Cell| waiting.push(scale(cell.low[axis]) - scale(cell.high[axis]), cell);
+    push(&mut waiting, whole);
+    while let Some((_, cell)) = waiting.pop() {
         let side = [cell.low[axis], cell.high[axis]];
         if boxes == MOST_BOXES {
             parts.push((side, None));
@@ -136,7 +119,9 @@ fn divided(property: &Property, whole: Cell, axis: usize) -> (Vec<([f64; 2], Ver
         let known = property.over(&cell);
         let narrow = side[1] - side[0] <= NARROW * side[0].abs().max(side[1].abs());
         match cell.middle(axis) {
-            Some(middle) if known.is_none() && !narrow => waiting.extend(cell.parts(axis, middle).map(part)),
+            Some(middle) if known.is_none() && !narrow => {
+                cell.parts(axis, middle).into_iter().for_each(|part| push(&mut waiting, part));
+            }
             _ => parts.push((side, known)),
         }
     }
@@ -152,29 +137,25 @@ fn gathered(parts: &[([f64; 2], Verdict)], boxes: usize) -> Ranges {
             _ => merged.push((*side, *known)),
         }
     }
+    let part = |i: Option<usize>| i.and_then(|i| merged.get(i));
+    let known = |i: Option<usize>| part(i).and_then(|(_, known)| *known);
     let mut found = Ranges { ranges: Vec::new(), open: Vec::new(), boxes };
-    for (i, (side, known)) in merged.iter().enumerate() {
-        let before = i.checked_sub(1).and_then(|i| merged.get(i));
-        let after = merged.get(i + 1);
-        // An open interval between two ranges ends neither.
-        let beyond = |part: Option<usize>| part.and_then(|i| merged.get(i)).and_then(|(_, known)| *known) == Some(true);
-        let is_open = |known: Option<&([f64; 2], Verdict)>| known.is_some_and(|(_, known)| known.is_none());
-        match known {
+    for (i, (side, verdict)) in merged.iter().enumerate() {
+        let (before, after) = (i.checked_sub(1), Some(i + 1));
+        match verdict {
             Some(true) => {
-                let low =
-                    before.filter(|_| is_open(before) && !beyond(i.checked_sub(2))).map_or(side[0], |(gap, _)| gap[0]);
-                let high =
-                    after.filter(|_| is_open(after) && !beyond(i.checked_add(2))).map_or(side[1], |(gap, _)| gap[1]);
+                // An open interval beside it is its edge, unless another range begins beyond that.
+                let edge = |next: Option<usize>, beyond: Option<usize>| {
+                    part(next).filter(|(_, open)| open.is_none() && known(beyond) != Some(true)).map(|(gap, _)| gap)
+                };
+                let low = edge(before, i.checked_sub(2)).map_or(side[0], |gap| gap[0]);
+                let high = edge(after, Some(i + 2)).map_or(side[1], |gap| gap[1]);
                 found.ranges.push(Range { ends: *side, inner: *side, outer: [low, high] });
             }
             Some(false) => {}
             // Undecided between a yes and a no: the end of a range, already told by its `outer`.
-            None => {
-                let known = |part: Option<&([f64; 2], Verdict)>| part.and_then(|(_, known)| *known);
-                if !matches!((known(before), known(after)), (Some(true), Some(false)) | (Some(false), Some(true))) {
-                    found.open.push(*side);
-                }
-            }
+            None if matches!((known(before), known(after)), (Some(a), Some(b)) if a != b) => {}
+            None => found.open.push(*side),
         }
     }
     found

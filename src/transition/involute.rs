@@ -2,7 +2,7 @@
 
 use super::none::NoSpiral;
 use super::placement::Ends;
-use crate::curve::vector::{Vector, add, turn};
+use crate::curve::vector::{Vector, add, length, turn};
 use crate::error::{Error, Result};
 use crate::family::any_spiral::{GREATEST, Involute, InvolutePoint, Spiral, involute};
 use serde::Serialize;
@@ -36,6 +36,11 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Half the chord's length: the user's unit of the chord's frame.
+    pub fn unit(&self) -> f64 {
+        length(self.half_chord)
+    }
+
     /// A point of the chord's frame in the user's; the ends are met exactly, and others seen from the nearer one.
     pub fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let (near, origin): (Vector, f64) = if x <= 0.0 { (self.start, -1.0) } else { (self.end, 1.0) };

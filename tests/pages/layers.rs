@@ -9,9 +9,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room of `src/` with the rooms that it may import.
-const ROOMS: [(&str, &[&str]); 19] = [
+const ROOMS: [(&str, &[&str]); 20] = [
     ("error", &[]),
     ("steps", &[]),
+    ("queue", &[]),
     ("files", &["error"]),
     ("plain", &[]),
     ("num", &["steps", "error"]),
@@ -23,9 +24,9 @@ const ROOMS: [(&str, &[&str]); 19] = [
     ("recipe", &["family", "grid", "num", "files", "plain", "error"]),
     ("atlas", &["eval", "recipe", "family", "grid", "num", "files", "plain", "error"]),
     ("cells", &["atlas", "family", "grid", "files", "error"]),
-    ("question", &["family", "num", "error"]),
+    ("question", &["family", "num", "queue", "error"]),
     ("transition", &["family", "curve", "num", "error"]),
-    ("path", &["transition", "family", "curve", "num", "steps", "error"]),
+    ("path", &["transition", "family", "curve", "num", "queue", "steps", "error"]),
     ("export", &["path", "transition", "curve", "error"]),
     ("picture", &["cells", "atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
     (

@@ -113,8 +113,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
         Kind::Cubic => {
             let answer = spiral(ends)?;
             let piece = answer.chosen().map(|s| (s.piece(), json!({ "margin": s.margin, "f0": s.f0, "f1": s.f1 })));
-            let why =
-                if let Err(why) = &answer.outcome { Some((why.sentence("cubic spiral"), json!(why))) } else { None };
+            let why = answer.outcome.as_ref().err().map(|why| (why.sentence("cubic spiral"), json!(why)));
             // What has these ends and is no spiral is drawn, too.
             let others =
                 answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points.p }));
@@ -125,11 +124,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let facts =
                 |s: &transition::PhSolution| json!({ "margin": s.margin, "a": s.a, "b": s.b, "energy": s.energy });
             let piece = answer.chosen().map(|s| (Piece::PhQuintic(s.curve), facts(s)));
-            let why = if let Err(why) = &answer.outcome {
-                Some((why.sentence("PH quintic spiral"), json!(why)))
-            } else {
-                None
-            };
+            let why = answer.outcome.as_ref().err().map(|why| (why.sentence("PH quintic spiral"), json!(why)));
             let others =
                 answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points }));
             told(piece, why, others.collect())
@@ -141,8 +136,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
                 let why = NoSpiral::of(ends)?.map(Why::NoSpiralOfAnyKind);
                 return told(None, Some((text, json!(why))), Vec::new());
             };
-            let [x, y] = frame.half_chord;
-            let unit = x.hypot(y);
+            let unit = frame.unit();
             let all = polyline(curve);
             let thin = all.len().div_ceil(MOST_POINTS);
             let last = all.len() - 1;
@@ -192,17 +186,11 @@ impl Advice {
     pub fn answer(self) -> Result<Value> {
         let ends = self.ends.into();
         let why = match self.kind {
-            Kind::Cubic => match spiral(&ends)?.with_remedies()?.outcome {
-                Err(why) => Some((why.sentence("cubic spiral"), json!(why))),
-                Ok(_) => None,
-            },
-            Kind::PhQuintic => match ph_spiral(&ends)?.with_remedies()?.outcome {
-                Err(why) => Some((why.sentence("PH quintic spiral"), json!(why))),
-                Ok(_) => None,
-            },
+            Kind::Cubic => spiral(&ends)?.with_remedies()?.outcome.err().map(|why| ("cubic spiral", why)),
+            Kind::PhQuintic => ph_spiral(&ends)?.with_remedies()?.outcome.err().map(|why| ("PH quintic spiral", why)),
             _ => None,
         };
-        let (reason, why) = why.unwrap_or_default();
+        let (reason, why) = why.map(|(kind, why)| (why.sentence(kind), json!(why))).unwrap_or_default();
         Ok(json!({ "reason": reason, "why": why, "nearest": nearest(&ends, self.kind)? }))
     }
 }

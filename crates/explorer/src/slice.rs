@@ -94,7 +94,7 @@ impl Slice {
 
     /// The names and the order of what is drawn.
     pub fn about(&self) -> Value {
-        let bit = |name: &&str| self.family.about().flags.iter().position(|flag| flag.name == *name);
+        let bit = |name: &&str| self.family.about().bit(name);
         let flags: Vec<Value> = self
             .family
             .about()
@@ -131,7 +131,7 @@ impl Slice {
     fn work(&mut self, tile: &Tile, table: &dyn Table) {
         let Tile { x, y, side } = *tile;
         let [right, top] = [(x + side).min(self.edges[0].len() - 1), (y + side).min(self.edges[1].len() - 1)];
-        let all = (0..self.family.about().flags.len()).fold(0, |mask, bit| mask | 1 << bit);
+        let all = self.family.about().all_flags();
         if let Some(region) = self.family.region() {
             let [phi0, phi1] = self.angles;
             let low = [phi0, phi1, self.edges[0][x], self.edges[1][y]];

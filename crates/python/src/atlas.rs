@@ -1,6 +1,7 @@
 //! Atlas files as objects with NumPy arrays over the mapped memory.
 
 use crate::error::raise;
+use crate::legend;
 use numpy::ndarray::{ArrayView, ArrayView2, CowArray, Ix2, IxDyn};
 use numpy::{AllowTypeChange, Element, IntoPyArray, PyArray, PyArrayLike2};
 use pyo3::exceptions::{PyKeyError, PyValueError};
@@ -107,31 +108,25 @@ impl Atlas {
     /// Names of the axes that are angles, in radians.
     #[getter]
     fn angles(&self) -> Vec<&str> {
-        self.0
-            .grid()
-            .axes()
-            .iter()
-            .map(|axis| axis.name())
-            .filter(|name| spiral_atlas::recipe::is_angle(name))
-            .collect()
+        legend::angles(self.0.grid())
     }
 
     /// Names and meanings of the bits of `flags`, bit 0 first.
     #[getter]
     fn flag_docs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.0.about().flags.iter().map(|flag| (flag.name.clone(), flag.doc.clone())).into_py_dict(py)
+        legend::flag_docs(py, self.0.about())
     }
 
     /// Numbers in a `solutions` byte: name to (shift, bits).
     #[getter]
     fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.0.counts().iter().map(|c| (c.name.clone(), (c.shift, c.bits))).into_py_dict(py)
+        legend::counts(py, self.0.about())
     }
 
     /// Names and meanings of the scalar fields.
     #[getter]
     fn scalar_docs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.0.about().scalars.iter().map(|s| (s.name.clone(), s.doc.clone())).into_py_dict(py)
+        legend::scalar_docs(py, self.0.about())
     }
 
     /// The `flags` byte of every node: a read-only uint8 array of the grid's shape.

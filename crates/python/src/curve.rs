@@ -226,8 +226,7 @@ impl Direction {
 ///     start_direction, end_direction: directions of travel: an angle from the x axis in radians, or a vector.
 ///     start_curvature, end_curvature: signed curvatures, 1 / length, positive to the left.
 ///     family: "cubic" (of several spirals the one with the largest margin), "ph-quintic" (that of least bending
-///     energy)
-///         or "involute" (the image of an involute of a circle, which exists whenever any spiral does).
+///     energy) or "involute" (the image of an involute of a circle, which exists whenever any spiral does).
 ///     longest: a curve longer than this counts as none.
 ///
 /// Returns:

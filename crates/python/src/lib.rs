@@ -7,6 +7,7 @@ mod error;
 mod family;
 mod generate;
 mod join;
+mod legend;
 mod outline;
 mod picture;
 mod question;

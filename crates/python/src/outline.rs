@@ -3,6 +3,7 @@
 use crate::atlas::{Atlas, columns, rows};
 use crate::error::raise;
 use crate::generate::{read, watched};
+use crate::legend;
 use crate::picture::Picture;
 use crate::writer::Writer;
 use numpy::ndarray::ArrayD;
@@ -98,31 +99,25 @@ impl Outline {
     /// Names of the axes that are angles, in radians.
     #[getter]
     fn angles(&self) -> Vec<&str> {
-        self.0
-            .grid()
-            .axes()
-            .iter()
-            .map(|axis| axis.name())
-            .filter(|name| spiral_atlas::recipe::is_angle(name))
-            .collect()
+        legend::angles(self.0.grid())
     }
 
     /// Names and meanings of the bits of `flags`, bit 0 first.
     #[getter]
     fn flag_docs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.0.about().flags.iter().map(|flag| (flag.name.clone(), flag.doc.clone())).into_py_dict(py)
+        legend::flag_docs(py, self.0.about())
     }
 
     /// Numbers in a `solutions` byte: name to (shift, bits).
     #[getter]
     fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.0.about().counts.iter().map(|c| (c.name.clone(), (c.shift, c.bits))).into_py_dict(py)
+        legend::counts(py, self.0.about())
     }
 
     /// Names and meanings of the scalar fields.
     #[getter]
     fn scalar_docs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.0.about().scalars.iter().map(|s| (s.name.clone(), s.doc.clone())).into_py_dict(py)
+        legend::scalar_docs(py, self.0.about())
     }
 
     /// Flat index of the node nearest to each point, int64; -1 outside the grid by more than half a step.

@@ -30,20 +30,14 @@ struct Drawn {
 pub fn find(ends: &Ends, turns: [u32; 2]) -> Result<Answer> {
     let (spiral, frame) = involute_between(ends, turns)?;
     let mut answer = Answer { ends: *ends, spiral, length: None, frame };
-    answer.length = answer.spiral.curve().map(|curve| curve.length() * answer.unit());
+    answer.length = answer.spiral.curve().map(|curve| curve.length() * frame.unit());
     Ok(answer)
 }
 
 impl Answer {
-    /// Half the chord in the user's unit.
-    fn unit(&self) -> f64 {
-        let [x, y] = self.frame.half_chord;
-        x.hypot(y)
-    }
-
     /// Points so near to each other that a line through them looks like the curve, the ends included.
     fn drawn(&self, curve: &Involute) -> Vec<Drawn> {
-        let unit = self.unit();
+        let unit = self.frame.unit();
         let drawn = |(InvolutePoint { point, curvature, .. }, s): (InvolutePoint, f64)| Drawn {
             s: s * unit,
             point: self.frame.point(point),

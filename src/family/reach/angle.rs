@@ -109,12 +109,17 @@ impl<N: Real> ExactAngle<N> {
     }
 }
 
-/// An angle must be positive and below π/2 (cubic) or π (PH); both lie just above their doubles.
-pub(super) fn check(kind: Kind, theta: f64) -> Result<()> {
-    let (most, name) = match kind {
+/// The greatest double below what an angle must stay below, which is no double, and that in words.
+pub(super) fn greatest(kind: Kind) -> (f64, &'static str) {
+    match kind {
         Kind::Cubic => (FRAC_PI_2, "pi/2"),
         Kind::Ph => (PI, "pi"),
-    };
+    }
+}
+
+/// An angle must be positive and below π/2 (cubic) or π (PH); both lie just above their doubles.
+pub(super) fn check(kind: Kind, theta: f64) -> Result<()> {
+    let (most, name) = greatest(kind);
     if theta > 0.0 && theta <= most {
         return Ok(());
     }

@@ -17,14 +17,13 @@
 //!
 //! What is said of c0..c3 and of the quintic belongs to a segment, so it counts together with a > 0 and m > 0.
 
-use super::angle::check;
+use super::angle::{check, greatest};
 use super::filter::least_drawn_m;
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, Reach, THEOREM};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, clip_side, positive, unit_sign};
 use crate::num::verdict::{and, or};
 use crate::num::{Ball, Form, Number, Real, Verdict, formula};
-use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A form in θ, ξ, η.
 type Three = Form<3, 6>;
@@ -218,9 +217,7 @@ impl Region for Reach {
     }
 
     fn clip(&self, _: usize, low: &mut [f64], high: &mut [f64]) -> bool {
-        // The greatest double of the angle is below its bound, which is no double.
-        let most = [PI, FRAC_PI_2].into_iter().find(|most| check(self.0, *most).is_ok()).unwrap_or_default();
-        clip_side(&mut low[0], &mut high[0], f64::from_bits(1), most)
+        clip_side(&mut low[0], &mut high[0], f64::from_bits(1), greatest(self.0).0)
     }
 
     fn facts(&self, _: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {

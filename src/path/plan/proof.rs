@@ -2,8 +2,8 @@
 
 use super::obstacles::{Obstacles, between, to_segment};
 use crate::curve::PhQuintic;
-use crate::path::queue::Queue;
 use crate::path::{ROUNDINGS, mismatch};
+use crate::queue::Queue;
 
 /// Pieces at most.
 const PIECES: usize = 200_000;

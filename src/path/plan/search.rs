@@ -5,8 +5,8 @@ use super::minus;
 use super::obstacles::{Obstacles, between};
 use super::places::Place;
 use super::proof::{Clearance, clearance};
-use crate::path::queue::Queue;
 use crate::path::{Turn, distance};
+use crate::queue::Queue;
 use std::collections::HashSet;
 use std::rc::Rc;
 

@@ -1,11 +1,11 @@
-//! What waits to be looked at, the least bound first: for branch and bound, and for shortest ways.
+//! What waits to be looked at, the least bound first: for branch and bound, and for shortest ways. All searches use it.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// Items by their bounds; of equal bounds the one that came first.
 #[derive(Debug)]
-pub(super) struct Queue<T> {
+pub(crate) struct Queue<T> {
     heap: BinaryHeap<Entry<T>>,
     count: u64,
 }
