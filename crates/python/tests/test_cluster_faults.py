@@ -73,6 +73,11 @@ def wait_for(condition, what: str) -> None:
         time.sleep(0.002)
 
 
+def complete(file: Path) -> bool:
+    """Whether the file is there with all its text: a scheduler opens its file before it writes into it."""
+    return file.exists() and file.read_text().rstrip().endswith("}")
+
+
 def equal(place: Path, atlas: spiral_atlas.Atlas) -> None:
     store = spiral_atlas.open(place)
     store.check()
@@ -133,7 +138,7 @@ def test_a_lost_scheduler_ends_the_run_with_what_is_there(recipe, place, atlas, 
     options = ["--scheduler-file", file, "--no-dashboard"]
     with started("scheduler", *options, "--port", 0, command=dask) as scheduler:
         with started("worker", *options, "--nworkers", 1, "--nthreads", 1, "--no-nanny", command=dask, cwd=tmp_path):
-            wait_for(file.exists, "the scheduler's file")
+            wait_for(lambda: complete(file), "the scheduler's file")
             address = json.loads(file.read_text())["address"]
             with started(
                 "generate", recipe, place, *OPTIONS, "--scheduler", address, stdout=subprocess.PIPE, env=env
