@@ -65,10 +65,7 @@ impl<N: Real> Curves<N> {
 
     /// The same from α, β and what the angles give.
     pub fn bent(bend: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
-        let scale = [scale(bend[0].approx()), scale(bend[1].approx())];
-        let cubed = |x: &N, p: f64| formula!(x * { p } * { p } * { p });
-        let bend = [cubed(&bend[0], scale[0]), cubed(&bend[1], scale[1])];
-        Curves::new(scale, bend, cos, right, skew)
+        Curves::scaled([bend[0].approx(), bend[1].approx()], bend, cos, right, skew)
     }
 
     /// About the same in doubles, for guesses.
@@ -79,6 +76,15 @@ impl<N: Real> Curves<N> {
 }
 
 impl<N: Number> Curves<N> {
+    /// The same, where α and β are about `largest` or less.
+    #[inline(always)]
+    pub fn scaled(largest: [f64; 2], [alpha, beta]: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
+        let [p, q] = largest.map(scale);
+        let bend = [formula!(alpha * { p } * { p } * { p }), formula!(beta * { q } * { q } * { q })];
+        Curves::new([p, q], bend, cos, right, skew)
+    }
+
+    #[inline(always)]
     fn new(scale: [f64; 2], bend: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
         let [p, q] = scale;
         let c = cos.times(2.0);
@@ -98,6 +104,7 @@ impl<N: Number> Curves<N> {
     }
 
     /// The same datum with its ends exchanged: Z and t become b² and 1/t, and the curves change places.
+    #[inline(always)]
     pub fn reversed(&self) -> Curves<N> {
         let swap = |x: &[N; 2]| [x[1].clone(), x[0].clone()];
         Curves::new(
@@ -110,7 +117,7 @@ impl<N: Number> Curves<N> {
     }
 
     /// Both left-hand sides at t.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, t: &N) -> [Cubic<N>; 2] {
         let t2 = t.mul(t);
         let t3 = t2.mul(t);

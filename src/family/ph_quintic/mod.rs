@@ -17,6 +17,7 @@ mod curves;
 mod cuts;
 mod fork;
 mod knot;
+mod lanes;
 mod march;
 mod narrow;
 mod pair;

@@ -19,49 +19,58 @@ pub(super) struct CurveShape<N> {
 impl<N: Real> CurveShape<N> {
     /// The curve; `None` only when a number leaves the range of its arithmetic.
     pub fn new(curves: &Curves<N>, root: &Root<N>) -> Option<CurveShape<N>> {
-        let (Root { t, z }, [p, q], [alpha, beta]) = (root, curves.scale, &curves.bend);
+        let one = N::of(1.0, root.t.bits());
+        let third = one.over(&N::of(3.0, root.t.bits()))?;
+        Some(CurveShape::of(curves, &root.t, &root.z, [&one, &third]))
+    }
+}
+
+impl<N: Number> CurveShape<N> {
+    /// The curve of a solution; the last are 1 and 1/3.
+    #[inline(always)]
+    pub fn of(curves: &Curves<N>, t: &N, z: &N, [one, third]: [&N; 2]) -> CurveShape<N> {
+        let ([p, q], [alpha, beta], cos) = (curves.scale, &curves.bend, &curves.cos);
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
         // Coordinates of w1, divided by a³.
         let (u, v) = (beta.mul(&t3), alpha);
-        let skew = |x: &N, y: &N| formula!(x + curves.cos * y);
-        let cross = formula!(curves.cos * t * { p * q });
-        let square = formula!(u * skew(&u, &v.times(2.0)) + v * v);
-        Some(CurveShape {
+        let cross = formula!(cos * t * { p * q });
+        let square = formula!(u * (u + 2.0 * (cos * v)) + v * v);
+        CurveShape {
             speed: [
-                N::of(p * p, t.bits()),
-                formula!(z * skew(&u, v) * { p }),
-                formula!(2.0 * (square * (z * z)) + cross).over(&N::of(3.0, t.bits()))?,
-                formula!(z * t * skew(v, &u) * { q }),
+                one.times(p * p),
+                formula!(z * (u + cos * v) * { p }),
+                formula!((2.0 * (square * (z * z)) + cross) * third),
+                formula!(z * t * (v + cos * u) * { q }),
                 t2.times(q * q),
             ],
             turn: [formula!(v * z * { 2.0 * p }), t.times(p * q), formula!(u * t * z * { 2.0 * q })],
-        })
+        }
     }
 
     /// Bernstein coefficients of κ' up to a positive function, times 10.
     pub fn quintic(&self) -> Quintic<N> {
-        let start = half(&self.turn, &self.speed);
+        self.sums().map(|[gain, loss]| gain.sub(&loss))
+    }
+
+    /// The same as what adds to each and what is taken away: sums of positive terms.
+    #[inline(always)]
+    pub fn sums(&self) -> [[N; 2]; 6] {
+        let [h0, h1, h2] = &self.turn;
+        let [s0, s1, s2, s3, s4] = &self.speed;
+        let [b0, b1, b2] = half([h0, h1, h2], [s0, s1, s2, s3]);
         // Reversing the curve changes the sign.
-        let turn = std::array::from_fn(|i| self.turn[2 - i].clone());
-        let end = half(&turn, &std::array::from_fn(|i| self.speed[4 - i].clone())).map(|c| c.times(-1.0));
-        let ([b0, b1, b2], [b5, b4, b3]) = (start, end);
-        [b0, b1, b2, b3, b4, b5]
+        let [[l5, g5], [l4, g4], [l3, g3]] = half([h2, h1, h0], [s4, s3, s2, s1]);
+        [b0, b1, b2, [g3, l3], [g4, l4], [g5, l5]]
     }
 }
 
-/// The first three coefficients of `h'σ - 2hσ'`, halved and times 10, 2, 1.
-fn half<N: Number>([h0, h1, h2]: &[N; 3], speed: &[N; 5]) -> [N; 3] {
-    let sum = |positive: [N; 3], negative: [N; 2]| {
-        let [a, b, c] = positive;
-        let [d, e] = negative;
-        formula!(a + b + c - (d + e))
-    };
-    let none = h0.times(0.0);
-    let by = |h: &N, i: usize, k: f64| formula!(h * speed[i] * { k });
+/// The first three coefficients of `h'σ - 2hσ'`, halved and times 10, 2, 1, as their positive and negative terms.
+#[inline(always)]
+fn half<N: Number>([h0, h1, h2]: [&N; 3], [s0, s1, s2, s3]: [&N; 4]) -> [[N; 2]; 3] {
     [
-        sum([by(h1, 0, 10.0), by(h0, 0, 30.0), none.clone()], [by(h0, 1, 40.0), none]),
-        sum([by(h0, 1, 16.0), by(h1, 0, 14.0), by(h2, 0, 2.0)], [by(h0, 2, 24.0), by(h1, 1, 8.0)]),
-        sum([by(h0, 2, 6.0), by(h1, 1, 20.0), by(h2, 0, 4.0)], [by(h0, 3, 12.0), by(h1, 2, 18.0)]),
+        [formula!(10.0 * (h1 * s0) + 30.0 * (h0 * s0)), formula!(40.0 * (h0 * s1))],
+        [formula!(16.0 * (h0 * s1) + 14.0 * (h1 * s0) + 2.0 * (h2 * s0)), formula!(24.0 * (h0 * s2) + 8.0 * (h1 * s1))],
+        [formula!(6.0 * (h0 * s2) + 20.0 * (h1 * s1) + 4.0 * (h2 * s0)), formula!(12.0 * (h0 * s3) + 18.0 * (h1 * s2))],
     ]
 }

@@ -1,7 +1,8 @@
 //! The exact answer for one datum: all solutions, which are spirals, and their measures.
 
+use super::curves::Curves;
 use super::pair::Pair;
-use super::truth::{self, Measured, Measures, Truth, by_energy, chosen, measure};
+use super::truth::{self, Energy, Measured, Solution, Truth, by_energy, chosen, measure};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
@@ -128,8 +129,7 @@ fn described<N: Measured>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
     if let Some(curves) = &truth.curves {
         // By increasing A: A falls as B/A rises.
         for solution in truth.solutions.iter().rev() {
-            let measures = by_energy(|energy| measure(pair, curves, solution, energy))?;
-            all.push(quintic(datum, pair, &measures, solution.spiral)?);
+            all.push(by_energy(|energy| quintic(datum, pair, curves, solution, energy))?);
         }
     }
     let last = all.len();
@@ -148,16 +148,26 @@ fn known<N: Real>(x: &N, floor: f64) -> Option<f64> {
     (value.is_finite() && off <= 2f64.powi(-37) * value.abs() + floor).then_some(value)
 }
 
-fn quintic<N: Real>(datum: &Datum, pair: &Pair<N>, measures: &Measures<N>, spiral: bool) -> Option<Quintic> {
-    let mut numbers = [0.0; 4];
-    for (slot, x) in numbers.iter_mut().zip(&measures.numbers) {
-        *slot = known(x, 0.0)?;
-    }
-    let [a, b, energy, length] = numbers;
+fn quintic<N: Measured>(
+    datum: &Datum,
+    pair: &Pair<N>,
+    curves: &Curves<N>,
+    solution: &Solution<N>,
+    energy: Energy<N>,
+) -> Option<Quintic> {
+    let number = |which: usize, floor: f64| known(&measure(pair, curves, solution, energy, which)?, floor);
+    let [a, b] = [number(0, 0.0)?, number(1, 0.0)?];
     let quarter = 4.0 * pair.sin.approx();
     let bends = [datum.kappa0 * a.powi(3) / quarter, datum.kappa1 * b.powi(3) / quarter];
-    let curve = PhQuintic::between([-1.0, 0.0], [1.0, 0.0], preimage(datum, [a, b], bends));
-    Some(Quintic { a, b, curve, spiral, energy, length, margin: known(&measures.margin, 2f64.powi(-31))? })
+    Some(Quintic {
+        a,
+        b,
+        curve: PhQuintic::between([-1.0, 0.0], [1.0, 0.0], preimage(datum, [a, b], bends)),
+        spiral: solution.spiral,
+        energy: number(2, 0.0)?,
+        length: number(3, 0.0)?,
+        margin: number(4, 2f64.powi(-31))?,
+    })
 }
 
 fn preimage(datum: &Datum, [a, b]: [f64; 2], [start, end]: [f64; 2]) -> [[f64; 2]; 3] {
@@ -210,8 +220,7 @@ fn rounded<N: Measured>(datum: &Datum, pair: &Pair<N>, which: &[usize]) -> Optio
     let best = &solutions[by_energy(|energy| chosen(pair, &solutions, energy))??];
     let curves = curves?;
     by_energy(|energy| {
-        let measures = measure(pair, &curves, best, energy)?;
-        let value = |i: &usize| measures.numbers.get(*i).unwrap_or(&measures.margin).to_f32().map(|x| x.min(f32::MAX));
+        let value = |i: &usize| Some(measure(pair, &curves, best, energy, *i)?.to_f32()?.min(f32::MAX));
         which.iter().map(value).collect()
     })
 }

@@ -1,9 +1,9 @@
 //! The family on a grid.
 
-use super::PhQuintic;
 use super::pair::Pair;
 use super::solve::{exact_scalars, scalars};
 use super::truth::verdict;
+use super::{PhQuintic, lanes};
 use crate::error::Result;
 use crate::family::cubic::Datum;
 use crate::family::hermite::check_grid;
@@ -55,15 +55,23 @@ impl Rows for PhTable<'_> {
         Pair::<Ball>::new(*phi0, *phi1)
     }
 
-    /// Node by node: how many knots it takes differs too much for lanes.
+    /// In lanes, then node by node what those leave.
     #[inline(always)]
-    fn codes<S: Simd>(&self, _simd: S, pair: &Pair<Ball>, node: &[f64; MAX_AXES], fourth: S::f64s, out: &mut [Code]) {
+    fn codes<S: Simd>(&self, simd: S, pair: &Pair<Ball>, node: &[f64; MAX_AXES], fourth: S::f64s, out: &mut [Code]) {
+        lanes::codes(simd, pair, node[2], fourth, out);
         for (code, kappa1) in out.iter_mut().zip(fourth.as_slice()) {
-            let kappa = [node[2], *kappa1];
-            let by_twins = || verdict(&Pair::twins(node[0], node[1])?, kappa);
-            *code = verdict(pair, kappa).or_else(by_twins).unwrap_or(Code::UNDECIDED);
+            if *code == Code::UNDECIDED {
+                *code = one(pair, node, *kappa1);
+            }
         }
     }
+}
+
+/// The code of one node, in doubles or sums of two.
+fn one(pair: &Pair<Ball>, node: &[f64; MAX_AXES], kappa1: f64) -> Code {
+    let kappa = [node[2], kappa1];
+    let by_twins = || verdict(&Pair::twins(node[0], node[1])?, kappa);
+    verdict(pair, kappa).or_else(by_twins).unwrap_or(Code::UNDECIDED)
 }
 
 impl Table for PhTable<'_> {

@@ -83,14 +83,6 @@ pub(super) fn solve<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Truth<N>
 /// An energy in doubles that is off by this share of itself at most is taken: a sixteenth of what `solve` promises.
 const ENOUGH: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// What is measured of a solution.
-#[derive(Debug, Clone)]
-pub(super) struct Measures<N> {
-    /// A, B, energy, length.
-    pub numbers: [N; 4],
-    pub margin: N,
-}
-
 /// Numbers that have a margin and an energy.
 pub(super) trait Measured: Real {
     fn margin(quintic: &[Self; 6]) -> Option<Self>;
@@ -150,27 +142,28 @@ pub(super) fn energy_of<N: Measured>(pair: &Pair<N>, solution: &Solution<N>, ene
     energy(&solution.shape.speed, &solution.shape.turn)?.mul(&pair.sin).mul(&pair.sin).times(4.0).over(&solution.root.z)
 }
 
-/// A, B, energy, length, margin.
+/// A, B, energy, length or margin (0 to 4) of a solution.
 pub(super) fn measure<N: Measured>(
     pair: &Pair<N>,
     curves: &Curves<N>,
     solution: &Solution<N>,
     energy: Energy<N>,
-) -> Option<Measures<N>> {
+    which: usize,
+) -> Option<N> {
     let Root { t, z } = &solution.root;
-    let a = z.sqrt()?;
-    let [s0, s1, s2, s3, s4] = &solution.shape.speed;
-    let fifth = N::of(5.0, z.bits());
-    let length = formula!((s0 + s1 + s2 + s3 + s4) * z).over(&fifth)?;
-    Some(Measures {
-        numbers: [
-            a.times(curves.scale[0]),
-            formula!(a * t * { curves.scale[1] }),
-            energy_of(pair, solution, energy)?,
-            length,
-        ],
-        margin: N::margin(&solution.shape.quintic())?,
-    })
+    match which {
+        0 => Some(z.sqrt()?.times(curves.scale[0])),
+        1 => {
+            let a = z.sqrt()?;
+            Some(formula!(a * t * { curves.scale[1] }))
+        }
+        2 => energy_of(pair, solution, energy),
+        3 => {
+            let [s0, s1, s2, s3, s4] = &solution.shape.speed;
+            formula!((s0 + s1 + s2 + s3 + s4) * z).over(&N::of(5.0, z.bits()))
+        }
+        _ => N::margin(&solution.shape.quintic()),
+    }
 }
 
 /// The spiral of least energy, as an index; `None` when two cannot be told apart.
