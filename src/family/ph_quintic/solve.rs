@@ -2,7 +2,7 @@
 
 use super::curves::Curves;
 use super::pair::Pair;
-use super::truth::{self, Energy, Measured, Solution, Truth, by_energy, chosen, measure};
+use super::truth::{self, Measured, Solution, Truth, by_energy, chosen, measure};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
@@ -129,7 +129,7 @@ fn described<N: Measured>(datum: &Datum, pair: &Pair<N>) -> Option<Solutions> {
     if let Some(curves) = &truth.curves {
         // By increasing A: A falls as B/A rises.
         for solution in truth.solutions.iter().rev() {
-            all.push(by_energy(|energy| quintic(datum, pair, curves, solution, energy))?);
+            all.push(quintic(datum, pair, curves, solution)?);
         }
     }
     let last = all.len();
@@ -148,14 +148,9 @@ fn known<N: Real>(x: &N, floor: f64) -> Option<f64> {
     (value.is_finite() && off <= 2f64.powi(-37) * value.abs() + floor).then_some(value)
 }
 
-fn quintic<N: Measured>(
-    datum: &Datum,
-    pair: &Pair<N>,
-    curves: &Curves<N>,
-    solution: &Solution<N>,
-    energy: Energy<N>,
-) -> Option<Quintic> {
-    let number = |which: usize, floor: f64| known(&measure(pair, curves, solution, energy, which)?, floor);
+fn quintic<N: Measured>(datum: &Datum, pair: &Pair<N>, curves: &Curves<N>, solution: &Solution<N>) -> Option<Quintic> {
+    let measured = |which: usize| by_energy(|energy| measure(pair, curves, solution, energy, which));
+    let number = |which: usize, floor: f64| known(&measured(which)?, floor);
     let [a, b] = [number(0, 0.0)?, number(1, 0.0)?];
     let quarter = 4.0 * pair.sin.approx();
     let bends = [datum.kappa0 * a.powi(3) / quarter, datum.kappa1 * b.powi(3) / quarter];
