@@ -128,10 +128,10 @@ impl<S: Simd> Equations<S> {
     }
 
     /// How far a gap may be off: 2.1 times the heights, for it changes by less than the logarithm of their ratio, and
-    /// three roundings of a number up to 2.
+    /// three roundings of a number up to 2; one more for taking this away from it.
     #[inline(always)]
     pub fn gap_error(&self, knot: &Knot<S>) -> S::f64s {
-        knot.off * 2.1 + 6.0 * UNIT
+        knot.off * 2.1 + 8.0 * UNIT
     }
 
     /// How far slopes may be off, relative: numerator and denominator each change by no more than twice a height.

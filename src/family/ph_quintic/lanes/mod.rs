@@ -48,6 +48,8 @@ pub(super) fn codes<S: Simd>(simd: S, pair: &Pair<Ball>, kappa0: f64, kappa1: S:
     let posed = (sized | kappa1.simd_eq(zero)).to_bitmask() & (any | no) & !negative & all;
     let mut planes = Planes { any, undecided: all & !(posed | negative & (any | no)), ..Planes::default() };
     if posed != 0 {
+        // Others would set a scale that is far from theirs.
+        let kappa1 = sized.select(kappa1, zero);
         let equations = Equations::new(simd, curves(simd, pair, kappa0, kappa1), bounds);
         let brackets = march::brackets(&equations, posed, kappa0 > 0.0);
         planes.undecided |= brackets.open;

@@ -32,7 +32,7 @@ pub(super) fn spirals<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, w
     let falls = |i: usize| value[i].simd_lt(zero - error[i]);
     let mut rises = value[0].simd_gt(error[0]);
     for i in 1..6 {
-        rises = rises & value[i].simd_gt(error[i]);
+        rises &= value[i].simd_gt(error[i]);
     }
     let mut yes = rises.to_bitmask() & wanted;
     let mut no = (falls(0) | falls(5)).to_bitmask() & wanted;

@@ -7,7 +7,7 @@ use crate::family::ph_quintic::march::March;
 use crate::family::ph_quintic::pair::Pair;
 use crate::family::ph_quintic::truth::{solve, verdict};
 use crate::noise::Noise;
-use crate::num::{Ball, Interval, Number};
+use crate::num::{Ball, Interval};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 
 const BITS: usize = 300;
