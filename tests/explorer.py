@@ -302,16 +302,24 @@ def the_page_and_the_program_agree(browser):
 def the_region_is_the_programs(browser):
     page = Page(browser)
     wanted = {"family": "cubic", "phi0": 0.7, "phi1": 1.4, "at": [0.4, 4.0], "width": 90, "height": 70}
-    found = page.page.evaluate(
-        """async (wanted) => {
+    sizes = {"at": [0.4, 4.0], "width": 400, "height": 400}
+    asked = [wanted, *({"family": family, "phi0": 0.7, "phi1": 1.4, **sizes} for family in ("cubic", "ph-quintic", "any-spiral"))]
+    found, *timed = page.page.evaluate(
+        """async (asked) => {
             const { Asker } = await import(new URL("asker.js", location.href));
             const module = await WebAssembly.compile(await (await fetch("core.wasm")).arrayBuffer());
             const asker = new Asker(module, () => {});
             await asker.ready;
-            return await new Promise((resolve) => asker.slice(wanted, (a) => a.done && resolve({ ...a, pixels: [...a.pixels] })));
+            const all = [];
+            for (const wanted of asked)
+                all.push(await new Promise((resolve) => asker.slice(wanted, (a) => a.done && resolve({ ...a, pixels: [...a.pixels] }))));
+            return all;
         }""",
-        wanted,
+        asked,
     )
+    # A speed is told, never asserted.
+    for slice in timed:
+        print(f"  400 x 400 pixels of {slice['family']}: {slice['took']:.0f} ms")
     page.close()
     (x0, x1), (y0, y1) = found["ranges"]
     noise = random.Random(3)
@@ -468,8 +476,8 @@ def what_is_taken_away_is_the_same(browser):
     page.rest()
     page.page.click("#save > summary")
     page.page.click("[data-save=xodr]")
-    page.page.wait_for_selector("#notice:not([hidden])")
-    assert "involute" in page.page.inner_text("#notice")
+    # An older notice may stand there until the answer comes.
+    page.page.wait_for_selector("#notice:not([hidden]):has-text('involute')")
     page.close()
 
 

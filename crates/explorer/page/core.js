@@ -30,6 +30,11 @@ export class Core {
     return this.#wasm.refine(tiles);
   }
 
+  /** Whether every pixel of the slice is known; what waits then proves what lies between them. */
+  drawn() {
+    return this.#wasm.drawn() !== 0;
+  }
+
   /** The flags of each pixel of the slice, column by column, from below: a copy. */
   pixels(count) {
     return new Uint8Array(this.#wasm.memory.buffer, this.#wasm.pixels(), count).slice();

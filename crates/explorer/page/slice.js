@@ -84,36 +84,40 @@ export class Region {
       return;
     }
     this.#shown = { ...answer, instead };
-    if (answer.done) this.took = answer.took;
+    if (answer.drawn) this.took = answer.took;
     this.paint();
   }
 
   /** Paints what is known. */
   paint() {
     if (!this.#shown) return;
-    const { width, height, pixels, nested, flags, family, done, proved, instead } = this.#shown;
+    const { width, height, pixels, nested, flags, family, open, drawn, proved, instead } = this.#shown;
     const solvable = flags.findIndex((flag) => flag.name === "SOLVABLE");
     const ranks = new Uint8Array(256).map((_, code) =>
       nested.reduce((rank, bit, i) => ((code >> bit) & 1 ? i + 1 : rank), 0),
     );
+    // What no precision decided has a colour of its own.
+    ranks[open] = nested.length + 1;
     const rank = new Uint8Array(width * height);
     const within = solvable >= 0 && new Uint8Array(width * height);
     for (let x = 0, from = 0; x < width; x++) {
       for (let y = height - 1; y >= 0; y--, from++) {
         const at = y * width + x;
         rank[at] = ranks[pixels[from]];
-        if (within) within[at] = (pixels[from] >> solvable) & 1;
+        if (within) within[at] = pixels[from] !== open && (pixels[from] >> solvable) & 1;
       }
     }
-    paint(this.#canvas, width, height, rank, ramp(nested.length), within);
+    const colors = ramp(nested.length);
+    paint(this.#canvas, width, height, rank, [...colors, colours().line], within);
     const share = Math.round((1000 * proved) / (width * height)) / 10;
-    byId("slice-note").textContent = done ? `${width} × ${height}, ${share} % in proved boxes` : "refining…";
+    byId("slice-note").textContent = drawn
+      ? `${width} × ${height}, ${share} % in proved boxes`
+      : "refining…";
     byId("slice-title").textContent = {
       cubic: "Cubic spirals",
       "ph-quintic": "PH quintic spirals",
       "any-spiral": "Spirals of any kind",
     }[family];
-    const colors = ramp(nested.length);
     const swatch = (color) =>
       svg(
         "svg",
@@ -131,6 +135,7 @@ export class Region {
       );
       entries.push(html("li", { title: flags[solvable].doc }, red, flags[solvable].label));
     }
+    if (pixels.includes(open)) entries.push(html("li", {}, swatch(colours().line), "not decided"));
     if (instead)
       entries.push(
         html("li", { class: "small", title: instead }, "no curve of the chosen family has such directions"),

@@ -48,14 +48,17 @@ function refine() {
   let left = 1;
   while (left > 0 && performance.now() < until) left = core.refine(TILES);
   const pixels = core.pixels(width * height);
+  const drawn = core.drawn();
+  if (drawn) making.took ??= performance.now() - began;
   const answer = {
     ...about,
     width,
     height,
     pixels,
+    drawn,
     done: left === 0,
     proved: core.proved(),
-    took: performance.now() - began,
+    took: making.took,
   };
   self.postMessage({ id, answer }, [pixels.buffer]);
   if (left > 0) channel.port2.postMessage(0);

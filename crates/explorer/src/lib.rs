@@ -92,6 +92,12 @@ pub extern "C" fn refine(tiles: usize) -> usize {
     STATE.with_borrow_mut(|state| state.slice.as_mut().map_or(0, |slice| slice.refine(tiles)))
 }
 
+/// Whether every pixel of the slice is known. What is done after that proves what lies between them.
+#[unsafe(no_mangle)]
+pub extern "C" fn drawn() -> bool {
+    STATE.with_borrow(|state| state.slice.as_ref().is_none_or(Slice::drawn))
+}
+
 /// Where the verdicts of the slice are: for each pixel its flags, bottom row first.
 #[unsafe(no_mangle)]
 pub extern "C" fn pixels() -> *const u8 {

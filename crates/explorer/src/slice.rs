@@ -8,9 +8,10 @@ use spiral_atlas::grid::{Axis, Grid, Spacing};
 use spiral_atlas::{Error, Result};
 use std::collections::VecDeque;
 
-/// Pixels along a side of the first tiles, and of the last: of those every pixel is asked for itself.
+/// Pixels along a side of the first tiles, of those whose pixels are asked each for itself, and of the least boxes.
 const FIRST: usize = 64;
-const LAST: usize = 8;
+const LAST: usize = 16;
+const LEAST: usize = 8;
 /// Most pixels along a side.
 const MOST: usize = 2048;
 /// The axes of a slice.
@@ -31,6 +32,7 @@ pub struct Wanted {
 }
 
 /// A square of pixels, or what is left of one at the border.
+#[derive(Clone, Copy)]
 struct Tile {
     x: usize,
     y: usize,
@@ -48,6 +50,8 @@ pub struct Slice {
     /// Their middles.
     grid: Grid,
     tiles: VecDeque<Tile>,
+    /// The last tiles that look alike all over: boxes to be proved when the picture is whole.
+    alike: VecDeque<Tile>,
     flags: Vec<u8>,
     proved: usize,
 }
@@ -89,7 +93,18 @@ impl Slice {
         let tiles = corners(width).flat_map(|x| corners(height).map(move |y| Tile { x, y, side: FIRST })).collect();
         let edges = [every_other(&x, 0), every_other(&y, 0)];
         let flags = vec![0; width * height];
-        Ok(Slice { family, chart, angles: [phi0, phi1], ranges, edges, grid, tiles, flags, proved: 0 })
+        Ok(Slice {
+            family,
+            chart,
+            angles: [phi0, phi1],
+            ranges,
+            edges,
+            grid,
+            tiles,
+            alike: VecDeque::new(),
+            flags,
+            proved: 0,
+        })
     }
 
     /// The names and the order of what is drawn.
@@ -103,7 +118,7 @@ impl Slice {
             .map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc }))
             .collect();
         let nested: Vec<usize> = self.family.about().nested.iter().filter_map(bit).collect();
-        json!({ "family": self.family.about().name, "ranges": self.ranges, "flags": flags, "nested": nested })
+        json!({ "family": self.family.about().name, "ranges": self.ranges, "flags": flags, "nested": nested, "open": OPEN })
     }
 
     /// The flags of each pixel, column by column, from below.
@@ -116,37 +131,32 @@ impl Slice {
         self.proved
     }
 
-    /// Works on so many tiles, and returns how many wait.
+    /// Whether every pixel is known.
+    pub fn drawn(&self) -> bool {
+        self.tiles.is_empty()
+    }
+
+    /// Works on so many tiles, and returns how many wait. First all pixels become known, then boxes are proved.
     pub fn refine(&mut self, tiles: usize) -> usize {
         let grid = self.grid.clone();
         // The angles were checked before.
         let Ok(table) = self.family.table(&grid) else { return 0 };
         for _ in 0..tiles {
-            let Some(tile) = self.tiles.pop_front() else { break };
-            self.work(&tile, &*table);
-        }
-        self.tiles.len()
-    }
-
-    fn work(&mut self, tile: &Tile, table: &dyn Table) {
-        let Tile { x, y, side } = *tile;
-        let [right, top] = [(x + side).min(self.edges[0].len() - 1), (y + side).min(self.edges[1].len() - 1)];
-        let all = self.family.about().all_flags();
-        if let Some(region) = self.family.region() {
-            let [phi0, phi1] = self.angles;
-            let low = [phi0, phi1, self.edges[0][x], self.edges[1][y]];
-            let high = [phi0, phi1, self.edges[0][right], self.edges[1][top]];
-            let facts = region.facts(self.chart, &low, &high, all);
-            if facts.inside | facts.outside == all {
-                self.fill([x, right, y, top], facts.inside);
-                self.proved += (right - x) * (top - y);
-                return;
+            if let Some(tile) = self.tiles.pop_front() {
+                self.work(tile, &*table);
+            } else if let Some(tile) = self.alike.pop_front().filter(|tile| !self.prove(tile) && tile.side > LEAST) {
+                self.alike.extend(self.parts(&tile));
             }
         }
+        self.tiles.len() + self.alike.len()
+    }
+
+    fn work(&mut self, tile: Tile, table: &dyn Table) {
+        let Tile { x, y, side } = tile;
+        let [right, top] = self.far(&tile);
         let rows = self.edges[1].len() - 1;
         if side <= LAST {
-            for column in x..right {
-                let start = column * rows + y;
+            for start in (x..right).map(|column| column * rows + y) {
                 let mut codes = [Code::UNDECIDED; LAST];
                 let codes = &mut codes[..top - y];
                 table.filter(start as u64, codes);
@@ -154,19 +164,64 @@ impl Slice {
                     self.flags[start + i] = decided(table, start + i, *code);
                 }
             }
+            if self.is_alike(&tile) {
+                self.alike.push_back(tile);
+            } else {
+                let parts: Vec<Tile> = self.parts(&tile).filter(|part| self.is_alike(part)).collect();
+                self.alike.extend(parts);
+            }
+            return;
+        }
+        let code = |x: usize, y: usize| {
+            let mut code = [Code::UNDECIDED];
+            table.filter((x * rows + y) as u64, &mut code);
+            code[0]
+        };
+        let middle = [(x + right) / 2, (y + top) / 2];
+        let within = code(middle[0], middle[1]);
+        // A box whose corners differ is not tried: a proof over a box takes as long as many pixels.
+        let corners = [(x, y), (x, top - 1), (right - 1, y), (right - 1, top - 1)];
+        if corners.into_iter().all(|(x, y)| code(x, y).flags() == within.flags()) && self.prove(&tile) {
             return;
         }
         // Until its parts are known, a tile looks like its middle.
-        let middle = (x + right) / 2 * rows + (y + top) / 2;
-        let mut code = [Code::UNDECIDED];
-        table.filter(middle as u64, &mut code);
-        self.fill([x, right, y, top], decided(table, middle, code[0]));
+        self.fill([x, right, y, top], decided(table, middle[0] * rows + middle[1], within));
+        self.tiles.extend(self.parts(&tile));
+    }
+
+    /// A tile in four, or less at the border.
+    fn parts(&self, tile: &Tile) -> impl Iterator<Item = Tile> + use<> {
+        let (Tile { x, y, side }, [right, top]) = (*tile, self.far(tile));
         let half = side / 2;
-        for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
-            if x < right && y < top {
-                self.tiles.push_back(Tile { x, y, side: half });
-            }
-        }
+        let parts = [(x, y), (x + half, y), (x, y + half), (x + half, y + half)];
+        parts.into_iter().filter(move |(x, y)| *x < right && *y < top).map(move |(x, y)| Tile { x, y, side: half })
+    }
+
+    /// Whether all pixels of a tile have the same flags.
+    fn is_alike(&self, tile: &Tile) -> bool {
+        let [right, top] = self.far(tile);
+        let rows = self.edges[1].len() - 1;
+        let first = self.flags[tile.x * rows + tile.y];
+        (tile.x..right)
+            .all(|column| self.flags[column * rows + tile.y..column * rows + top].iter().all(|f| *f == first))
+    }
+
+    /// Whether the verdicts of a tile are proved for all its points; then its pixels have them.
+    fn prove(&mut self, tile: &Tile) -> bool {
+        let (Tile { x, y, .. }, [right, top], [phi0, phi1]) = (*tile, self.far(tile), self.angles);
+        let low = [phi0, phi1, self.edges[0][x], self.edges[1][y]];
+        let high = [phi0, phi1, self.edges[0][right], self.edges[1][top]];
+        let all = self.family.about().all_flags();
+        let facts = self.family.region().map(|region| region.facts(self.chart, &low, &high, all));
+        let Some(facts) = facts.filter(|facts| facts.inside | facts.outside == all) else { return false };
+        self.fill([x, right, y, top], facts.inside);
+        self.proved += (right - x) * (top - y);
+        true
+    }
+
+    /// Where a tile ends.
+    fn far(&self, tile: &Tile) -> [usize; 2] {
+        [(tile.x + tile.side).min(self.edges[0].len() - 1), (tile.y + tile.side).min(self.edges[1].len() - 1)]
     }
 
     fn fill(&mut self, [left, right, bottom, top]: [usize; 4], flags: u8) {
@@ -177,12 +232,15 @@ impl Slice {
     }
 }
 
-/// The flags of a node: where doubles leave them open, by intervals. At the precision cap there are none.
+/// Stands for the flags of a pixel that is not decided at the highest precision. No family has so many flags.
+const OPEN: u8 = u8::MAX;
+
+/// The flags of a node: where doubles leave them open, by intervals.
 fn decided(table: &dyn Table, node: usize, code: Code) -> u8 {
     if code != Code::UNDECIDED {
         return code.flags();
     }
-    table.exact(node as u64).map_or(0, |(code, _)| code.flags())
+    table.exact(node as u64).map_or(OPEN, |(code, _)| code.flags())
 }
 
 /// Columns and rows of the sketch that tells where a region is, and the heights above sin φ1 that it spans.
