@@ -1,7 +1,7 @@
 //! What an atlas says about itself: the metadata of the file, key by key.
 
 use super::Spec;
-use crate::family::{NO_VALUE, unpack};
+use crate::family::{self, Family, NO_VALUE, unpack};
 use crate::grid::{Axis, Grid, Spacing};
 use crate::plain;
 use serde::de::DeserializeOwned;
@@ -136,6 +136,14 @@ impl NamedAxis {
 }
 
 impl About {
+    /// Its family.
+    ///
+    /// # Errors
+    /// [`crate::Error::Domain`] for one that this program does not have.
+    pub fn family(&self) -> crate::Result<&'static dyn Family> {
+        family::by_name(&self.family).map_err(|e| e.at(format!("the atlas `{}`", self.name)))
+    }
+
     pub(crate) fn of(spec: &Spec) -> Result<About, String> {
         let names: Vec<&str> = spec.grid.axes().iter().map(Axis::name).collect();
         let family = spec.family;

@@ -319,6 +319,6 @@ pub fn kind(path: impl AsRef<Path>) -> Result<Kind> {
 /// # Errors
 /// [`Error::Atlas`], with the path `(memory)`, when they are no atlas.
 pub fn kind_of(bytes: &[u8]) -> Result<Kind> {
-    let told = |what| Error::Atlas { path: PathBuf::from(MEMORY), what };
-    Header::parse(bytes).map(|(header, _)| header.about.kind).map_err(told)
+    let invalid = |what| Error::Atlas { path: PathBuf::from(MEMORY), what };
+    Header::parse(bytes).map(|(header, _)| header.about.kind).map_err(invalid)
 }

@@ -26,7 +26,7 @@ pub fn write(path: &Path, spec: &Spec, built: &Built) -> Result<()> {
 /// # Errors
 /// [`Error::Domain`] for a specification that does not fit the cells, or a recipe too long.
 pub fn bytes(spec: &Spec, built: &Built) -> Result<Vec<u8>> {
-    let domain = |what| Error::Domain(format!("the atlas `{}`: {what}", spec.name));
+    let domain = |what| Error::invalid(format!("the atlas `{}`: {what}", spec.name));
     let Spec { name, family, grid, recipe, .. } = *spec;
     let about = About::of(&crate::atlas::Spec { name, family, grid, scalars: &[], recipe }).map_err(domain)?;
     let about = About { kind: Kind::Cells, counts: Vec::new(), ..about };
@@ -104,11 +104,10 @@ impl Cells {
             return Err(invalid("it holds nodes, not cells; `spiral_atlas::atlas::Atlas` opens it".into()));
         }
         let about = &header.about;
-        let family =
-            family::by_name(&about.family).ok_or_else(|| invalid(format!("no family is named `{}`", about.family)))?;
-        let told = |e: Error| invalid(e.to_string());
-        let (_, chart) = region(family, &header.grid).map_err(told)?;
-        let shape = shape(&header.grid, family.about().flags.len()).map_err(told)?;
+        let blame = |e: Error| invalid(e.to_string());
+        let family = family::by_name(&about.family).map_err(blame)?;
+        let (_, chart) = region(family, &header.grid).map_err(blame)?;
+        let shape = shape(&header.grid, family.about().flags.len()).map_err(blame)?;
         if !about.flags.iter().map(|f| &f.name[..]).eq(family.about().flags.iter().map(|f| f.name)) {
             return Err(invalid(format!("its flags are not those of `{}`", family.about().name)));
         }
@@ -169,7 +168,7 @@ impl Cells {
             return Ok(known.inside);
         }
         if point.len() != self.shape.axes {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the datum has {} coordinates; it must have {}",
                 point.len(),
                 self.shape.axes

@@ -1,6 +1,7 @@
 //! What the commands do with an atlas of cells.
 
 use super::Outcome;
+use super::legend::{flags, head, spacing, tail};
 use super::output::{self, Object, Product, grouped};
 use spiral_atlas::atlas::{Atlas, Kind};
 use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec};
@@ -220,7 +221,7 @@ pub fn info(cells: &Cells, json: bool) -> Result<()> {
         let axis = |a: &spiral_atlas::grid::Axis| {
             let values = a.values();
             serde_json::json!({
-                "name": a.name(), "spacing": super::info::spacing(a), "first": values[0], "last": values[values.len() - 1],
+                "name": a.name(), "spacing": spacing(a), "first": values[0], "last": values[values.len() - 1],
             })
         };
         let hashes = Object(cells.hashes().map(|(name, hash)| (name, hash.to_hex().to_string())).collect());
@@ -231,36 +232,15 @@ pub fn info(cells: &Cells, json: bool) -> Result<()> {
             "flags": about.flags, "blake3": hashes, "recipe": about.recipe,
         }));
     }
-    let mut text = format!("{}\n", cells.path().display());
-    for (key, value) in [
-        ("name", &about.name),
-        ("id", &id),
-        ("generator", &about.generator),
-        ("family", &about.family),
-        ("conventions", &about.conventions),
-    ] {
-        text += &format!("  {key:<12} {value}\n");
-    }
+    let mut text = head(cells.path(), about, &id);
     let (resolution, bytes) = (cells.resolution(), size(cells.bytes()));
     text += &format!("cells, up to {resolution} an axis, in {bytes}; chart `{}`\n", about.chart);
     for axis in axes {
         let (first, last) = (axis.values()[0], axis.values()[resolution]);
-        text += &format!("  {:<12} {:<6} from {first:?} to {last:?}\n", axis.name(), super::info::spacing(axis));
+        text += &format!("  {:<12} {:<6} from {first:?} to {last:?}\n", axis.name(), spacing(axis));
     }
-    text += &format!("  {}\nflags\n", about.chart_doc);
-    for (bit, flag) in about.flags.iter().enumerate() {
-        text += &format!("  bit {bit} {:<14} {}\n", flag.name, flag.doc);
-    }
-    text += "BLAKE3 of each tensor, checked\n";
-    for (name, hash) in cells.hashes() {
-        text += &format!("  {name:<12} {hash}\n");
-    }
-    text += "recipe\n";
-    for line in about.recipe.lines() {
-        text += format!("  {line}").trim_end();
-        text += "\n";
-    }
-    output::print(&text)
+    text += &format!("  {}\nflags\n{}", about.chart_doc, flags(about));
+    output::print(&(text + &tail(about, cells.hashes())))
 }
 
 /// What the cell of a datum says of each flag; `None` outside the box, or for a datum in other coordinates than those

@@ -1,9 +1,9 @@
 //! Data for any family, from options or from the columns of a table: an option for each axis that some family has.
 
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
+use spiral_atlas::Result;
 use spiral_atlas::family::{self, Chart, Family};
 use spiral_atlas::recipe::parse_coordinate;
-use spiral_atlas::{Error, Result};
 
 /// A datum in one of its family's charts.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,12 +120,4 @@ pub fn from_cells(family: &dyn Family, chart: usize, cells: &[&str]) -> Result<D
     let axes = family.about().charts[chart].axes;
     let point = axes.iter().zip(cells).map(|(axis, cell)| parse_coordinate(axis, cell)).collect::<Result<_>>()?;
     Ok(Datum { chart, point })
-}
-
-/// The family of a name, for an option.
-pub fn parse_family(name: &str) -> Result<&'static dyn Family> {
-    family::by_name(name).ok_or_else(|| {
-        let known: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-        Error::Domain(format!("unknown family `{name}`; known are `{}`", known.join("`, `")))
-    })
 }

@@ -38,7 +38,7 @@ pub fn check_figure(figure: Option<&Path>) -> Result<()> {
     match figure.filter(|path| !has_extension(path, "png")) {
         None => Ok(()),
         Some(path) => {
-            Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())))
+            Err(Error::invalid(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())))
         }
     }
 }
@@ -81,7 +81,7 @@ pub fn rows(out: &mut impl Write, lead: &str, samples: &[Station], comma: &str) 
 
 /// The failure of writing JSON; none is known.
 pub fn json_error(e: serde_json::Error) -> Error {
-    Error::Domain(format!("a report cannot be written as JSON: {e}"))
+    Error::invalid(format!("a report cannot be written as JSON: {e}"))
 }
 
 /// Tells an error. When even standard error is closed, the exit code must do.
@@ -150,7 +150,7 @@ pub fn report_path(folder: &Path, name: &str) -> PathBuf {
 /// Creates a folder with its parents, unless it is there.
 pub fn make_folder(path: &Path) -> Result<()> {
     if path.exists() && !path.is_dir() {
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "{} is a file; the folder for the results needs another name",
             path.display()
         )));

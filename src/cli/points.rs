@@ -59,7 +59,7 @@ pub fn run(
     let header = loop {
         match lines.next().map_err(io)? {
             None => {
-                return Err(Error::Domain(format!(
+                return Err(Error::invalid(format!(
                     "{}: it is empty; its first line must be {}",
                     path.display(),
                     columns(charts)
@@ -69,7 +69,7 @@ pub fn run(
             Some(line) => break line.and_then(|line| Header::parse(charts, line)),
         }
     };
-    let header = header.map_err(|what| Error::Domain(format!("{}: line {}: {what}", path.display(), lines.number)))?;
+    let header = header.map_err(|what| Error::invalid(format!("{}: line {}: {what}", path.display(), lines.number)))?;
     let mut out = BufWriter::new(io::stdout().lock());
     let (mut outcome, mut number) = (Outcome::Fine, 0);
     if table && let Some(end) = broken(out.write_all(table_header().as_bytes()))? {
@@ -81,7 +81,7 @@ pub fn run(
         if let Some(end) = if waiting { broken(out.flush())? } else { None } {
             return Ok(end);
         }
-        let told = match lines.next().map_err(io)? {
+        let line = match lines.next().map_err(io)? {
             None => break,
             Some(Ok(line)) if line.trim().is_empty() => continue,
             Some(line) => {
@@ -92,7 +92,7 @@ pub fn run(
                 })
             }
         };
-        let mut text = match told {
+        let mut text = match line {
             Ok(text) => text,
             Err(error) => {
                 outcome = Outcome::Failed;

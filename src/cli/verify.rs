@@ -4,10 +4,10 @@ use super::Outcome;
 use super::backend::{self, BackendArgs};
 use super::cells::{self, Opened};
 use super::output::{self, grouped};
+use spiral_atlas::Result;
 use spiral_atlas::atlas::verify;
 use spiral_atlas::eval::agree::{self, Agreement, Stored};
 use spiral_atlas::eval::{Backend, Job};
-use spiral_atlas::{Result, picture};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
@@ -68,7 +68,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         Opened::Nodes(atlas) => atlas,
         Opened::Cells(found) => return cells::verify(&found, args.backend.threads(), args.json),
     };
-    let family = picture::of(atlas.about())?;
+    let family = atlas.about().family()?;
     let scalars = verify::scalars(&atlas, family)?;
     let job = Job { family, grid: atlas.grid(), scalars: &scalars };
     let (stored, (backends, no_gpu)) = (verify::stored(&atlas)?, args.backend.all(args.require_adapter)?);

@@ -2,7 +2,7 @@
 //! hand would not pay.
 
 use super::bernstein::Certain;
-use super::{Interval, Number, Real};
+use super::{Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
 
 /// Unit roundoff.
@@ -38,12 +38,6 @@ impl Ball {
     /// A number known to `units` of 2^-53, relative.
     pub fn near(value: f64, units: f64) -> Ball {
         Ball { value, error: value.abs() * (units * UNIT * GROW) + TINY }
-    }
-
-    /// The interval from its smallest to its largest number; `None` when those are no doubles.
-    pub fn interval(&self, bits: usize) -> Option<Interval> {
-        let number = |x: f64| x.is_finite().then(|| Interval::new(x, bits));
-        Some(&number(self.value)? + &number(self.error)?.size())
     }
 
     /// From the smallest to the largest of its numbers, a little widened.

@@ -1,8 +1,7 @@
 //! Signs of polynomials and least values of quintics in Bernstein form on [0, 1], with proof.
 
-use super::Verdict;
 use super::formula::formula;
-use super::{Interval, Number};
+use super::{COVER, Interval, Number, Verdict};
 use crate::steps::step;
 use std::cmp::Ordering;
 
@@ -115,7 +114,7 @@ pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
 /// A zero is never decided: the truth at a tie needs more than this test.
 pub fn positive<N: Certain, const K: usize>(c: &[N; K], error: f64, rounding: f64, depth: u32) -> Verdict {
     // Relative from here on, because pieces may be much smaller than the whole.
-    let unit = if rounding > 0.0 { 1.01 * rounding / largest(c).max(f64::MIN_POSITIVE) } else { 0.0 };
+    let unit = if rounding > 0.0 { COVER * rounding / largest(c).max(f64::MIN_POSITIVE) } else { 0.0 };
     positive_piece(c, error, unit, depth)
 }
 

@@ -10,7 +10,6 @@ pub mod roots;
 pub mod sines;
 mod twin;
 pub(crate) mod verdict;
-mod words;
 mod ziv;
 
 pub use ball::Ball;
@@ -20,8 +19,10 @@ pub use interval::Interval;
 pub use number::{Lanes, Number, Real};
 pub use twin::{TWIN_BITS, Twin};
 pub use verdict::Verdict;
-pub use words::told;
 pub use ziv::climb;
+
+/// Covers the roundings of an error bound's own computation, in doubles and in singles.
+pub(crate) const COVER: f64 = 1.01;
 
 /// `lo (hi / lo)^(i / (count - 1))`, the ends exact; the same doubles on every machine.
 pub(crate) fn log_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {

@@ -57,11 +57,6 @@ impl Twin {
         Twin::sum(ball.value, 0.0, ball.error)
     }
 
-    /// The sum of two doubles, exactly.
-    pub fn of_sum(x: f64, y: f64) -> Twin {
-        Twin::sum(x, y, 0.0)
-    }
-
     /// `(sin x, cos x)` for |x| <= π.
     ///
     /// # Accuracy

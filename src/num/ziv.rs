@@ -21,9 +21,9 @@ pub fn climb<T>(datum: &impl Debug, what: &str, attempt: impl Fn(usize) -> Optio
         }
         bits *= 2;
     }
-    let told = format!("{datum:?}");
+    let text = format!("{datum:?}");
     // Fields without the type's name.
     let coordinates =
-        told.split_once(" { ").map_or(told.as_str(), |(_, fields)| fields.trim_end_matches(" }")).to_owned();
+        text.split_once(" { ").map_or(text.as_str(), |(_, fields)| fields.trim_end_matches(" }")).to_owned();
     Err(Error::Undecided { node: None, coordinates, what: what.into(), bits: MOST_BITS })
 }

@@ -97,7 +97,7 @@ const LEAST: f64 = 1e-2;
 pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     let (chord, search) = checked(ends)?;
     let distance = chord.norm();
-    // By (10), equal end derivatives of paths of a length S have at least 3/2 (S - 1), for S near 1.
+    // By Farouki et al., (10), equal end derivatives of paths of a length S have at least 3/2 (S - 1), for S near 1.
     let low = LEAST.min(0.5 * search.beyond);
     let space = Space::new(search, ends.free, low);
     let (best, at_least) = space.least().ok_or_else(|| {
@@ -125,7 +125,7 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
 }
 
 fn fail<T>(what: String) -> Result<T> {
-    Err(Error::Domain(format!("least curvature: {what}")))
+    Err(Error::invalid(format!("least curvature: {what}")))
 }
 
 /// The chord, and what is searched in units of it.

@@ -100,7 +100,7 @@ impl Way {
             Piece::Cubic(cubic) => Way::integrated(Bezier::Cubic(*cubic)),
             Piece::TrigQuintic(part) => Way::integrated(Bezier::Trig(*part)),
             Piece::Involute(_) => {
-                return Err(Error::Domain(format!(
+                return Err(Error::invalid(format!(
                     "is of the kind `{}`, whose points have no proved error; separation takes all other kinds. Take points of the path \
                      with `path measure --samples`, and lay a path through them with `path spline`",
                     piece.kind().name()
@@ -112,7 +112,7 @@ impl Way {
         if way.length >= shortest && size <= most && way.mismatch.is_finite() {
             return Ok(way);
         }
-        Err(Error::Domain(format!(
+        Err(Error::invalid(format!(
             "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers up to {most:e}: leave \
              out a piece of no length, or change the unit of length",
             piece.length()

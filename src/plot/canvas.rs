@@ -111,9 +111,9 @@ impl Canvas {
         let count = u64::from(width) * u64::from(height);
         if count == 0 || count > MAX_PIXELS {
             let limit = format!("both sides must be above 0, and the product at most {MAX_PIXELS}");
-            return Err(Error::Domain(format!("a picture of {width} x {height} pixels; {limit}")));
+            return Err(Error::invalid(format!("a picture of {width} x {height} pixels; {limit}")));
         }
-        let font = FontRef::try_from_slice(FONT).map_err(|e| Error::Domain(format!("the built-in font: {e}")))?;
+        let font = FontRef::try_from_slice(FONT).map_err(|e| Error::invalid(format!("the built-in font: {e}")))?;
         Ok(Canvas { size, dpi, pixels: Vec::new(), font })
     }
 
@@ -124,7 +124,7 @@ impl Canvas {
 
     /// The picture as a PNG file.
     pub fn into_png(self) -> Result<Vec<u8>> {
-        self.encoded().map_err(|e| Error::Domain(format!("PNG of {} x {} pixels: {e}", self.size.0, self.size.1)))
+        self.encoded().map_err(|e| Error::invalid(format!("PNG of {} x {} pixels: {e}", self.size.0, self.size.1)))
     }
 
     fn encoded(&self) -> std::result::Result<Vec<u8>, EncodingError> {

@@ -93,7 +93,7 @@ pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
 }
 
 fn check(figure: &CurveFigure) -> Result<()> {
-    let fail = |what: String| Err(Error::Domain(format!("curve figure: {what}")));
+    let fail = |what: String| Err(Error::invalid(format!("curve figure: {what}")));
     let finite = |points: &[Point]| points.iter().flatten().all(|v| v.is_finite());
     let lists = [
         ("curve", &figure.curve),

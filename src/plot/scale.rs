@@ -45,7 +45,7 @@ impl Scale {
         if span.is_finite() && span > 0.0 && self.lo.is_finite() {
             return Ok(self);
         }
-        Err(Error::Domain(format!(
+        Err(Error::invalid(format!(
             "axis `{name}` of the picture runs from {} to {}; it must be finite and increase{}",
             self.value(0.0),
             self.value(1.0),
@@ -209,7 +209,7 @@ impl Cells {
     /// The cells of an axis; the first and the last are as wide outwards as inwards.
     pub fn new(axis: &AxisView) -> Result<Cells> {
         let (name, values) = (&axis.name, &axis.values);
-        let fail = |what: String| Err(Error::Domain(format!("axis `{name}` of the picture {what}")));
+        let fail = |what: String| Err(Error::invalid(format!("axis `{name}` of the picture {what}")));
         if values.is_empty() {
             return fail("has no values; it must have at least one".into());
         }

@@ -28,7 +28,7 @@ pub fn slice_png(slice: &Slice, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
 pub fn montage_png(title: &str, slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
     if columns == 0 || slices.is_empty() {
         let (slices, columns) = (slices.len(), columns);
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "a montage of {slices} slices in {columns} columns; it needs at least 1 of each"
         )));
     }
@@ -130,7 +130,7 @@ pub(super) fn check_room(canvas: &Canvas, rect: Rect) -> Result<()> {
         return Ok(());
     }
     let (w, h) = (rect.width().max(0), rect.height().max(0));
-    Err(Error::Domain(format!(
+    Err(Error::invalid(format!(
         "a picture of {} x {} pixels leaves {w} x {h} for a plot beside its labels; it needs {LEAST_SIDE} x {LEAST_SIDE}: \
          ask for a larger picture",
         sheet.width(),
@@ -157,7 +157,7 @@ impl Panel<'_> {
         for region in slice.regions.iter().chain(&slice.outlines) {
             // As u128, because a product of lengths of two slices fits.
             if region.mask.len() as u128 != columns as u128 * rows as u128 {
-                return Err(Error::Domain(format!(
+                return Err(Error::invalid(format!(
                     "region `{}` has {} nodes; the axes `{}` and `{}` have {columns} x {rows}",
                     region.label,
                     region.mask.len(),
@@ -168,7 +168,7 @@ impl Panel<'_> {
         }
         if let Some(mark) = slice.marks.iter().find(|m| !(m.x.is_finite() && m.y.is_finite())) {
             let (label, x, y) = (&mark.label, mark.x, mark.y);
-            return Err(Error::Domain(format!("mark `{label}` is at ({x}, {y}); both must be finite")));
+            return Err(Error::invalid(format!("mark `{label}` is at ({x}, {y}); both must be finite")));
         }
         Ok(panel)
     }

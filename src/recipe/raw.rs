@@ -153,9 +153,9 @@ pub fn is_angle(axis: &str) -> bool {
 /// [`Error::Domain`], naming the axis and the text.
 pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
     if is_angle(axis) {
-        return parse_angle(text).map_err(|e| Error::Domain(format!("{axis}: {e}")));
+        return parse_angle(text).map_err(|e| e.at(axis));
     }
-    text.trim().parse().map_err(|_| Error::Domain(format!("{axis}: {text:?} is no number")))
+    text.trim().parse().map_err(|_| Error::invalid(format!("{axis}: {text:?} is no number")))
 }
 
 /// Reads an angle: `40deg` or `40°`, `0.7rad`, or radians alone, `0.7`. Beyond a full turn the unit must be named.
@@ -186,11 +186,11 @@ pub fn parse_angle(text: &str) -> Result<f64> {
     };
     let unit = number.len() < trimmed.len();
     match number.trim_end().parse::<f64>() {
-        Ok(value) if value.is_finite() && !unit && value.abs() > TAU => Err(Error::Domain(format!(
+        Ok(value) if value.is_finite() && !unit && value.abs() > TAU => Err(Error::invalid(format!(
             "{text:?} is more than a full turn in radians; say which unit is meant: `{trimmed}deg` or `{trimmed}rad`"
         ))),
         Ok(value) if value.is_finite() => Ok(if degrees { value / 180.0 * PI } else { value }),
-        _ => Err(Error::Domain(format!(
+        _ => Err(Error::invalid(format!(
             "{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`"
         ))),
     }

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::path::Course;
-use spiral_atlas::transition::join::{self, Outcome as Joined, join};
+use spiral_atlas::transition::join::{self, join};
 use spiral_atlas::transition::{
     self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, involute_between, nearest,
     ph_spiral, polyline, spiral, why_no_spiral,
@@ -148,7 +148,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let facts = json!({ "theta": curve.theta(), "t0": curve.t0(), "turns": curve.turns() });
             drawn(&Piece::Involute(between), &facts, &points)
         }
-        _ => Err(Error::Domain(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
+        _ => Err(Error::invalid(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
     }
 }
 
@@ -212,8 +212,8 @@ impl Join {
         };
         let circles = [circle(&request.from), circle(&request.to)];
         Ok(match join(&request)? {
-            Joined::None(reason) => json!({ "circles": circles, "reason": reason }),
-            Joined::Join(found) => {
+            Err(reason) => json!({ "circles": circles, "reason": reason }),
+            Ok(found) => {
                 let mut before = 0.0;
                 let mut parts = Vec::with_capacity(found.pieces.len());
                 for piece in &found.pieces {

@@ -61,7 +61,7 @@ impl File {
             let log = matches!(axis.spacing(), Spacing::Log { .. });
             json!({ "name": axis.name(), "values": axis.values(), "log": log })
         };
-        let known = family::by_name(&about.family);
+        let known = family::by_name(&about.family).ok();
         let label = |name: &str| {
             known.and_then(|f| f.about().flags.iter().find(|flag| flag.name == name)).map(|flag| flag.label)
         };
@@ -91,7 +91,7 @@ impl File {
         let Plane { x, y, at } = plane;
         let fits = x != y && *x < axes.len() && *y < axes.len() && at.len() == axes.len();
         if !fits || at.iter().enumerate().any(|(axis, i)| axis != *x && axis != *y && *i >= count(axis)) {
-            return Err(Error::Domain(format!("the file has no plane of the axes {x} and {y} at {at:?}")));
+            return Err(Error::invalid(format!("the file has no plane of the axes {x} and {y} at {at:?}")));
         }
         let mut at = at.clone();
         let (mut inside, mut outside) = (Vec::new(), Vec::new());

@@ -57,12 +57,12 @@ impl Slice {
     /// [`Error::Domain`] for an unknown family, ranges that are none, or angles outside the family's domain.
     pub fn new(wanted: Wanted) -> Result<Slice> {
         let Wanted { family, phi0, phi1, at, ranges, width, height } = wanted;
-        let family = family::by_name(&family).ok_or_else(|| Error::Domain(format!("no family is named `{family}`")))?;
+        let family = family::by_name(&family)?;
         let chart = family.about().charts.iter().position(|chart: &Chart| chart.axes == AXES);
         let chart =
-            chart.ok_or_else(|| Error::Domain(format!("`{}` has no axes kappa0 and kappa1", family.about().name)))?;
+            chart.ok_or_else(|| Error::invalid(format!("`{}` has no axes kappa0 and kappa1", family.about().name)))?;
         if ![width, height].iter().all(|n| (2..=MOST).contains(n)) {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the slice is {width} x {height} pixels; each side must be 2 to {MOST}"
             )));
         }

@@ -131,10 +131,7 @@ fn values<'py>(py: Python<'py>, all: &[(&'static str, Value)]) -> PyResult<Bound
 
 /// The family of a name.
 pub(crate) fn known(name: &str) -> PyResult<&'static dyn Family> {
-    family::by_name(name).ok_or_else(|| {
-        let names: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-        PyValueError::new_err(format!("`{name}` is no family; there are {}", names.join(", ")))
-    })
+    family::by_name(name).map_err(raise)
 }
 
 /// Chart and coordinates of a datum that was given by name.

@@ -29,13 +29,6 @@ fn asked(
     given.extend(free.iter().map(|name| ((*name).to_owned(), PyFloat::new(py, 0.0).into_any())));
     let (chart, point) = datum(family, &given)?;
     let axes = about.charts[chart].axes;
-    let flag = match (flag, about.yes) {
-        (Some(flag), _) => flag,
-        (None, [only]) => only,
-        (None, several) => {
-            return Err(PyValueError::new_err(format!("name a flag, such as {}", several.join(" or "))));
-        }
-    };
     let property = Property::new(about.name, axes, flag).map_err(raise)?;
     let places = free.iter().filter_map(|name| axes.iter().position(|axis| axis == name)).collect();
     Ok((property, point, places))

@@ -1,7 +1,7 @@
 //! What every family of `curve` reports alike: paths, reasons, other families, samples.
 
 use super::super::{Outcome, output};
-use super::{Family, Found, reach};
+use super::{Family, Reportable, reach};
 use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::Kind;
 use spiral_atlas::path::{Course, Summary};
@@ -12,7 +12,7 @@ use std::io::Write;
 
 /// An answer as JSON.
 #[derive(Debug, Serialize)]
-pub struct Report<'f, F: Found> {
+pub struct Report<'f, F: Reportable> {
     #[serde(flatten)]
     pub found: &'f F,
     /// The path that was asked for; none where there is none.
@@ -49,7 +49,7 @@ impl Path {
         if greatest_curvature.is_finite() && bending_energy.is_none_or(f64::is_finite) {
             return Ok(Path { summary, course });
         }
-        Err(Error::Domain(format!(
+        Err(Error::invalid(format!(
             "the curve leaves the range of doubles: its greatest curvature is {greatest_curvature:?}, its bending energy {} (change the unit \
              of length)",
             bending_energy.unwrap_or_default()
@@ -75,7 +75,7 @@ impl Wish {
     }
 }
 
-impl<'f, F: Found> Report<'f, F> {
+impl<'f, F: Reportable> Report<'f, F> {
     /// # Errors
     /// [`Error::Domain`] where a number leaves the range of doubles.
     pub fn new(found: &'f F, wish: Wish) -> Result<Report<'f, F>> {

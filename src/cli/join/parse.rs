@@ -11,14 +11,14 @@ use spiral_atlas::{Error, Result};
 pub const COLUMNS: [&str; 8] = ["x0", "y0", "direction0", "curvature0", "x1", "y1", "direction1", "curvature1"];
 
 /// The states of a row.
-pub fn states(cells: &[&str]) -> Result<[End; 2]> {
+pub fn states(cells: &[&str]) -> Result<[State; 2]> {
     let number = |i: usize| {
-        let wrong = || Error::Domain(format!("{}: {:?} is no number", COLUMNS[i], cells[i]));
+        let wrong = || Error::invalid(format!("{}: {:?} is no number", COLUMNS[i], cells[i]));
         cells[i].parse::<f64>().map_err(|_| wrong())
     };
-    let angle = |i: usize| parse_angle(cells[i]).map_err(|e| Error::Domain(format!("{}: {e}", COLUMNS[i])));
-    let state = |i: usize| -> Result<End> {
-        Ok(State { point: [number(i)?, number(i + 1)?], direction: angle(i + 2)?, curvature: number(i + 3)? }.into())
+    let angle = |i: usize| parse_angle(cells[i]).map_err(|e| e.at(COLUMNS[i]));
+    let state = |i: usize| -> Result<State> {
+        Ok(State { point: [number(i)?, number(i + 1)?], direction: angle(i + 2)?, curvature: number(i + 3)? })
     };
     Ok([state(0)?, state(4)?])
 }

@@ -82,7 +82,7 @@ fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &s
 /// Points of paths, their curvatures over the length, and points of other curves.
 pub fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Vec<u8>> {
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
-        return Err(Error::Domain("a path stands still somewhere, where it has no curvature".into()));
+        return Err(Error::invalid("a path stands still somewhere, where it has no curvature"));
     }
     let figure = PathsFigure {
         title: title.into(),

@@ -1,6 +1,6 @@
 //! `path hermite`.
 
-use super::{Files, Found, Outcome, Paths, figure};
+use super::{Files, Outcome, PathReport, Paths, figure};
 use spiral_atlas::Result;
 use spiral_atlas::curve::{Hermite, hermite};
 
@@ -20,6 +20,6 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Outcome> {
     let ends: Hermite = args.files.read()?;
     let choice = hermite(&ends).map_err(|e| args.files.blame(e))?;
-    let paths = vec![Found::chosen(&choice, choice.best, None)];
+    let paths = vec![PathReport::chosen(&choice, choice.best, None)];
     args.files.finish(&Paths { paths }, || figure::choice(&choice))
 }

@@ -26,11 +26,11 @@ pub fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> std::result::Result
 
 fn at_path<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     from: D,
-    told: impl Fn(&str, &D::Error) -> String,
+    blame: impl Fn(&str, &D::Error) -> String,
 ) -> std::result::Result<T, String> {
     let read: std::result::Result<Named<T>, _> = serde_path_to_error::deserialize(from);
     // A path ends with `?` where there is no key yet.
-    read.map(|named| named.0).map_err(|e| told(e.path().to_string().trim_end_matches(['.', '?']), e.inner()))
+    read.map(|named| named.0).map_err(|e| blame(e.path().to_string().trim_end_matches(['.', '?']), e.inner()))
 }
 
 /// Objects in a list: [`Named`], each.

@@ -1,7 +1,7 @@
 //! `path least-curvature`.
 
 use super::input::angle;
-use super::{Files, Found, Outcome, figure, found};
+use super::{Files, Outcome, PathReport, figure, found};
 use serde::{Deserialize, Serialize};
 use spiral_atlas::path::{Directions, Free, least_curvature};
 use spiral_atlas::{Error, Result};
@@ -41,7 +41,7 @@ struct Input {
 
 #[derive(Serialize)]
 struct Output {
-    paths: Vec<Found>,
+    paths: Vec<PathReport>,
     /// Below which no searched path's greatest curvature lies.
     at_least: f64,
     derivatives: [f64; 2],
@@ -58,7 +58,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         let what = format!(
             "`start` {start:?} and `end` {end:?} are not between 1e-150 and 1e150 apart; change the unit of length"
         );
-        return Err(args.files.blame(Error::Domain(what)));
+        return Err(args.files.blame(Error::invalid(what)));
     }
     let greatest_length = greatest_length.unwrap_or(2.0 * distance);
     let ends = Directions { start, end, start_direction, end_direction, greatest_length, free };
@@ -66,7 +66,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         Ok(found) => found,
         Err(none) => return Ok(none),
     };
-    let paths = vec![Found::new(&[found.curve])];
+    let paths = vec![PathReport::new(&[found.curve])];
     let title = format!("Greatest curvature {:.6}, length {:.6}", found.greatest_curvature, found.length);
     let output = Output { paths, at_least: found.at_least, derivatives: found.derivatives, searched: found.searched };
     args.files.finish(&output, || figure::curves(&[vec![found.curve]], &title))

@@ -67,10 +67,10 @@ fn measured(course: &Course, args: &Args) -> Result<Measured> {
 
 pub fn run(args: &Args) -> Result<Outcome> {
     if let Some(d) = args.offset.filter(|d| !d.is_finite()) {
-        return Err(Error::Domain(format!("--offset is {d:?}; it must be a finite number")));
+        return Err(Error::domain("--offset", d, "finite"));
     }
     let courses = args.files.courses()?;
-    let blame = |place: &str, e: Error| args.files.blame(Error::Domain(format!("{place}: {e}")));
+    let blame = |place: &str, e: Error| args.files.blame(e.at(place));
     let figure = || figure::measured(courses.iter().map(|(_, course)| course), args.offset);
     if let Some(count) = args.samples.filter(|_| args.csv) {
         let samples =

@@ -1,6 +1,6 @@
 //! `path plan`.
 
-use super::{Files, Found, Outcome, figure, found};
+use super::{Files, Outcome, PathReport, figure, found};
 use serde::Serialize;
 use spiral_atlas::Result;
 use spiral_atlas::path::{Clearance, Corner, Scene, plan};
@@ -25,7 +25,7 @@ pub struct Args {
 #[derive(Serialize)]
 struct Planned<'p> {
     #[serde(flatten)]
-    found: Found,
+    found: PathReport,
     length_saved: f64,
     curvature_at_most: f64,
     /// Null without obstacles.
@@ -46,7 +46,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         Err(none) => return Ok(none),
     };
     let planned = Planned {
-        found: Found::new(&plan.spans),
+        found: PathReport::new(&plan.spans),
         length_saved: plan.length_saved,
         curvature_at_most: plan.proof.curvature_at_most,
         clearance: plan.proof.clearance,

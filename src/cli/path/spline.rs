@@ -1,6 +1,6 @@
 //! `path spline`.
 
-use super::{Files, Found, Outcome, Paths, figure};
+use super::{Files, Outcome, PathReport, Paths, figure};
 use serde::Deserialize;
 use spiral_atlas::Result;
 use spiral_atlas::path::spline;
@@ -30,6 +30,6 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let found = spline(&input.points, input.closed).map_err(|e| args.files.blame(e))?;
     let kind = if input.closed { "Closed" } else { "Open" };
     let title = format!("{kind} spline through {} points", input.points.len());
-    let paths = vec![Found::new(&found.spans)];
+    let paths = vec![PathReport::new(&found.spans)];
     args.files.finish(&Paths { paths }, || figure::curves(&[found.spans], &title))
 }

@@ -1,4 +1,4 @@
-//! The arc of the involute with given Q and ω, in intervals.
+//! The arc of the involute with given Q and ω, in intervals (Kurnosenko, arXiv 2603.29596).
 //!
 //! The involute `z(t) = (1 + it) e^(-it)`, run from `t0 - θ` to `t0 + θ`, has `Q = (θ² - sin² θ)/(θ² - t0²)` (4) and
 //! half its chord is `X + iP = c e^(iω)` in a suitable frame, `X = t0 sin θ`, `P = sin θ - θ cos θ`; so θ is the root

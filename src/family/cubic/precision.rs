@@ -3,6 +3,15 @@
 use super::pair::{PAIR_ERROR, Pair};
 use super::poly::Bounds;
 
+/// Errors of F in the δ that is tried for a root: the value at the guess may take one half, and the proof needs one.
+pub const TRIED: f64 = 2.5;
+/// A root's δ stays below one over this of the root.
+pub const SMALL: f64 = 64.0;
+/// `|y - y*| <= a (2x + δ) δ + η`, and δ is below x/60: so many `a x δ`.
+pub const THROUGH_X: f64 = 2.1;
+/// Of `8 w B0 B2`: eight of what its factors' errors make, and a little for products of errors and for roundings.
+pub const THROUGH: f64 = 8.1;
+
 /// Constants of the error bounds; the f32 shader has its own set, derived the same way.
 #[derive(Debug, Clone, Copy)]
 pub struct Precision {

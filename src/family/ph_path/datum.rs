@@ -68,7 +68,7 @@ pub(super) fn check(kind: Kind, axis: usize, value: f64) -> Result<()> {
         }
         (_, Kind::Hermite) => ((LEAST..=MOST).contains(&value), "1e-6 to 1e6, in chords"),
     };
-    if fits { Ok(()) } else { Err(Error::Domain(format!("{name} is {value:?}; it must be {range}"))) }
+    if fits { Ok(()) } else { Err(Error::domain(name, value, range)) }
 }
 
 /// Numbers that have sines.

@@ -7,7 +7,7 @@
 //! - The scalar is the least of four greatest curvatures. A minimum needs no winner: overlapping enclosures are united.
 //!   The flags need one, which is proved by a single curvature that it stays below and each other exceeds; two that tie
 //!   for all precisions are told by symmetry (`curves.rs`, `truth.rs`).
-//! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`arc.rs`). v is just above the value at a peak
+//! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`curve/hodograph.rs`). v is just above the value at a peak
 //!   (scalars), between two solutions (winner), or the end's own curvature, whose zero is left out (PEAK_INSIDE).
 //!   Guesses are free: a missed peak is where the certificate fails, and the next start.
 //! - Both angles 0 make straight lines, decided by exact signs (`straight.rs`).
@@ -15,18 +15,15 @@
 //!   `path/least_curvature.rs`.
 
 mod answer;
-mod arc;
 mod bound;
 mod curves;
 mod datum;
-mod peak;
 mod range;
 mod shader;
 mod straight;
 mod table;
 mod truth;
 
-pub(crate) use arc::bends_less;
 pub(crate) use range::{Candidate, Search};
 
 use super::{About, Answer, Chart, Family, Flag, Scalar, Table};

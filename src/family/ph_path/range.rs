@@ -1,10 +1,10 @@
 //! Solutions at sizes and over ranges of sizes, for searches.
 
 use super::Kind;
-use super::arc::Arc;
 use super::bound::bound;
 use super::curves::{boxed, curves};
 use super::datum::Datum;
+use crate::curve::hodograph::Hodograph;
 use crate::num::{Ball, Quadratic};
 
 /// Solutions with end directions (to the chord) that are longer than the chord by no more than `beyond`, in chords.
@@ -45,7 +45,7 @@ impl Search {
             let middle = ((120.0 - 15.0 * (a * a + b * b) + 10.0 * a * b).sqrt() - 3.0 * (a + b)) / 4.0;
             return Some(Candidate { most: 0.0, beyond: 0.0, preimage: [[a, 0.0], [middle, 0.0], [b, 0.0]] });
         }
-        let found = |part: Arc<Ball>, whole: &Arc<Ball>| Candidate {
+        let found = |part: Hodograph<Ball>, whole: &Hodograph<Ball>| Candidate {
             most: part.guess().1,
             beyond: whole.beyond_chord().value,
             preimage: whole.w.map(|z| z.map(|x| x.value)),

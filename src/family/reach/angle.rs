@@ -2,7 +2,6 @@
 
 use super::Kind;
 use crate::error::{Error, Result};
-use crate::family::hermite::told_angle;
 use crate::num::sines::{cos, sin};
 use crate::num::{Interval, Real, Twin, formula};
 use std::cell::RefCell;
@@ -123,11 +122,8 @@ pub(super) fn check(kind: Kind, theta: f64) -> Result<()> {
     if theta > 0.0 && theta <= most {
         return Ok(());
     }
-    Err(Error::Domain(format!(
-        "theta is {}; for `{}` it must be above 0 and below {name} (radians; write `40deg` for degrees)",
-        told_angle(theta),
-        kind.name()
-    )))
+    let limit = format!("above 0 and below {name} for `{}`", kind.name());
+    Err(Error::angle("theta", theta, limit, "radians; write `40deg` for degrees"))
 }
 
 #[cfg(test)]

@@ -75,8 +75,8 @@ pub fn greatest_curvature(piece: &Piece) -> f64 {
 
 /// Numbers of the sign of the curvature's slope at both ends: `σh' - 2hσ'`.
 fn rise(curve: &PhQuintic) -> [f64; 2] {
-    let ([s0, s1, _, s3, s4], [h0, h1, h2]) = (curve.speed_coefficients(), curve.turn_coefficients());
-    [s0 * (h1 - h0) - 4.0 * h0 * (s1 - s0), s4 * (h2 - h1) - 4.0 * h2 * (s4 - s3)]
+    let [first, .., last] = curve.slopes();
+    [first, last]
 }
 
 /// Where the curvature is 0 at an end, within rounding, it has the sign of its slope there: none on a line.

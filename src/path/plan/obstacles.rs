@@ -1,6 +1,7 @@
 //! Polygons among which a path is planned: checked once, their sides in a tree.
 
-use super::{fail, minus};
+use super::fail;
+use crate::curve::vector::sub;
 use crate::error::Result;
 use robust::{Coord, orient2d};
 use rstar::{AABB, Envelope, PointDistance, RTree, RTreeObject, SelectionFunction};
@@ -234,13 +235,13 @@ fn holds(ring: &[Point], p: Point) -> bool {
 /// 16 units of 2^-53 of the largest distance among the three points: an error of the foot moves it along the segment by
 /// no more.
 pub fn to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (d, v, share) = (minus(b, a), minus(p, a), foot(p, [a, b]));
+    let (d, v, share) = (sub(b, a), sub(p, a), foot(p, [a, b]));
     (v[0] - share * d[0]).hypot(v[1] - share * d[1])
 }
 
 /// How far along a segment, as a share of it, its point nearest to p is: an error moves that along the segment.
 pub fn foot(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (d, v) = (minus(b, a), minus(p, a));
+    let (d, v) = (sub(b, a), sub(p, a));
     let square = d[0] * d[0] + d[1] * d[1];
     if square > 0.0 { ((d[0] * v[0] + d[1] * v[1]) / square).clamp(0.0, 1.0) } else { 0.0 }
 }
@@ -248,13 +249,13 @@ pub fn foot(p: Point, [a, b]: [Point; 2]) -> f64 {
 /// How far along the first line, as a share of the first segment, the second one crosses it, about; not finite for
 /// parallel ones.
 pub fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
-    let (p, q, r) = (minus(b, a), minus(d, c), minus(c, a));
+    let (p, q, r) = (sub(b, a), sub(d, c), sub(c, a));
     (r[0] * q[1] - r[1] * q[0]) / (p[0] * q[1] - p[1] * q[0])
 }
 
 /// The point at a share of a segment; its ends exactly.
 pub fn along([a, b]: [Point; 2], share: f64) -> Point {
-    let d = minus(b, a);
+    let d = sub(b, a);
     if share == 1.0 { b } else { [a[0] + share * d[0], a[1] + share * d[1]] }
 }
 

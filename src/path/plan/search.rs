@@ -1,10 +1,10 @@
 //! The shortest polyline among places that can be rounded: a search over legs, since whether a path can turn depends on
 //! two of them.
 
-use super::minus;
 use super::obstacles::{Obstacles, between};
 use super::places::Place;
 use super::proof::{Clearance, clearance};
+use crate::curve::vector::sub;
 use crate::path::{Turn, distance};
 use crate::queue::Queue;
 use std::collections::HashSet;
@@ -74,7 +74,7 @@ pub enum Why {
 
 /// How the search ended.
 #[derive(Debug)]
-pub enum Found {
+pub enum SearchResult {
     /// Places from start to goal, and the length of the polyline.
     Path(Vec<Place>, f64),
     /// There is none.
@@ -169,16 +169,16 @@ impl<'o> Search<'o> {
     /// before.
     ///
     /// Also tells how much work is left.
-    pub fn run(mut self) -> (Found, usize) {
+    pub fn run(mut self) -> (SearchResult, usize) {
         let found = self.find();
         (found, self.work)
     }
 
-    fn find(&mut self) -> Found {
+    fn find(&mut self) -> SearchResult {
         self.extend(None);
         while let Some((_, leg)) = self.waiting.pop() {
             if self.spent() {
-                return Found::GaveUp;
+                return SearchResult::GaveUp;
             }
             let Leg { places, index, turn, path, .. } = self.legs[leg];
             let takes = turn.map_or(0.0, |(_, reach)| reach);
@@ -187,12 +187,12 @@ impl<'o> Search<'o> {
             }
             self.taken[places[0]][index] = takes;
             if places[1] == GOAL {
-                return Found::Path(self.path(leg), path);
+                return SearchResult::Path(self.path(leg), path);
             }
             self.extend(Some(leg));
         }
         // What was seen last may not be all.
-        if self.spent() { Found::GaveUp } else { Found::None }
+        if self.spent() { SearchResult::GaveUp } else { SearchResult::None }
     }
 
     fn spent(&self) -> bool {
@@ -249,7 +249,7 @@ impl<'o> Search<'o> {
     fn turn(&self, leg: usize, next: &Seen) -> Option<(Turn, f64)> {
         let Leg { places: [from, at], length, side, turn: before, .. } = self.legs[leg];
         let [a, b, c] = [from, at, next.place].map(|i| self.places[i].at);
-        let (incoming, outgoing) = (minus(b, a), minus(c, b));
+        let (incoming, outgoing) = (sub(b, a), sub(c, b));
         let bend = incoming[0] * outgoing[1] - incoming[1] * outgoing[0];
         // In the open either side will do.
         let inward = if side == 0 { bend.abs() } else { bend * f64::from(side) };
@@ -327,12 +327,12 @@ mod tests {
         let looks = obstacles.looks() - before;
         // What was allowed, and all that one place sees beyond it.
         assert!(looks <= SIDES * work + count * 240, "{looks} {count}");
-        assert!(matches!(found, Found::GaveUp) && left == 0, "{found:?} {left}");
+        assert!(matches!(found, SearchResult::GaveUp) && left == 0, "{found:?} {left}");
         // So many sides, those of one more look, and those of one more corner curve.
         let (before, most) = (obstacles.looks(), 50_000);
         let (found, _) = among(&obstacles).looking_at(most).run();
         let looks = obstacles.looks() - before;
-        assert!(matches!(found, Found::GaveUp) && looks <= most + count * 240, "{found:?} {looks}");
+        assert!(matches!(found, SearchResult::GaveUp) && looks <= most + count * 240, "{found:?} {looks}");
     }
 
     #[test]

@@ -101,7 +101,7 @@ pub fn grid_of(case: &Case) -> Grid {
 /// The library's proved code of a case; `None` when it refuses the case.
 pub fn code_of(case: &Case) -> Option<Code> {
     let grid = grid_of(case);
-    let table = by_name("cubic")?.table(&grid).ok()?;
+    let table = by_name("cubic").ok()?.table(&grid).ok()?;
     table.exact(0).ok().map(|(code, _)| code)
 }
 

@@ -117,18 +117,17 @@ impl Spiral {
 pub fn involute(chord: &Datum, turns: [u32; 2]) -> Result<Spiral> {
     for (name, angle) in [("alpha", chord.alpha), ("beta", chord.beta)] {
         if angle.is_nan() || angle.abs() > PI {
-            return Err(Error::Domain(format!("{name} is {angle:?}; it must be -pi to pi (radians)")));
+            return Err(Error::angle(name, angle, "-pi to pi", "radians"));
         }
     }
     for (name, k) in [("k1", chord.k1), ("k2", chord.k2)] {
         if k.is_nan() || k.abs() > GREATEST {
-            return Err(Error::Domain(format!(
-                "{name} is {k:?}; it must be at most {GREATEST:?} in magnitude (times half the chord)"
-            )));
+            return Err(Error::domain(name, k, format!("at most {GREATEST:?} in magnitude (times half the chord)")));
         }
     }
     if let Some(n) = turns.iter().find(|n| **n > MOST_TURNS) {
-        return Err(Error::Domain(format!("{n} turns about an end are asked for; at most {MOST_TURNS} can be had")));
+        let limit = format!("at most {MOST_TURNS}");
+        return Err(Error::domain("the number of turns about an end", f64::from(*n), limit));
     }
     Ok(solve::solve(chord, turns)?.0)
 }

@@ -1,0 +1,49 @@
+//! What files of either kind say about themselves, in lines.
+
+use spiral_atlas::atlas::About;
+use spiral_atlas::grid::{Axis, Spacing};
+use std::fmt::Display;
+use std::path::Path;
+
+/// How an axis was asked for.
+pub fn spacing(axis: &Axis) -> &'static str {
+    match axis.spacing() {
+        Spacing::Linear { .. } => "linear",
+        Spacing::Log { .. } => "log",
+        Spacing::Values(_) => "values",
+    }
+}
+
+/// The lines that every file begins with.
+pub fn head(path: &Path, about: &About, id: &str) -> String {
+    let mut text = format!("{}\n", path.display());
+    for (key, value) in [
+        ("name", &about.name[..]),
+        ("id", id),
+        ("generator", &about.generator),
+        ("family", &about.family),
+        ("conventions", &about.conventions),
+    ] {
+        text += &format!("  {key:<12} {value}\n");
+    }
+    text
+}
+
+/// The flags by bit.
+pub fn flags(about: &About) -> String {
+    about.flags.iter().enumerate().map(|(bit, flag)| format!("  bit {bit} {:<14} {}\n", flag.name, flag.doc)).collect()
+}
+
+/// The lines that every file ends with.
+pub fn tail<'a>(about: &About, hashes: impl Iterator<Item = (&'a str, impl Display)>) -> String {
+    let mut text = "BLAKE3 of each tensor, checked\n".to_owned();
+    for (name, hash) in hashes {
+        text += &format!("  {name:<12} {hash}\n");
+    }
+    text += "recipe\n";
+    for line in about.recipe.lines() {
+        text += format!("  {line}").trim_end();
+        text += "\n";
+    }
+    text
+}
