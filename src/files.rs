@@ -32,7 +32,7 @@ impl Draft {
     /// # Errors
     /// Those of the system, and one for a target that exists but is no ordinary file: renaming would replace a device
     /// or a pipe.
-    pub fn beside(path: &Path) -> io::Result<Draft> {
+    pub(crate) fn beside(path: &Path) -> io::Result<Draft> {
         let target = place(path)?;
         let folder = folder(&target);
         if !folder.is_dir() {
@@ -61,7 +61,7 @@ impl Draft {
     }
 
     /// The file to write to.
-    pub fn file(&mut self) -> &mut File {
+    pub(crate) fn file(&mut self) -> &mut File {
         self.file.as_file_mut()
     }
 
@@ -69,7 +69,7 @@ impl Draft {
     ///
     /// # Errors
     /// Those of the system; what was in the place before is then untouched.
-    pub fn keep(self) -> io::Result<()> {
+    pub(crate) fn keep(self) -> io::Result<()> {
         self.file.as_file().sync_all()?;
         self.file.persist(&self.target).map_err(|e| e.error)?;
         // Makes the new name durable; only Unix lets a folder be opened for that.

@@ -112,7 +112,7 @@ impl NamedAxis {
     }
 
     /// The axis with these values, if its spacing gives just them.
-    pub fn build(&self, values: Vec<f64>) -> Result<Axis, String> {
+    pub(super) fn build(&self, values: Vec<f64>) -> Result<Axis, String> {
         let (Some(&lo), Some(&hi), count) = (values.first(), values.last(), values.len()) else {
             return Err(format!("the axis `{}` is empty", self.name));
         };

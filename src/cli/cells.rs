@@ -16,13 +16,13 @@ use std::time::Instant;
 const ROUNDS: u64 = 5_000;
 
 /// A file of either kind.
-pub enum Opened {
+pub(super) enum Opened {
     Nodes(Box<Atlas>),
     Cells(Box<Cells>),
 }
 
 impl Opened {
-    pub fn open(path: impl AsRef<Path>) -> Result<Opened> {
+    pub(super) fn open(path: impl AsRef<Path>) -> Result<Opened> {
         let path = path.as_ref();
         Ok(match atlas::kind(path)? {
             Kind::Nodes => Opened::Nodes(Box::new(Atlas::open(path)?)),
@@ -31,7 +31,7 @@ impl Opened {
     }
 
     /// The same, and the hashes of all that the file holds are compared with those that it states.
-    pub fn checked(path: impl AsRef<Path>) -> Result<Opened> {
+    pub(super) fn checked(path: impl AsRef<Path>) -> Result<Opened> {
         let opened = Opened::open(path)?;
         match &opened {
             Opened::Nodes(atlas) => atlas.check_hashes()?,
@@ -43,7 +43,7 @@ impl Opened {
 
 /// What was made of one atlas of cells.
 #[derive(serde::Serialize)]
-pub struct Made {
+pub(super) struct Made {
     atlas: String,
     id: String,
     kind: &'static str,
@@ -55,7 +55,7 @@ pub struct Made {
 }
 
 /// What a plan of cells specifies, with the budget that it has.
-pub fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> Spec<'a> {
+pub(super) fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> Spec<'a> {
     Spec { name: &plan.name, family: plan.family, grid: &plan.grid, budget, recipe: &recipe.text }
 }
 
@@ -69,13 +69,19 @@ fn build(spec: &Spec, threads: usize, stop: &AtomicBool) -> Result<Built> {
 }
 
 /// Makes the cells of a plan for pictures alone.
-pub fn in_memory(recipe: &Recipe, plan: &AtlasPlan, budget: u64, threads: usize, stop: &AtomicBool) -> Result<Cells> {
+pub(super) fn in_memory(
+    recipe: &Recipe,
+    plan: &AtlasPlan,
+    budget: u64,
+    threads: usize,
+    stop: &AtomicBool,
+) -> Result<Cells> {
     let spec = spec(recipe, plan, budget);
     Cells::from_bytes(&cells::bytes(&spec, &build(&spec, threads, stop)?)?)
 }
 
 /// Makes the file of a plan, its report and its pictures.
-pub fn make(
+pub(super) fn make(
     recipe: &Recipe,
     plan: &AtlasPlan,
     budget: u64,
@@ -107,7 +113,7 @@ pub fn make(
 }
 
 impl Made {
-    pub fn summary(&self) -> String {
+    pub(super) fn summary(&self) -> String {
         let Made { atlas, resolution, threads, seconds, .. } = self;
         let text = format!(
             "{atlas}: cells, up to {resolution} an axis\n  by the CPU in {seconds:.2} s, with {threads} threads\n"
@@ -117,7 +123,7 @@ impl Made {
 }
 
 /// Draws pictures of cells into a folder.
-pub fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
+pub(super) fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
     let files = picture::files(folder, &cells.about().name, plans.len());
     let draw = |(plan, file): (&PicturePlan, PathBuf)| {
         write_file(&file, &picture::cells::draw(cells, plan)?)?;
@@ -141,7 +147,7 @@ struct Verified<'a> {
 }
 
 /// Makes the cells anew and compares every word; asks the family itself about points.
-pub fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
+pub(super) fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
     let started = Instant::now();
     let stop = super::stop_flag()?;
     let mut faults: Vec<String> = cells.check_hashes().err().map(|e| e.to_string()).into_iter().collect();
@@ -213,7 +219,7 @@ impl Verified<'_> {
 }
 
 /// What a file of cells says about itself.
-pub fn info(cells: &Cells, json: bool) -> Result<()> {
+pub(super) fn info(cells: &Cells, json: bool) -> Result<()> {
     let about = cells.about();
     let id = cells.id()?.to_hex().to_string();
     let axes = cells.grid().axes();
@@ -245,7 +251,7 @@ pub fn info(cells: &Cells, json: bool) -> Result<()> {
 
 /// What the cell of a datum says of each flag; `None` outside the box, or for a datum in other coordinates than those
 /// of the file.
-pub fn look_up(cells: &Cells, chart: usize, point: &[f64]) -> Option<Object<&'static str, &'static str>> {
+pub(super) fn look_up(cells: &Cells, chart: usize, point: &[f64]) -> Option<Object<&'static str, &'static str>> {
     let Known { inside, outside } = if chart == cells.chart() { cells.lookup(point)? } else { return None };
     let word = |bit: usize| match (inside >> bit & 1, outside >> bit & 1) {
         (1, _) => "INSIDE",

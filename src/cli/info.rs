@@ -16,7 +16,7 @@ use std::path::PathBuf;
 /// `verify` tells.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas info out/quickstart.atlas.safetensors")]
-pub struct Args {
+pub(super) struct Args {
     /// The atlas.
     atlas: PathBuf,
     /// Print JSON.
@@ -25,7 +25,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let atlas = match Opened::checked(&args.atlas)? {
         Opened::Nodes(atlas) => atlas,
         Opened::Cells(found) => return cells::info(&found, args.json).map(|()| Outcome::Fine),

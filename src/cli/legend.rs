@@ -6,7 +6,7 @@ use std::fmt::Display;
 use std::path::Path;
 
 /// How an axis was asked for.
-pub fn spacing(axis: &Axis) -> &'static str {
+pub(super) fn spacing(axis: &Axis) -> &'static str {
     match axis.spacing() {
         Spacing::Linear { .. } => "linear",
         Spacing::Log { .. } => "log",
@@ -15,7 +15,7 @@ pub fn spacing(axis: &Axis) -> &'static str {
 }
 
 /// The lines that every file begins with.
-pub fn head(path: &Path, about: &About, id: &str) -> String {
+pub(super) fn head(path: &Path, about: &About, id: &str) -> String {
     let mut text = format!("{}\n", path.display());
     for (key, value) in [
         ("name", &about.name[..]),
@@ -30,12 +30,12 @@ pub fn head(path: &Path, about: &About, id: &str) -> String {
 }
 
 /// The flags by bit.
-pub fn flags(about: &About) -> String {
+pub(super) fn flags(about: &About) -> String {
     about.flags.iter().enumerate().map(|(bit, flag)| format!("  bit {bit} {:<14} {}\n", flag.name, flag.doc)).collect()
 }
 
 /// The lines that every file ends with.
-pub fn tail<'a>(about: &About, hashes: impl Iterator<Item = (&'a str, impl Display)>) -> String {
+pub(super) fn tail<'a>(about: &About, hashes: impl Iterator<Item = (&'a str, impl Display)>) -> String {
     let mut text = "BLAKE3 of each tensor, checked\n".to_owned();
     for (name, hash) in hashes {
         text += &format!("  {name:<12} {hash}\n");

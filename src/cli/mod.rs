@@ -84,7 +84,7 @@ enum Outcome {
 }
 
 /// Runs the program with the process's arguments.
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     #[cfg(feature = "gpu")]
     tell_errors_without_panics();
     let done = match parse().command {

@@ -17,7 +17,7 @@ const MAX_LINE: usize = 1 << 16;
 const MAX_SKIPPED: usize = 1 << 26;
 
 /// A row of data.
-pub struct Row<'l> {
+pub(super) struct Row<'l> {
     /// Index of the first set of columns that the header has.
     pub chart: usize,
     /// Its number among the rows of data, from 1.
@@ -29,7 +29,7 @@ pub struct Row<'l> {
 impl Row<'_> {
     /// The rows of a table of samples, which begin with the number of this row; without samples the reason goes to
     /// standard error.
-    pub fn table(&self, samples: &[Station], reason: Option<&str>) -> Result<Vec<u8>> {
+    pub(super) fn table(&self, samples: &[Station], reason: Option<&str>) -> Result<Vec<u8>> {
         if let Some(reason) = reason {
             output::note(&format!("row {}: {reason}", self.number));
         }
@@ -46,7 +46,7 @@ fn table_header() -> String {
 
 /// Answers for every row of a file, or of standard input for `-`, with what `answer` gives: a line of JSON, or for a
 /// `table` whole rows.
-pub fn run(
+pub(super) fn run(
     path: &Path,
     charts: &[&'static [&'static str]],
     table: bool,

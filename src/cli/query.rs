@@ -33,7 +33,7 @@ use std::path::PathBuf;
                         spiral-atlas query --points data.csv > answers.jsonl\n  \
                         spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --ranges kappa1 --within 0,100\n  \
                         spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 3 --kappa1 4 --nearest --weights inf,inf,1,1")]
-pub struct Args {
+pub(super) struct Args {
     /// The family; that of the atlas, or `cubic`, unless given.
     #[arg(long, value_name = "NAME", value_parser = by_name)]
     family: Option<&'static dyn Family>,
@@ -55,7 +55,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let atlas = args.atlas.as_ref().map(Opened::checked).transpose()?;
     let of = |atlas: &Opened| match atlas {
         Opened::Nodes(atlas) => atlas.about().family(),
@@ -92,7 +92,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 
 /// All that is known of a datum, as it is printed in JSON.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(super) struct Answer {
     /// Whether what the family looks for exists.
     #[serde(skip)]
     holds: bool,
@@ -138,7 +138,7 @@ impl Answer {
     ///
     /// # Errors
     /// Those of [`Family::answer`].
-    pub fn new(family: &dyn Family, datum: Datum, atlas: Option<&Opened>) -> Result<Answer> {
+    pub(super) fn new(family: &dyn Family, datum: Datum, atlas: Option<&Opened>) -> Result<Answer> {
         let solved = family.answer(datum.chart, &datum.point)?;
         let axes = family.about().charts[datum.chart].axes;
         let flag = |(bit, flag): (usize, &family::Flag)| (flag.name, solved.code.flags() >> bit & 1 == 1);

@@ -11,7 +11,7 @@ use spiral_atlas::{Error, Result};
 /// What to find instead of the answer for the datum.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Questions beyond yes and no")]
-pub struct QuestionArgs {
+pub(super) struct QuestionArgs {
     /// All intervals of this coordinate in which the property holds, the others being given.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["nearest", "boundary"])]
     ranges: Option<String>,
@@ -37,12 +37,12 @@ pub struct QuestionArgs {
 
 impl QuestionArgs {
     /// Whether anything is asked.
-    pub fn any(&self) -> bool {
+    pub(super) fn any(&self) -> bool {
         self.ranges.is_some() || self.nearest || self.boundary.is_some()
     }
 
     /// The answer, printed.
-    pub fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
+    pub(super) fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
         let free: Vec<&str> = self.ranges.iter().chain(self.boundary.iter().flatten()).map(|name| &name[..]).collect();
         let (axes, point) = coordinates.but(family, &free).unwrap_or_else(|what| super::refuse(&what));
         let property = Property::new(family.about().name, axes, self.property.as_deref())?;

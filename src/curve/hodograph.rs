@@ -75,25 +75,25 @@ pub(crate) fn size<N: Real>(x: &N) -> Option<N> {
 
 impl<N: Number> Hodograph<N> {
     /// A whole curve.
-    pub fn new(w: [Complex<N>; 3]) -> Hodograph<N> {
+    pub(crate) fn new(w: [Complex<N>; 3]) -> Hodograph<N> {
         let [w0, w1, w2] = &w;
         let turn = [im(w0, w1).times(4.0), im(w0, w2).times(2.0), im(w1, w2).times(4.0)];
         Hodograph { w, turn }
     }
 
     /// σ as Bernstein coefficients times binomials.
-    pub fn speed(&self) -> [N; 5] {
+    pub(crate) fn speed(&self) -> [N; 5] {
         let [w0, w1, w2] = &self.w;
         let middle = formula!(2.0 * (2.0 * re(w1, w1) + re(w0, w2)));
         [re(w0, w0), re(w0, w1).times(4.0), middle, re(w1, w2).times(4.0), re(w2, w2)]
     }
 
     /// Bernstein coefficients of `σh' - 2hσ'`, times 10.
-    pub fn slopes(&self) -> [N; 6] {
+    pub(crate) fn slopes(&self) -> [N; 6] {
         extrema::slopes(&self.speed(), &self.turn, 2.0)
     }
 
-    pub fn halves(&self) -> [Hodograph<N>; 2] {
+    pub(crate) fn halves(&self) -> [Hodograph<N>; 2] {
         let [w0, w1, w2] = &self.w;
         let (left, right) = (mean(w0, w1), mean(w1, w2));
         let middle = mean(&left, &right);
@@ -105,7 +105,7 @@ impl<N: Number> Hodograph<N> {
     }
 
     /// The same the other way.
-    pub fn reversed(self) -> Hodograph<N> {
+    pub(crate) fn reversed(self) -> Hodograph<N> {
         let ([w0, w1, w2], [h0, h1, h2]) = (self.w, self.turn);
         // Its sign does not matter.
         Hodograph { w: [w2, w1, w0], turn: [h2, h1, h0] }
@@ -128,7 +128,7 @@ impl<N: Number> Hodograph<N> {
     }
 
     /// `σh' - 2hσ'` at t.
-    pub fn slope(&self, t: &N) -> N {
+    pub(crate) fn slope(&self, t: &N) -> N {
         let [[speed, rise, _], [turn, bent, _]] = self.jets(t);
         formula!(speed * bent - 2.0 * (turn * rise))
     }
@@ -148,7 +148,7 @@ impl<N: Real> Hodograph<N> {
     }
 
     /// |κ| at t; `None` where it may be 0 or infinite.
-    pub fn curvature(&self, t: &N) -> Option<N> {
+    pub(crate) fn curvature(&self, t: &N) -> Option<N> {
         let [[speed, ..], [turn, ..]] = self.jets(t);
         size(&turn.over(&speed.mul(&speed))?)
     }
@@ -177,7 +177,7 @@ impl<N: Real> Hodograph<N> {
     /// orders of their difference are exactly 0 there.
     ///
     /// Doubles are tried first, whatever the precision: for most curvatures they suffice.
-    pub fn below(&self, v: &N, touching: usize) -> Bound {
+    pub(crate) fn below(&self, v: &N, touching: usize) -> Bound {
         let by_doubles =
             if self.bits() > 53 { self.rough().halved_below(&Ball::enclosing(v), touching) } else { Bound::Open };
         match by_doubles {
@@ -187,7 +187,7 @@ impl<N: Real> Hodograph<N> {
     }
 
     /// The same in doubles.
-    pub fn rough(&self) -> Hodograph<Ball> {
+    pub(crate) fn rough(&self) -> Hodograph<Ball> {
         Hodograph {
             w: [0, 1, 2].map(|i| [0, 1].map(|k| Ball::enclosing(&self.w[i][k]))),
             turn: [0, 1, 2].map(|i| Ball::enclosing(&self.turn[i])),
@@ -242,7 +242,7 @@ impl<N: Real> Hodograph<N> {
     }
 
     /// In doubles, for guesses.
-    pub fn plain(&self) -> Hodograph<f64> {
+    pub(crate) fn plain(&self) -> Hodograph<f64> {
         Hodograph {
             w: [0, 1, 2].map(|i| [0, 1].map(|k| self.w[i][k].approx())),
             turn: [0, 1, 2].map(|i| self.turn[i].approx()),
@@ -250,7 +250,7 @@ impl<N: Real> Hodograph<N> {
     }
 
     /// Where the curvature is greatest, and how great: a guess.
-    pub fn guess(&self) -> (f64, f64) {
+    pub(crate) fn guess(&self) -> (f64, f64) {
         let plain = self.plain();
         let inside =
             (1..16).map(|i| f64::from(i) / 16.0).chain(plain.slow().into_iter().filter(|t| *t > 0.0 && *t < 1.0));
@@ -259,7 +259,7 @@ impl<N: Real> Hodograph<N> {
     }
 
     /// `2 ∫ v²` with `w = u + iv`: by how much the curve is longer than its chord, where that is along the first axis.
-    pub fn beyond_chord(&self) -> N {
+    pub(crate) fn beyond_chord(&self) -> N {
         let [a, b, c] = [0, 1, 2].map(|i| &self.w[i][1]);
         let inner = formula!(2.0 * (b * b) + a * c);
         let outer = formula!(a * a + a * b + b * c + c * c);
@@ -268,14 +268,14 @@ impl<N: Real> Hodograph<N> {
     }
 
     /// From t up to the next peak, and how great that is: a guess.
-    pub fn climbed(&self, t: f64) -> (f64, f64) {
+    pub(crate) fn climbed(&self, t: f64) -> (f64, f64) {
         self.plain().climbed(t)
     }
 
     /// The greatest |κ|; `None` where the precision does not suffice.
     ///
     /// `margin` is how much more than the value at the peak is proved, relative.
-    pub fn greatest(&self, guess: f64, margin: &N) -> Option<N> {
+    pub(crate) fn greatest(&self, guess: f64, margin: &N) -> Option<N> {
         let peak = self.polished(guess);
         if let Some(value) = self.only_peak(&peak, margin) {
             return Some(value);
@@ -314,13 +314,13 @@ fn better(best: (f64, f64), next: (f64, f64)) -> (f64, f64) {
 
 impl Hodograph<f64> {
     /// Bernstein coefficients of σ.
-    pub fn speed_coefficients(&self) -> [f64; 5] {
+    pub(crate) fn speed_coefficients(&self) -> [f64; 5] {
         let [s0, s1, s2, s3, s4] = self.speed();
         [s0, s1 / 4.0, s2 / 6.0, s3 / 4.0, s4]
     }
 
     /// The real parts of the roots of w: near them the curve is slow, and bends most.
-    pub fn slow(&self) -> [f64; 2] {
+    pub(crate) fn slow(&self) -> [f64; 2] {
         let [c, w1, w2] = complex(&self.w);
         let (a, b) = (w2 - 2.0 * w1 + c, w1 - c);
         let root = (b * b - a * c).sqrt();
@@ -328,14 +328,14 @@ impl Hodograph<f64> {
     }
 
     /// |κ|; infinite where the curve stands still.
-    pub fn bend(&self, t: f64) -> f64 {
+    pub(crate) fn bend(&self, t: f64) -> f64 {
         let [[speed, ..], [turn, ..]] = self.jets(&t);
         let size = turn.abs() / speed.powi(2);
         if size.is_nan() { f64::INFINITY } else { size }
     }
 
     /// From t up to a local maximum of |κ|: Newton's method, as long as it climbs.
-    pub fn climbed(&self, from: f64) -> (f64, f64) {
+    pub(crate) fn climbed(&self, from: f64) -> (f64, f64) {
         let (mut t, mut best) = (from, self.bend(from));
         let mut reach = 1.0 / 32.0;
         for _ in 0..40 {

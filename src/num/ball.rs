@@ -14,7 +14,7 @@ const TINY: f64 = f64::MIN_POSITIVE;
 
 /// All numbers within `error` of `value`. Overflow makes it hold all numbers: no comparison is certain then.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ball {
+pub(crate) struct Ball {
     /// The middle.
     pub value: f64,
     /// The radius, at least 0.
@@ -24,7 +24,7 @@ pub struct Ball {
 impl Ball {
     /// The same number of another arithmetic, as well as doubles can hold it.
     #[inline(always)]
-    pub fn enclosing<N: Real>(x: &N) -> Ball {
+    pub(crate) fn enclosing<N: Real>(x: &N) -> Ball {
         let value = x.approx();
         if !value.is_finite() {
             // Beyond the range of doubles every number is possible.
@@ -36,7 +36,7 @@ impl Ball {
     }
 
     /// A number known to `units` of 2^-53, relative.
-    pub fn near(value: f64, units: f64) -> Ball {
+    pub(crate) fn near(value: f64, units: f64) -> Ball {
         Ball { value, error: value.abs() * (units * UNIT * GROW) + TINY }
     }
 

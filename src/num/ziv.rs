@@ -13,7 +13,7 @@ const MOST_BITS: usize = 16384;
 ///
 /// # Errors
 /// [`Error::Undecided`] at 16384 bits, with the datum and what was to be decided.
-pub fn climb<T>(datum: &impl Debug, what: &str, attempt: impl Fn(usize) -> Option<T>) -> Result<(T, usize)> {
+pub(crate) fn climb<T>(datum: &impl Debug, what: &str, attempt: impl Fn(usize) -> Option<T>) -> Result<(T, usize)> {
     let mut bits = FIRST_BITS;
     while bits <= MOST_BITS {
         if let Some(found) = attempt(bits) {

@@ -23,7 +23,7 @@ pub(super) struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// # Errors
     /// [`Error::Domain`] for a family that this program does not have.
-    pub fn of(atlas: &'a dyn Source) -> Result<Subject<'a>> {
+    pub(super) fn of(atlas: &'a dyn Source) -> Result<Subject<'a>> {
         Ok(Subject {
             name: &atlas.about().name,
             family: atlas.about().family()?,

@@ -147,11 +147,11 @@ pub(super) struct Panel<'a> {
 
 impl Panel<'_> {
     /// One whose axes alone are checked, to lay it out.
-    pub fn of_axes(slice: &Slice) -> Result<Panel<'_>> {
+    pub(super) fn of_axes(slice: &Slice) -> Result<Panel<'_>> {
         Ok(Panel { slice, x: Cells::new(&slice.x)?, y: Cells::new(&slice.y)? })
     }
 
-    pub fn new(slice: &Slice) -> Result<Panel<'_>> {
+    pub(super) fn new(slice: &Slice) -> Result<Panel<'_>> {
         let panel = Panel::of_axes(slice)?;
         let (columns, rows) = (slice.x.values.len(), slice.y.values.len());
         for region in slice.regions.iter().chain(&slice.outlines) {
@@ -174,7 +174,7 @@ impl Panel<'_> {
     }
 
     /// Draws all but axes; labels of marks only where asked.
-    pub fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect, mark_labels: bool) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect, mark_labels: bool) {
         let pixels = Pixels::new(self, rect);
         self.draw_regions(canvas, style, &pixels);
         // Lines around the whole plot would hide each other: each runs inside the one before.

@@ -124,7 +124,7 @@ pub(super) struct Cell {
 impl Cell {
     /// Where to divide a side: at 0 between opposite signs, at the geometric mean where the ends differ by more than a
     /// factor of 4, else at the arithmetic mean. None where no double lies between the ends.
-    pub fn middle(&self, side: usize) -> Option<f64> {
+    pub(super) fn middle(&self, side: usize) -> Option<f64> {
         let (low, high) = (self.low[side], self.high[side]);
         let middle = if low < 0.0 && high > 0.0 {
             0.0
@@ -144,7 +144,7 @@ impl Cell {
     }
 
     /// The two parts of the box, divided at `at` along this side.
-    pub fn parts(&self, side: usize, at: f64) -> [Cell; 2] {
+    pub(super) fn parts(&self, side: usize, at: f64) -> [Cell; 2] {
         let (mut first, mut second) = (*self, *self);
         (first.high[side], second.low[side]) = (at, at);
         [first, second]

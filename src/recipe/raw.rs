@@ -15,12 +15,12 @@ pub(super) struct Fault {
 }
 
 impl Fault {
-    pub fn new(at: Range<usize>, what: impl ToString) -> Fault {
+    pub(super) fn new(at: Range<usize>, what: impl ToString) -> Fault {
         Fault { at, what: what.to_string() }
     }
 
     /// An error of the recipe, with line and column.
-    pub fn within(self, text: &str) -> Error {
+    pub(super) fn within(self, text: &str) -> Error {
         let before = text.get(..self.at.start).unwrap_or(text);
         let (line, column) = plain::place(before);
         Error::Recipe(format!("line {line}, column {column}: {}", self.what))
@@ -92,7 +92,7 @@ pub(super) enum Pixels {
 }
 
 impl Pixels {
-    pub fn count(self) -> u32 {
+    pub(super) fn count(self) -> u32 {
         let Pixels::Whole(count) = self;
         count
     }
@@ -116,7 +116,7 @@ pub(super) enum Numbers {
 
 impl Number {
     /// Its value on an axis. Texts are angles, and only axes of angles take them.
-    pub fn on(&self, axis: &str) -> Result<f64, String> {
+    pub(super) fn on(&self, axis: &str) -> Result<f64, String> {
         match self {
             Number::Plain(value) => Ok(*value),
             Number::Text(text) if is_angle(axis) => parse_angle(text).map_err(|e| format!("`{axis}`: {e}")),

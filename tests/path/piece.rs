@@ -5,7 +5,7 @@ use spiral_atlas::curve::{CubicBezier, PhQuintic, TrigBezier};
 use spiral_atlas::transition::{Arc, Cubic, Ends, InvoluteBetween, Line, Piece, TrigPart};
 
 /// One of each kind, all of them far from the origin in units of their size.
-pub fn all() -> Vec<Piece> {
+pub(crate) fn all() -> Vec<Piece> {
     let start = [300.1, -200.3];
     let points = CubicBezier { p: [start, [300.4, -200.25], [300.8, -200.0], [301.0, -199.3]] };
     let legs =

@@ -54,7 +54,7 @@ fn published_closest_approaches() {
 }
 
 /// Where a curve is after a length, by a fine polygon.
-pub struct Polygon(Vec<(f64, [f64; 2])>);
+pub(crate) struct Polygon(Vec<(f64, [f64; 2])>);
 
 /// Points of a part of a path in between, both ends included.
 const FINE: i32 = 4000;
@@ -67,7 +67,7 @@ impl Polygon {
         )
     }
 
-    pub fn through(points: impl IntoIterator<Item = [f64; 2]>) -> Polygon {
+    pub(crate) fn through(points: impl IntoIterator<Item = [f64; 2]>) -> Polygon {
         let (mut all, mut length) = (vec![], 0.0);
         for p in points {
             let last = all.last().map_or(p, |(_, p): &(f64, [f64; 2])| *p);
@@ -86,7 +86,7 @@ impl Polygon {
 }
 
 /// The closest approach, which samples confirm; one starts at time 0.
-pub fn sampled([a, b]: [&Motion; 2], [p, q]: [&Polygon; 2], [v1, v2, t2]: [f64; 3]) -> Closest {
+pub(crate) fn sampled([a, b]: [&Motion; 2], [p, q]: [&Polygon; 2], [v1, v2, t2]: [f64; 3]) -> Closest {
     // Before its start and after its arrival a polygon stays at its ends.
     let events = [a.times(), b.times()].concat();
     let (from, to) = (events[0].min(events[2]), events[1].max(events[3]));

@@ -9,7 +9,7 @@ use spiral_atlas::{Error, Result};
 
 /// What is known of two ends, and the curve in the user's units.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(super) struct Answer {
     ends: Ends,
     #[serde(flatten)]
     spiral: Spiral,
@@ -27,7 +27,7 @@ struct Drawn {
     curvature: f64,
 }
 
-pub fn find(ends: &Ends, turns: [u32; 2]) -> Result<Answer> {
+pub(super) fn find(ends: &Ends, turns: [u32; 2]) -> Result<Answer> {
     let (spiral, frame) = involute_between(ends, turns)?;
     let mut answer = Answer { ends: *ends, spiral, length: None, frame };
     answer.length = answer.spiral.curve().map(|curve| curve.length() * frame.unit());

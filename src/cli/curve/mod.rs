@@ -53,7 +53,7 @@ const SAMPLES: usize = 801;
                         spiral-atlas curve --family trig-quintic --template line-circle --from 10,5 --start-direction 30deg \\\n      \
                         --turn left --radius 20 --angle 42deg --m 1"
 )]
-pub struct Args {
+pub(super) struct Args {
     // First, since each field takes its own from what was given.
     #[command(flatten)]
     given: options::Given,
@@ -179,7 +179,7 @@ trait Reportable: Serialize {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     output::check_figure(args.figure.as_deref())?;
     if let Some(path) = &args.points {
         if !matches!(args.family, Family::Cubic | Family::PhQuintic | Family::Involute) {

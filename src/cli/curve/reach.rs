@@ -5,14 +5,14 @@ use super::{Reportable, circle, drawn};
 use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::{Kind, Level};
 use spiral_atlas::plot::CurveFigure;
-pub use spiral_atlas::transition::segment::Request;
+pub(super) use spiral_atlas::transition::segment::Request;
 use spiral_atlas::transition::segment::{Added, Base, add_segment};
 use spiral_atlas::transition::{Piece, Turn};
 use spiral_atlas::{Error, Result};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(super) struct Answer {
     #[serde(skip)]
     kind: Kind,
     request: Request,
@@ -38,12 +38,12 @@ fn segment_or_none<S: Serializer>(
     .serialize(to)
 }
 
-pub fn find(kind: Kind, request: &Request) -> Result<Answer> {
+pub(super) fn find(kind: Kind, request: &Request) -> Result<Answer> {
     Ok(Answer { kind, request: *request, outcome: add_segment(kind, request)? })
 }
 
 /// What to type for a segment that ends at a point.
-pub fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
+pub(super) fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
     let Request { base, start, direction, turn, radius, theta, .. } = request;
     let base = if *base == Base::Line { "line" } else { "circle" };
     format!(

@@ -9,7 +9,7 @@ use spiral_atlas::transition::{Ends, ph_spiral, spiral};
 use std::path::Path;
 
 /// Answers for every row of a file, or of standard input for `-`.
-pub fn run(args: &Args, path: &Path) -> Result<Outcome> {
+pub(super) fn run(args: &Args, path: &Path) -> Result<Outcome> {
     let wish = args.wish();
     points::run(path, &[&COLUMNS], args.csv, |row| {
         let ends = ends(row.cells)?;

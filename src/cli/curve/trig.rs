@@ -5,13 +5,13 @@ use serde::{Serialize, Serializer};
 use spiral_atlas::Result;
 use spiral_atlas::curve::Jet;
 use spiral_atlas::plot::{self, CurveFigure, Graph};
-pub use spiral_atlas::transition::templates::Request;
+pub(super) use spiral_atlas::transition::templates::Request;
 use spiral_atlas::transition::templates::{NoSpirals, Path, Template, path};
 use spiral_atlas::transition::{EndCircle, Piece, Sample, TrigPart};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(super) struct Answer {
     request: Request,
     #[serde(serialize_with = "spirals_or_not")]
     outcome: std::result::Result<Path, NoSpirals>,
@@ -27,7 +27,7 @@ fn spirals_or_not<S: Serializer>(
     }
 }
 
-pub fn find(request: &Request) -> Result<Answer> {
+pub(super) fn find(request: &Request) -> Result<Answer> {
     Ok(Answer { request: *request, outcome: path(request)? })
 }
 

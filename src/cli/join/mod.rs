@@ -1,6 +1,6 @@
 //! `join`: paths of spirals, arcs and lines between two states, or two lines and circles.
 
-pub mod parse;
+pub(super) mod parse;
 mod request;
 
 use super::path::figure::{SAMPLES, drawn};
@@ -36,7 +36,7 @@ use std::path::PathBuf;
                         spiral-atlas join --points states.csv --greatest-curvature 1 > joins.jsonl\n  \
                         spiral-atlas join request.toml"
 )]
-pub struct Args {
+pub(super) struct Args {
     /// All of the options below but those of output in one file: JSON, TOML if named .toml, `-` for JSON from standard
     /// input.
     #[arg(value_name = "FILE", conflicts_with_all = ["start", "goal", "points", "greatest_curvature", "family", "objective", "longest", "most_pieces"])]
@@ -122,7 +122,7 @@ struct NoJoin<'a> {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     output::check_figure(args.figure.as_deref())?;
     if let Some(path) = &args.points {
         // A limit or a length that is none spoils every row alike: it is reported once.

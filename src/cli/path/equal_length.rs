@@ -15,7 +15,7 @@ use spiral_atlas::{Error, Result};
 /// its two.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png")]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
     /// Take the better of the paper's two solutions, not the best of four.
@@ -42,7 +42,7 @@ struct Ends {
     end_direction: f64,
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let input: Input = args.files.read()?;
     if input.paths.is_empty() {
         return Err(args.files.blame(Error::invalid("`paths` is empty; give the ends of one at least")));

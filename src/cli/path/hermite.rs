@@ -12,12 +12,12 @@ use spiral_atlas::curve::{Hermite, hermite};
     after_help = "Example:\n  echo '{\"start\": [0, 0], \"end\": [1, 0], \"start_derivative\": [1, 1], \"end_derivative\": [1, -1]}' |\n      \
                         spiral-atlas path hermite - --figure hermite.png"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let ends: Hermite = args.files.read()?;
     let choice = hermite(&ends).map_err(|e| args.files.blame(e))?;
     let paths = vec![PathReport::chosen(&choice, choice.best, None)];

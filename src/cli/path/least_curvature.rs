@@ -21,7 +21,7 @@ use spiral_atlas::{Error, Result};
 #[command(
     after_help = "Example:\n  spiral-atlas path least-curvature examples/least-curvature.json --figure least.png"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
 }
@@ -49,7 +49,7 @@ struct Output {
     searched: [f64; 2],
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let Input { start, end, start_direction, end_direction, free, greatest_length } = args.files.read()?;
     let distance = (end[0] - start[0]).hypot(end[1] - start[1]);
     // Curvatures would leave the range of doubles, and the length allowed would be no number that the user gave.

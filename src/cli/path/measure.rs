@@ -24,7 +24,7 @@ use std::io::Write;
 #[command(
     after_help = "Example:\n  spiral-atlas path spline examples/lap.json | spiral-atlas path measure - --samples 101 --offset 0.2"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
     /// Tell so many points at equal steps of length, both ends included: station (length from the start), x, y, heading
@@ -65,7 +65,7 @@ fn measured(course: &Course, args: &Args) -> Result<Measured> {
     })
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     if let Some(d) = args.offset.filter(|d| !d.is_finite()) {
         return Err(Error::domain("--offset", d, "finite"));
     }

@@ -31,7 +31,7 @@ use std::path::PathBuf;
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(subcommand)]
     tool: Tool,
 }
@@ -48,7 +48,7 @@ enum Tool {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     match &args.tool {
         Tool::Hermite(args) => hermite::run(args),
         Tool::EqualLength(args) => equal_length::run(args),

@@ -17,7 +17,7 @@ use spiral_atlas::path::{Clearance, Corner, Scene, plan};
 /// `reason` tells why.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path plan examples/obstacles.json --figure plan.png")]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
 }
@@ -39,7 +39,7 @@ struct Output<'p> {
     paths: [Planned<'p>; 1],
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let scene: Scene = args.files.read()?;
     let plan = match found(plan(&scene), &args.files)? {
         Ok(plan) => plan,

@@ -21,7 +21,7 @@ use spiral_atlas::{Error, Result};
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
     /// The distance to keep.
@@ -63,7 +63,7 @@ fn motion(path: Path) -> Result<Motion> {
     Motion::new(path.pieces, path.speed, path.start_time)
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let paths: Vec<(String, Path)> = args.files.paths()?;
     let blame = |e| args.files.blame(e);
     if paths.len() < 2 {

@@ -12,7 +12,7 @@ use spiral_atlas::path::spline;
 #[command(
     after_help = "Example:\n  echo '{\"points\": [[0, 0], [1, 1], [2, 0], [3, 1]]}' | spiral-atlas path spline - --figure spline.png"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
 }
@@ -25,7 +25,7 @@ struct Input {
     closed: bool,
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let input: Input = args.files.read()?;
     let found = spline(&input.points, input.closed).map_err(|e| args.files.blame(e))?;
     let kind = if input.closed { "Closed" } else { "Open" };

@@ -85,7 +85,7 @@ impl Arc {
 
 impl Equation {
     /// For |Q|, positive, and `ω = rest + iπ` for i half turns, `|rest| < π`, positive in all.
-    pub fn new(q: Interval, rest: Interval, half_turns: u32) -> Equation {
+    pub(super) fn new(q: Interval, rest: Interval, half_turns: u32) -> Equation {
         let (sin, cos) = rest.sine_cosine();
         let odd = half_turns % 2 == 1;
         let [sin, cos] = [sin, cos].map(|x| if odd { -&x } else { x });
@@ -98,7 +98,7 @@ impl Equation {
     }
 
     /// The arc; `None` at too low a precision.
-    pub fn solve(&self) -> Option<Arc> {
+    pub(super) fn solve(&self) -> Option<Arc> {
         let bits = self.q.bits();
         // ⌊ω/π⌋ hangs on the sign of the rest, which near Q = 0 moves θ far: rounding may not decide.
         self.rest.sign().filter(|s| s.is_ge())?;
@@ -110,7 +110,7 @@ impl Equation {
     }
 
     /// How often F was evaluated.
-    pub fn evaluations(&self) -> usize {
+    pub(super) fn evaluations(&self) -> usize {
         self.evaluations.get()
     }
 }

@@ -20,7 +20,7 @@ pub(super) struct AnyTable<'g> {
 }
 
 impl<'g> AnyTable<'g> {
-    pub fn new(grid: &'g Grid) -> Result<AnyTable<'g>> {
+    pub(super) fn new(grid: &'g Grid) -> Result<AnyTable<'g>> {
         let sign = if chart_of(&AnySpiral, grid)? == 0 { 1.0 } else { -1.0 };
         for axis in &grid.axes()[..2] {
             check_angles(axis)?;

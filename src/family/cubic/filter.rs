@@ -15,7 +15,7 @@ use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask};
 
 /// Verdicts of a vector of nodes, one bit a lane.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Planes {
+pub(super) struct Planes {
     /// By bit.
     pub flags: [u64; FLAGS.len()],
     /// Number of roots, two bits.
@@ -49,7 +49,7 @@ const SPREAD: [u64; 256] = {
 impl Planes {
     /// Writes the codes of the first lanes, at most eight.
     #[inline(always)]
-    pub fn store(&self, codes: &mut [super::Code]) {
+    pub(super) fn store(&self, codes: &mut [super::Code]) {
         let spread = |plane: u64| SPREAD[(plane & 0xff) as usize];
         let undecided = spread(self.undecided) * 0xff;
         let flags = (0..FLAGS.len()).fold(undecided, |bytes, i| bytes | spread(self.flags[i]) << i);
@@ -234,7 +234,7 @@ pub(super) struct RootLanes<'r, S: Simd> {
 
 /// Classifies a vector of data of one pair of angles.
 #[inline(always)]
-pub fn classify<S: Simd>(simd: S, prepared: &Prepared, d: &Data<S>) -> Planes {
+pub(super) fn classify<S: Simd>(simd: S, prepared: &Prepared, d: &Data<S>) -> Planes {
     // Without any spiral the counts say all, so the roots need not be found.
     visit::<S, false>(simd, prepared, d, |_| {})
 }

@@ -10,7 +10,7 @@ use fearless_simd::{Simd, SimdBase};
 
 /// A vector of data: κ0, κ1 and the normalised a, k, each within [`Precision::input`].
 #[derive(Debug, Clone, Copy)]
-pub struct Data<S: Simd> {
+pub(super) struct Data<S: Simd> {
     /// a = κ0 d0² / (4 sin φ0).
     pub a: S::f64s,
     /// k = κ1 d1² / (4 sin φ1).
@@ -111,7 +111,7 @@ impl<S: Simd> Side<S> {
     /// `w² B0, w B1, w B2`, and how far each may be off before its own rounding: w and the B are off by `delta` and
     /// their errors.
     #[inline(always)]
-    pub fn weighed(&self, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
+    pub(super) fn weighed(&self, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
         let ([b0, b1, b2], [e0, e1, e2], near) = (self.value, self.error, w + delta);
         let square = (near * near * e0 + (w + near) * delta * b0.abs()) * COVER;
         let first = (near * e1 + delta * b1.abs()) * COVER;

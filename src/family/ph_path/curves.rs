@@ -124,7 +124,7 @@ fn solutions<N: Real>(
 
 impl<N: Real> Curve<N> {
     /// What is looked at for |κ|: half of a symmetric curve.
-    pub fn part(&self) -> Hodograph<N> {
+    pub(super) fn part(&self) -> Hodograph<N> {
         if self.folded {
             self.whole.halves().into_iter().next().unwrap_or_else(|| self.whole.clone())
         } else {

@@ -26,12 +26,12 @@ pub(super) struct Datum {
 }
 
 impl Datum {
-    pub fn new(kind: Kind, node: &[f64]) -> Datum {
+    pub(super) fn new(kind: Kind, node: &[f64]) -> Datum {
         let size = [node[2], node[kind.axes().len() - 1]];
         Datum { kind, theta: [node[0], node[1]], size }
     }
 
-    pub fn symmetry(&self) -> Symmetry {
+    pub(super) fn symmetry(&self) -> Symmetry {
         let [first, last] = self.theta;
         match (first, last) {
             _ if first == 0.0 && last == 0.0 => Symmetry::Line,

@@ -29,7 +29,7 @@ impl Search {
     /// With `w = u + iv` such a solution is longer than its chord by `∫ |w|² - Re w² = 2 ∫ v²`, and a polynomial v of
     /// degree 2 has `∫ v² >= v²/9` at either end, where it is `√l sin(θ/2)`. The same of |w| makes sizes at most nine
     /// times the length.
-    pub fn sizes(&self) -> [f64; 2] {
+    pub(crate) fn sizes(&self) -> [f64; 2] {
         self.theta.map(|theta| {
             let sine = (0.5 * theta).sin();
             // A little more than the roundings.
@@ -38,7 +38,7 @@ impl Search {
     }
 
     /// The solution at these sizes that bends least.
-    pub fn at(&self, size: [f64; 2]) -> Option<Candidate> {
+    pub(crate) fn at(&self, size: [f64; 2]) -> Option<Candidate> {
         let curves = curves::<Ball>(&Datum { kind: Kind::Hermite, theta: self.theta, size }, 53)?;
         if curves.straight {
             let [a, b] = size.map(f64::sqrt);
@@ -59,7 +59,7 @@ impl Search {
     /// both the same in the first).
     ///
     /// As much as is `enough`, or more.
-    pub fn least(&self, size: [[f64; 2]; 2], equal: bool, enough: f64) -> f64 {
+    pub(crate) fn least(&self, size: [[f64; 2]; 2], equal: bool, enough: f64) -> f64 {
         let first = Quadratic::along(size[0], 0);
         let last = if equal { first } else { Quadratic::along(size[1], 1) };
         let Some(arcs) = boxed(self.theta, [first, last]) else { return 0.0 };

@@ -18,7 +18,7 @@ pub(super) struct CurveShape<N> {
 
 impl<N: Real> CurveShape<N> {
     /// The curve; `None` only when a number leaves the range of its arithmetic.
-    pub fn new(curves: &Curves<N>, root: &Root<N>) -> Option<CurveShape<N>> {
+    pub(super) fn new(curves: &Curves<N>, root: &Root<N>) -> Option<CurveShape<N>> {
         let (Root { t, z }, [p, q], [alpha, beta]) = (root, curves.scale, &curves.bend);
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
@@ -40,7 +40,7 @@ impl<N: Real> CurveShape<N> {
     }
 
     /// Bernstein coefficients of κ' up to a positive function, times 10.
-    pub fn quintic(&self) -> Quintic<N> {
+    pub(super) fn quintic(&self) -> Quintic<N> {
         let start = half(&self.turn, &self.speed);
         // Reversing the curve changes the sign.
         let turn = std::array::from_fn(|i| self.turn[2 - i].clone());

@@ -37,7 +37,7 @@ pub(super) struct Precision {
 }
 
 impl Precision {
-    pub const F64: Precision = Precision {
+    pub(super) const F64: Precision = Precision {
         unit: 1.0 / (1u64 << 53) as f64,
         scale: SCALE_ERROR + 2.0,
         side: 14.0,
@@ -48,7 +48,7 @@ impl Precision {
         most_beta: (1u128 << 120) as f64,
         range_u: (1.0 / (1u128 << 100) as f64, (1u128 << 84) as f64),
     };
-    pub const F32: Precision = Precision {
+    pub(super) const F32: Precision = Precision {
         unit: 1.0 / (1u32 << 24) as f64,
         scale: 5.0,
         side: 6.0,
@@ -60,20 +60,20 @@ impl Precision {
         range_u: (1.0 / (1u32 << 24) as f64, (1u32 << 14) as f64),
     };
 
-    pub const fn scale(self) -> f64 {
+    pub(super) const fn scale(self) -> f64 {
         self.scale * self.unit
     }
-    pub const fn side(self) -> f64 {
+    pub(super) const fn side(self) -> f64 {
         self.side * self.unit
     }
-    pub const fn shape(self) -> f64 {
+    pub(super) const fn shape(self) -> f64 {
         self.shape * self.unit
     }
-    pub const fn coefficient(self) -> f64 {
+    pub(super) const fn coefficient(self) -> f64 {
         self.coefficient * self.unit
     }
     /// G: at most seven operations a term.
-    pub const fn residual(self) -> f64 {
+    pub(super) const fn residual(self) -> f64 {
         8.0 * self.unit
     }
 }
@@ -126,7 +126,7 @@ pub(super) struct SegmentLanes<S: Simd> {
 
 impl<S: Simd> SegmentLanes<S> {
     /// Whether a lane's segment is proved to exist.
-    pub fn is_found(&self, lane: u32) -> bool {
+    pub(super) fn is_found(&self, lane: u32) -> bool {
         self.found >> lane & 1 == 1
     }
 }

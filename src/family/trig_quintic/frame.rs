@@ -33,7 +33,7 @@ pub(super) fn check(which: usize, value: f64) -> Result<()> {
 
 impl Frame<f64> {
     /// Within [`FRAME_ERRORS`]; `None` for angles so small that their squares might underflow.
-    pub fn new(ratio: f64, theta: f64) -> Option<Frame<f64>> {
+    pub(super) fn new(ratio: f64, theta: f64) -> Option<Frame<f64>> {
         let (sine, cosine) = (sin(theta), cos(theta));
         let whole = 1.0 + cosine;
         let tangent = sine / whole;
@@ -48,7 +48,7 @@ impl Frame<f64> {
 
 impl Frame<Interval> {
     /// In intervals; `None` when the precision does not suffice.
-    pub fn exact(ratio: f64, theta: f64, bits: usize) -> Option<Frame<Interval>> {
+    pub(super) fn exact(ratio: f64, theta: f64, bits: usize) -> Option<Frame<Interval>> {
         let (sine, cosine) = Interval::sin_cos(theta, bits);
         let whole = cosine.plus(1.0);
         let y = Interval::new(ratio, bits).over(&whole.scale(2.0))?;

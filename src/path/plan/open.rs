@@ -18,7 +18,13 @@ const APART: f64 = 0.8;
 ///
 /// So there are no more than 7 for each `close` of a turn around either end, and 56 around everything, however crowded
 /// it is.
-pub fn open(obstacles: &Obstacles, ends: [Point; 2], beside: &[Place], limits: &Limits, close: f64) -> Vec<Place> {
+pub(super) fn open(
+    obstacles: &Obstacles,
+    ends: [Point; 2],
+    beside: &[Place],
+    limits: &Limits,
+    close: f64,
+) -> Vec<Place> {
     let ahead = ends.into_iter().flat_map(|end| ahead(obstacles, end, beside, limits, close));
     ahead.chain(around(obstacles, ends, limits.most)).map(|at| Place { at, vertex: None, wide: true }).collect()
 }

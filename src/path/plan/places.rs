@@ -21,7 +21,7 @@ const GENTLE: f64 = 0.26;
 
 /// A vertex of an obstacle and its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Vertex {
+pub(super) struct Vertex {
     pub at: Point,
     pub obstacle: usize,
     before: Point,
@@ -30,7 +30,7 @@ pub struct Vertex {
 
 /// A point where a path may turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub(super) struct Place {
     pub at: Point,
     /// The vertex that it turns around; none at start and goal.
     pub vertex: Option<Vertex>,
@@ -47,7 +47,7 @@ const CELL: f64 = 1.0 / 65536.0;
 
 impl Place {
     /// The step of the lattice, and the cell in which the place and its vertex lie; none for places without a vertex.
-    pub fn cell(&self) -> Option<[u64; 5]> {
+    pub(super) fn cell(&self) -> Option<[u64; 5]> {
         let vertex = self.vertex?.at;
         let far = sub(self.at, vertex);
         // The power of 2 below it.
@@ -58,7 +58,7 @@ impl Place {
 
     /// On which side of a line through the place its vertex is, when the obstacle's boundary stays there for a while: 1
     /// is left; 0 for start and goal. `None` when it does not: shortest paths do not turn there.
-    pub fn side(&self, along: Point) -> Option<i8> {
+    pub(super) fn side(&self, along: Point) -> Option<i8> {
         let Some(Vertex { at, before, after, .. }) = self.vertex else { return Some(0) };
         let from = |p: Point| sub(p, self.at);
         let across = |v: Point| along[0] * v[1] - along[1] * v[0];
@@ -86,7 +86,7 @@ impl Place {
 /// - `keep`: distance to keep.
 /// - `most`: greatest curvature.
 /// - `wide`: how much further off, in least radii.
-pub fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Place> {
+pub(super) fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Place> {
     let vertices = obstacles.rings.iter().enumerate().flat_map(|(obstacle, ring)| convex(obstacle, ring));
     vertices.flat_map(|v| beside(v, keep, most, wide)).collect()
 }

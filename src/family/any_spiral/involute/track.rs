@@ -27,7 +27,7 @@ const PIECE: f64 = 1.5;
 const DEPTH: u32 = 54;
 
 impl Track {
-    pub fn new(half: Half) -> Track {
+    pub(super) fn new(half: Half) -> Track {
         let last = half.stretched(1.0);
         // v by w.
         let unit = half.theta / half.reach;
@@ -70,24 +70,24 @@ impl Track {
     }
 
     /// The whole half's length.
-    pub fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.knots[self.knots.len() - 1][1]
     }
 
     /// How many pieces there are.
-    pub fn pieces(&self) -> usize {
+    pub(super) fn pieces(&self) -> usize {
         self.knots.len() - 1
     }
 
     /// Length from the half's end to `u`.
-    pub fn to(&self, u: f64) -> f64 {
+    pub(super) fn to(&self, u: f64) -> f64 {
         let y = self.half.stretched(u);
         let [from, before] = self.knots[self.knots.partition_point(|k| k[0] <= y) - 1];
         before + self.between(from, y)[0]
     }
 
     /// u at a length from the half's end: Newton's method on its piece, and halving where that leaves the bracket.
-    pub fn at(&self, length: f64) -> f64 {
+    pub(super) fn at(&self, length: f64) -> f64 {
         if length <= 0.0 {
             return 0.0;
         }
