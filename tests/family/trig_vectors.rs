@@ -279,7 +279,7 @@ fn paths_lie_anywhere_and_bad_requests_are_named() {
     let error = |template| path(&at_origin(template)).unwrap_err().to_string();
     assert!(error(Template::LineLine { first: one, second: two }).contains("300.0 and 170.0"));
     assert!(error(Template::CircleInCircle { inner: one, outer: 200.0 }).contains("outer radius is 200.0"));
-    assert!(error(Template::LineCircle(Segment { radius: 0.0, ..one })).contains("radius is 0.0"));
+    assert!(error(Template::LineCircle(Segment { radius: 0.0, ..one })).contains("radius is 0;"));
     let bad = Segment { shape: Shape { q: -4.0, ..one.shape }, ..one };
     assert!(error(Template::LineCircle(bad)).contains("q is -4"));
 }

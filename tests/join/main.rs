@@ -172,7 +172,7 @@ fn hostile_numbers_are_refused_by_name() {
     };
     says(state(f64::NAN, 0.0, 0.0, 0.0), fine, 1.0, "start x is NaN");
     says(fine, state(0.0, 0.0, f64::INFINITY, 0.0), 1.0, "end direction is inf");
-    says(fine, fine, 0.0, "the greatest curvature is 0.0");
+    says(fine, fine, 0.0, "the greatest curvature is 0;");
     says(fine, fine, f64::NAN, "the greatest curvature is NaN");
     let beyond = join(&Request::new(state(0.0, 0.0, 0.0, 2.0), fine, 1.0)).unwrap();
     assert!(matches!(beyond, Err(why) if why.contains("start curvature 2.0")));

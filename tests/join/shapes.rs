@@ -259,7 +259,7 @@ fn what_is_no_join() {
     says(round, round, 1.0, "the two circles are one");
     says(ahead, round, 0.25, "the end circle has the radius 3.0");
     says(ahead, circle(f64::NAN, 0.0, 1.0, Turn::Left), 1.0, "end x is NaN");
-    says(ahead, circle(0.0, 0.0, -1.0, Turn::Left), 1.0, "the end radius is -1.0");
+    says(ahead, circle(0.0, 0.0, -1.0, Turn::Left), 1.0, "the end radius is -1;");
     says(line(0.0, 0.0, f64::INFINITY), round, 1.0, "start direction is inf");
     says(ahead, super::state(0.0, 0.0, 0.0, 0.0).into(), 1.0, "one end is a state");
     says(ahead, circle(1e200, 0.0, 1.0, Turn::Left), 1.0, "least radii apart");

@@ -231,8 +231,8 @@ fn motions_that_make_no_sense_are_named() {
         assert!(parts.iter().all(|p| error.contains(p)), "{error}");
     };
     let fine = || line([0.0, 0.0], [1.0, 0.0]);
-    says(fine(), 0.0, 0.0, &["`speed` is 0.0"]);
-    says(fine(), -1.0, 0.0, &["`speed` is -1.0"]);
+    says(fine(), 0.0, 0.0, &["`speed` is 0;"]);
+    says(fine(), -1.0, 0.0, &["`speed` is -1;"]);
     says(fine(), f64::NAN, 0.0, &["`speed`", "NaN"]);
     says(fine(), 1.0, f64::INFINITY, &["`start_time`", "inf"]);
     says(vec![], 1.0, 0.0, &["`pieces` is empty"]);
@@ -248,7 +248,7 @@ fn motions_that_make_no_sense_are_named() {
     says(fine(), 1e-200, 0.0, &["to 1e200", "`speed` 1e-200"]);
     says(fine(), 1e-320, 0.0, &["to inf"]);
     let a = Motion::new(fine(), 1.0, 0.0).unwrap();
-    assert!(separation(&a, &a, -1.0).unwrap_err().to_string().contains("`minimum` is -1.0"));
+    assert!(separation(&a, &a, -1.0).unwrap_err().to_string().contains("`minimum` is -1;"));
     assert!(separation(&a, &a, f64::NAN).is_err());
     assert_eq!(
         separations(&[a.clone(), a.clone(), a], 0.0).unwrap().iter().map(|p| (p.0, p.1)).collect::<Vec<_>>(),
