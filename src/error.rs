@@ -38,7 +38,8 @@ pub enum Error {
     #[error(
         "{}{coordinates}: {what} is not decided at the cap of {bits} bits; {}",
         node.map_or(String::new(), |n| format!("node {n} at ")),
-        if node.is_some() { "move the node or drop it from the grid" } else { "change a number by a unit in its last place" }
+        if node.is_some() { "move the node or drop it from the grid" } else { "change a number by a unit in its last \
+                                                                               place" }
     )]
     Undecided {
         /// Flat index; none for a single datum.

@@ -144,7 +144,8 @@ pub fn check_room(folder: &Path, what: &str, needed: u64) -> Result<()> {
         folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.exists());
     match there.and_then(free) {
         Some(free) if free < needed => Err(Error::invalid(format!(
-            "{what} would take {} and the disk of {} has {} free; choose another folder, free some room, or ask for fewer nodes or fields",
+            "{what} would take {} and the disk of {} has {} free; choose another folder, free some room, or ask for \
+             fewer nodes or fields",
             size(needed),
             folder.display(),
             size(free)

@@ -246,7 +246,8 @@ impl About {
         let version = text("format_version")?;
         if version != FORMAT_VERSION.to_string() {
             return Err(format!(
-                "its format version is {version:?}; this program reads version {FORMAT_VERSION}, so write it anew from its recipe"
+                "its format version is {version:?}; this program reads version {FORMAT_VERSION}, so write it anew from \
+                 its recipe"
             ));
         }
         let kind = match map.get("kind").map(String::as_str) {

@@ -97,10 +97,23 @@ impl Header {
         self.tensors.last().map_or(0, |t| t.info.data_offsets.1)
     }
 
-    /// Where a tensor lies, counted from the end of the header.
-    pub(crate) fn range(&self, name: &str) -> Option<Range<usize>> {
-        let (start, end) = self.tensors.iter().find(|t| t.name == name)?.info.data_offsets;
-        Some(start..end)
+    /// Where a tensor lies in the file, whose first tensor begins at `body`.
+    pub(crate) fn range(&self, name: &str, body: usize) -> Result<Range<usize>, String> {
+        let tensor = self.tensors.iter().find(|t| t.name == name);
+        let (start, end) = tensor.ok_or_else(|| format!("it has no tensor `{name}`"))?.info.data_offsets;
+        Ok(body + start..body + end)
+    }
+
+    /// [`Header::parse`] of a file of one kind, to be read on this machine.
+    pub(crate) fn open(file: &[u8], kind: Kind) -> Result<(Header, usize), String> {
+        if cfg!(target_endian = "big") {
+            return Err("its numbers are little-endian, those of this machine are not".into());
+        }
+        match Header::parse(file)? {
+            found if found.0.about.kind == kind => Ok(found),
+            _ if kind == Kind::Nodes => Err("it holds cells, not nodes; `spiral_atlas::cells::Cells` opens it".into()),
+            _ => Err("it holds nodes, not cells; `spiral_atlas::atlas::Atlas` opens it".into()),
+        }
     }
 
     /// The metadata of the file, sorted by key.
@@ -200,7 +213,8 @@ impl Tensor {
         match found {
             Some(f) if (&f.dtype, &f.shape, &f.data_offsets) == (dtype, shape, data_offsets) => Ok(()),
             Some(f) => Err(format!(
-                "tensor `{}` is {:?} {:?} at {:?}; its grid and metadata ask for {dtype:?} {shape:?} at {data_offsets:?}",
+                "tensor `{}` is {:?} {:?} at {:?}; its grid and metadata ask for {dtype:?} {shape:?} at \
+                 {data_offsets:?}",
                 self.name, f.dtype, f.shape, f.data_offsets
             )),
             None => Err(format!("it has no tensor `{}`", self.name)),
@@ -214,7 +228,8 @@ fn split(file: &[u8]) -> Result<(&[u8], &[u8]), String> {
     let len = u64::from_le_bytes(*len);
     if len > MAX_HEADER as u64 || len % WORD as u64 != 0 {
         return Err(format!(
-            "it is no atlas: its first {WORD} bytes announce a header of {len} bytes, where an atlas has a multiple of {WORD} up to {MAX_HEADER}"
+            "it is no atlas: its first {WORD} bytes announce a header of {len} bytes, where an atlas has a multiple of \
+             {WORD} up to {MAX_HEADER}"
         ));
     }
     rest.split_at_checked(len as usize).ok_or_else(|| format!("it ends inside its header of {len} bytes"))

@@ -47,8 +47,8 @@ fn refine(speed: &impl Fn(f64) -> [f64; 1], from: f64, to: f64, whole: f64, tole
     refine(speed, from, middle, left, tolerance, depth - 1) + refine(speed, middle, to, right, tolerance, depth - 1)
 }
 
-/// The parameter in a bracket at which a curve has a length: Newton's method from a guess, and halving where that leaves
-/// the bracket.
+/// The parameter in a bracket at which a curve has a length: Newton's method from a guess, and halving where that
+/// leaves the bracket.
 ///
 /// # Arguments
 /// - `at`: how much the length at a parameter exceeds the wanted one, which is below 0 at the first end, and the speed.

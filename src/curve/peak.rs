@@ -5,8 +5,8 @@
 //! on which h keeps its sign and N falls, as its Bernstein coefficients do. On one side of t the slope then points
 //! towards t throughout, and |κ| is at most |κ(t)|. On the other it is at most `|N(t)| / σ³`, so that |κ| exceeds
 //! |κ(t)| by no more than that times the length of the piece. At an end of the curve it is enough that N does not
-//! point inwards. All else must stay below |κ(t)|, by [`Hodograph::below`]: it is lower there by about the square of the
-//! piece's length.
+//! point inwards. All else must stay below |κ(t)|, by [`Hodograph::below`]: it is lower there by about the square of
+//! the piece's length.
 //!
 //! Only the value at t and N(t) take the precision of the datum; certificates are in doubles.
 

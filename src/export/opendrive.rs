@@ -109,7 +109,8 @@ fn geometries(path: &Course, tolerance: f64, fit: &mut Fit) -> Result<Vec<Geomet
             Piece::PhQuintic(curve) => all.extend(fitted(curve, tolerance, fit).map_err(blame)?),
             Piece::Involute(_) | Piece::TrigQuintic(_) => {
                 return Err(blame(format!(
-                    "is of the kind `{}`, which OpenDRIVE does not have; ask for a curve of the family cubic or ph-quintic",
+                    "is of the kind `{}`, which OpenDRIVE does not have; ask for a curve of the family cubic or \
+                     ph-quintic",
                     piece.kind().name()
                 )));
             }

@@ -301,7 +301,7 @@ pub(crate) fn proofs(family: &'static dyn Family, axes: &[&str]) -> Result<(&'st
     })?;
     let chart = charts.iter().position(|c| c.axes == axes && region.covers(c.name)).ok_or_else(|| {
         let all: Vec<String> = charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(", ")).collect();
-        let all = all.join(", or ");
+        let all = all.join(" or ");
         Error::invalid(format!(
             "the axes are {}; for proofs over boxes of `{name}` they must be {all}",
             axes.join(", ")

@@ -190,8 +190,8 @@ impl Course {
     pub fn offset(&self, d: f64) -> Result<Vec<OffsetCurve>> {
         let fail = |i: usize| {
             Error::invalid(format!(
-                "pieces[{i}]: its offset at distance {d:?} is not finite: the piece stands still somewhere, or the offset leaves the range of \
-                 doubles; then change the unit of length"
+                "pieces[{i}]: its offset at distance {d:?} is not finite: the piece stands still somewhere, or the \
+                 offset leaves the range of doubles; then change the unit of length"
             ))
         };
         let one = |(i, piece): (usize, &Piece)| {

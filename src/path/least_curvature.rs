@@ -108,8 +108,9 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     let curve = PhQuintic::between(ends.start, ends.end, best.preimage.map(|w| pair(complex(w) * back)));
     if !curve.is_regular() {
         return Err(Error::NoPath(format!(
-            "the paths as short as `greatest_length`, {:?}, all but stand still at their ends, slower than 1e-12 of their mean speed, \
-             where doubles have no curvature for them: it hardly exceeds the distance {distance:?} of the ends; allow more",
+            "the paths as short as `greatest_length`, {:?}, all but stand still at their ends, slower than 1e-12 of \
+             their mean speed, where doubles have no curvature for them: it hardly exceeds the distance {distance:?} of \
+             the ends; allow more",
             ends.greatest_length
         )));
     }
@@ -148,7 +149,8 @@ fn checked(ends: &Directions) -> Result<(Complex64, Search)> {
     }
     if !(greatest_length > distance && greatest_length <= 1e6 * distance) {
         return fail(format!(
-            "`greatest_length` is {greatest_length:?}; it must exceed the distance {distance:?} of the ends, at most 1e6 times"
+            "`greatest_length` is {greatest_length:?}; it must exceed the distance {distance:?} of the ends, at most \
+             1e6 times"
         ));
     }
     let theta = |direction: f64| (Complex64::cis(direction) * chord.conj()).arg();

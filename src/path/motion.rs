@@ -89,8 +89,9 @@ impl Motion {
         let fits = start < end && start.abs().max(end.abs()).max(traveled) <= LARGEST;
         if !fits {
             return Err(Error::invalid(format!(
-                "motion: its path of length {length:?} takes from time {start:?} to {end:?} at the `speed` {speed:?}; these must differ, and be at most \
-                 {LARGEST:e}, as must be what it would cover in them: change the unit of time"
+                "motion: its path of length {length:?} takes from time {start:?} to {end:?} at the `speed` {speed:?}; \
+                 these must differ, and be at most {LARGEST:e}, as must be what it would cover in them: change the unit \
+                 of time"
             )));
         }
         Ok(motion)

@@ -101,8 +101,8 @@ impl Way {
             Piece::TrigQuintic(part) => Way::integrated(Bezier::Trig(*part)),
             Piece::Involute(_) => {
                 return Err(Error::invalid(format!(
-                    "is of the kind `{}`, whose points have no proved error; separation takes all other kinds. Take points of the path \
-                     with `path measure --samples`, and lay a path through them with `path spline`",
+                    "is of the kind `{}`, whose points have no proved error; separation takes all other kinds. Take \
+                     points of the path with `path measure --samples`, and lay a path through them with `path spline`",
                     piece.kind().name()
                 )));
             }
@@ -113,8 +113,8 @@ impl Way {
             return Ok(way);
         }
         Err(Error::invalid(format!(
-            "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers up to {most:e}: leave \
-             out a piece of no length, or change the unit of length",
+            "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers up \
+             to {most:e}: leave out a piece of no length, or change the unit of length",
             piece.length()
         )))
     }

@@ -122,7 +122,8 @@ fn check(figure: &CurveFigure) -> Result<()> {
         if !(finite(&[circle.at]) && circle.curvature.is_finite() && length.is_finite() && length > 0.0) {
             let (label, at, direction, curvature) = (&circle.label, circle.at, circle.direction, circle.curvature);
             return fail(format!(
-                "circle `{label}` at {at:?} has direction {direction:?} and curvature {curvature}; all must be finite, the direction not 0"
+                "circle `{label}` at {at:?} has direction {direction:?} and curvature {curvature}; all must be finite, \
+                 the direction not 0"
             ));
         }
     }

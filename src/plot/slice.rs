@@ -131,8 +131,8 @@ pub(super) fn check_room(canvas: &Canvas, rect: Rect) -> Result<()> {
     }
     let (w, h) = (rect.width().max(0), rect.height().max(0));
     Err(Error::invalid(format!(
-        "a picture of {} x {} pixels leaves {w} x {h} for a plot beside its labels; it needs {LEAST_SIDE} x {LEAST_SIDE}: \
-         ask for a larger picture",
+        "a picture of {} x {} pixels leaves {w} x {h} for a plot beside its labels; it needs {LEAST_SIDE} x \
+         {LEAST_SIDE}: ask for a larger picture",
         sheet.width(),
         sheet.height()
     )))

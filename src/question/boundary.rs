@@ -123,7 +123,8 @@ impl<'p> Slice<'p> {
             let step = (high - low) / cells as f64;
             if !(low < high && step.is_normal() && step > high.abs().max(low.abs()) * 4.0 * f64::EPSILON) {
                 return Err(Error::invalid(format!(
-                    "{} goes from {low:?} to {high:?}; it must have two finite, increasing ends and room for {cells} cells",
+                    "{} goes from {low:?} to {high:?}; it must have two finite, increasing ends and room for {cells} \
+                     cells",
                     property.axes()[axis]
                 )));
             }

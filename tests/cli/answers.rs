@@ -305,7 +305,7 @@ fn a_reader_that_leaves_ends_the_stream_quietly() {
 fn commands(of: &[&str]) -> Vec<String> {
     let help = fine(of.iter().copied().chain(["--help"])).out;
     let Some((_, list)) = help.split_once("\nCommands:\n") else { return Vec::new() };
-    let names = list.lines().take_while(|line| !line.is_empty() || list.starts_with(line));
+    let names = list.lines().take_while(|line| !line.is_empty());
     let names = names.filter(|line| line.starts_with("  ") && !line.starts_with("   "));
     names.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help").map(str::to_owned).collect()
 }

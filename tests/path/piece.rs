@@ -81,7 +81,10 @@ fn what_is_wrong_with_a_piece_is_told() {
             "`from` is 1.0 and `to` is 1.0",
         ),
         (r#"{"kind": "line", "start": [1, 1], "end": [1, 1]}"#, "`start` and `end` are both [1.0, 1.0]"),
-        (r#"{"kind": "arc", "start": [1, 1], "direction": 0, "curvature": 1, "length": -1}"#, "`length` of an arc is -1;"),
+        (
+            r#"{"kind": "arc", "start": [1, 1], "direction": 0, "curvature": 1, "length": -1}"#,
+            "`length` of an arc is -1;",
+        ),
         (
             r#"{"kind": "arc", "start": [1, 1], "direction": 0, "curvature": 0, "length": 1, "end": [1, 2]}"#,
             "`end` is [1.0, 2.0], but the arc leads to [2.0, 1.0]",

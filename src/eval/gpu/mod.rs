@@ -217,7 +217,8 @@ impl<'t> Engine<'t> {
                 _ if bytes <= most => return Ok((nodes as u32, inputs)),
                 0 | 1 => {
                     let what = format!(
-                        "the inputs of node {start} have {bytes} bytes and the adapter takes {most}; use the CPU (`--backend cpu`)"
+                        "the inputs of node {start} have {bytes} bytes and the adapter takes {most}; use the CPU \
+                         (`--backend cpu`)"
                     );
                     return Err(self.gpu.error(&what));
                 }

@@ -106,7 +106,8 @@ pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
         };
         match found {
             Some(s) if !(s.m.is_finite() && s.q.is_finite()) => Err(Error::invalid(format!(
-                "{} leaves the range of doubles for theta = {theta:?}, xi = {xi:?}, eta = {eta:?}; choose less extreme numbers",
+                "{} leaves the range of doubles for theta = {theta:?}, xi = {xi:?}, eta = {eta:?}; choose less extreme \
+                 numbers",
                 if s.m.is_finite() { "q" } else { "m" }
             ))),
             other => Ok(other),

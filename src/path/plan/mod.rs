@@ -155,7 +155,8 @@ impl Scene {
         if away < self.limits().keep {
             let clearance = self.clearance;
             return fail(format!(
-                "`{name}` {point:?} is {away:?} away from obstacles[{i}]; it must be further than the clearance {clearance:?}"
+                "`{name}` {point:?} is {away:?} away from obstacles[{i}]; it must be further than the clearance \
+                 {clearance:?}"
             ));
         }
         Ok(())
@@ -360,8 +361,8 @@ fn explain(path: &[Place], scene: &Scene, obstacles: &Obstacles, limits: Limits)
         place.vertex.map_or(String::new(), |v| format!(" around the vertex {:?} of obstacles[{}]", v.at, v.obstacle));
     let (at, angle, most) = (place.at, turn.angle().to_degrees(), scene.greatest_curvature);
     format!(
-        "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature {most:?} {why}; \
-         allow more curvature"
+        "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature {most:?} \
+         {why}; allow more curvature"
     )
 }
 

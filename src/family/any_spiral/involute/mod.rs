@@ -135,10 +135,13 @@ pub fn involute(chord: &Datum, turns: [u32; 2]) -> Result<Spiral> {
 impl fmt::Display for WhyNone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            WhyNone::SameCurvature => "the curvatures at both ends are the same, so that it could neither rise nor fall",
+            WhyNone::SameCurvature => {
+                "the curvatures at both ends are the same, so that it could neither rise nor \
+                                       fall"
+            }
             WhyNone::WrongSide => {
-                "omega, half the sum of the end directions and turns, has not the sign of k2 - k1: a spiral of rising curvature \
-                 bulges to the right at its start, and ever more to the left"
+                "omega, half the sum of the end directions and turns, has not the sign of k2 - k1: a spiral of rising \
+                 curvature bulges to the right at its start, and ever more to the left"
             }
             WhyNone::CirclesCross => {
                 "Q > 0: the circles of curvature at the ends cross, but those of a spiral lie apart or one in the other"
