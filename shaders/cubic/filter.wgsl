@@ -30,7 +30,7 @@ fn half_theorem(b: vec3<f32>, e: vec3<f32>, w: f32, delta: f32) -> Half {
     let over = 8.0 * (product * w) - b.y * b.y;
     let error = ((abs(b.x) * e.z + abs(b.z) * e.x + e.x * e.z) * (w + delta) + abs(product) * delta) * THROUGH
         + (2.0 * abs(b.y) + e.y) * e.y
-        + (8.0 * (abs(product) * w) + b.y * b.y) * (16.0 * UNIT);
+        + (8.0 * (abs(product) * w) + b.y * b.y) * ROUNDINGS;
     let middle_yes = b.y > e.y || over > error;
     let middle_no = b.y < -e.y && over < -error;
     let bad_end = b.x < -e.x;

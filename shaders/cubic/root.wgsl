@@ -63,7 +63,7 @@ fn find_root(d: Datum, start: f32) -> Root {
     let inside = low > 0.0 && high <= 3.0 && at_high.y > ETA;
     let small = delta * SMALL < x;
     // The root lies between the rounded ends; see root.rs.
-    let reach = COVER * delta + 4.0 * UNIT;
+    let reach = COVER * delta + ENDS;
     let delta_y = THROUGH_X * (d.a * x * reach) + ETA;
     return Root(x, r.y, max(reach, delta_y), low, high, (falls || rises) && inside && small);
 }

@@ -1,7 +1,7 @@
 //! What the commands do with an atlas of cells.
 
 use super::Outcome;
-use super::legend::{flags, head, spacing, tail};
+use super::legend::{faults, flags, head, spacing, tail};
 use super::output::{self, Object, Product, grouped};
 use spiral_atlas::atlas::{Atlas, Kind};
 use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec};
@@ -193,11 +193,7 @@ pub(super) fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcom
 
 impl Verified<'_> {
     fn text(&self) -> String {
-        let mut text = format!("{}\n  id {}\n", self.atlas.display(), self.id);
-        text += if self.faults.is_empty() { "  hashes, legend and recipe are sound\n" } else { "" };
-        for fault in &self.faults {
-            text += &format!("  FAULT: {fault}\n");
-        }
+        let mut text = faults(&self.atlas, &self.id, &self.faults);
         let Attack { points, verdicts, wrong, first } = &self.attack;
         let (points, verdicts) = (grouped(*points), grouped(*verdicts));
         text += &match (wrong, first) {

@@ -47,3 +47,13 @@ pub(super) fn tail<'a>(about: &About, hashes: impl Iterator<Item = (&'a str, imp
     }
     text
 }
+
+/// The lines that every verification begins with.
+pub(crate) fn faults(path: &Path, id: &str, faults: &[String]) -> String {
+    let mut text = format!("{}\n  id {id}\n", path.display());
+    text += if faults.is_empty() { "  hashes, legend and recipe are sound\n" } else { "" };
+    for fault in faults {
+        text += &format!("  FAULT: {fault}\n");
+    }
+    text
+}

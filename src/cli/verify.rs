@@ -3,6 +3,7 @@
 use super::Outcome;
 use super::backend::{self, BackendArgs};
 use super::cells::{self, Opened};
+use super::legend::faults;
 use super::output::{self, grouped};
 use spiral_atlas::Result;
 use spiral_atlas::atlas::verify;
@@ -147,11 +148,7 @@ impl Compared {
 
 impl Verified {
     fn text(&self) -> String {
-        let mut text = format!("{}\n  id {}\n", self.atlas.display(), self.id);
-        text += if self.faults.is_empty() { "  hashes, legend and recipe are sound\n" } else { "" };
-        for fault in &self.faults {
-            text += &format!("  FAULT: {fault}\n");
-        }
+        let mut text = faults(&self.atlas, &self.id, &self.faults);
         for compared in &self.comparisons {
             text += &format!("  {}", compared.text());
         }

@@ -17,7 +17,7 @@ use std::cmp::Ordering::{Greater, Less};
 pub(crate) type Complex<N> = [N; 2];
 
 /// A curve or a piece of one, wherever it lies, as Bernstein coefficients.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Hodograph<N> {
     /// The pre-image.
     pub w: [Complex<N>; 3],

@@ -93,6 +93,7 @@ impl Twin {
     }
 
     /// The nearest double, when that is certain.
+    #[expect(clippy::wrong_self_convention, reason = "as `Interval::to_f64`: one of both is handed on")]
     pub(crate) fn to_f64(&self) -> Option<f64> {
         // Rounding is monotone: what lies between two numbers that round alike rounds like them.
         let error = self.error * GROW + self.low.abs() * (2.0 * f64::EPSILON);

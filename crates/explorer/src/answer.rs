@@ -38,14 +38,14 @@ impl From<Ends> for transition::Ends {
 
 /// The curves of some kinds between two ends.
 #[derive(Deserialize)]
-pub struct Curves {
+pub(crate) struct Curves {
     ends: Ends,
     kinds: Vec<Kind>,
 }
 
 /// What would help where there is none.
 #[derive(Deserialize)]
-pub struct Advice {
+pub(crate) struct Advice {
     ends: Ends,
     kind: Kind,
 }
@@ -71,7 +71,7 @@ impl From<End> for join::End {
 
 /// A path between two states, or two lines and circles.
 #[derive(Deserialize)]
-pub struct Join {
+pub(crate) struct Join {
     from: End,
     to: End,
     greatest_curvature: f64,
@@ -82,7 +82,7 @@ pub struct Join {
 
 /// Pieces as a road.
 #[derive(Deserialize)]
-pub struct Road {
+pub(crate) struct Road {
     pieces: Vec<Piece>,
 }
 
@@ -90,7 +90,7 @@ pub struct Road {
 type Samples = Vec<[f64; 5]>;
 
 impl Curves {
-    pub fn answer(self) -> Result<Value> {
+    pub(crate) fn answer(self) -> Result<Value> {
         let ends = self.ends.into();
         let (datum, placement) = Placement::normalise(&ends)?;
         let mut curves = serde_json::Map::new();
@@ -183,7 +183,7 @@ fn samples(piece: &Piece, steps: usize, before: f64) -> Samples {
 }
 
 impl Advice {
-    pub fn answer(self) -> Result<Value> {
+    pub(crate) fn answer(self) -> Result<Value> {
         let ends = self.ends.into();
         let why = match self.kind {
             Kind::Cubic => spiral(&ends)?.with_remedies()?.outcome.err().map(|why| ("cubic spiral", why)),
@@ -196,7 +196,7 @@ impl Advice {
 }
 
 impl Join {
-    pub fn answer(self) -> Result<Value> {
+    pub(crate) fn answer(self) -> Result<Value> {
         let request = join::Request {
             family: self.family,
             objective: self.objective,
@@ -227,7 +227,7 @@ impl Join {
 }
 
 impl Road {
-    pub fn answer(self) -> Result<Value> {
+    pub(crate) fn answer(self) -> Result<Value> {
         let (text, fit) = opendrive(&[Course::new(self.pieces)?], &OpenDrive { lane_width: 3.5, tolerance: 0.001 })?;
         Ok(json!({ "text": text, "off": fit.error }))
     }

@@ -9,14 +9,14 @@ use spiral_atlas::grid::{Axis, Grid, Spacing};
 use spiral_atlas::{Error, Result};
 
 /// An atlas file that is open.
-pub enum File {
+pub(crate) enum File {
     Nodes(Atlas),
     Cells(Cells),
 }
 
 /// A plane that is asked for.
 #[derive(Deserialize)]
-pub struct Plane {
+pub(crate) struct Plane {
     /// The axes that are drawn.
     x: usize,
     y: usize,
@@ -29,7 +29,7 @@ impl File {
     ///
     /// # Errors
     /// [`Error::Atlas`] where it is no valid atlas.
-    pub fn open(bytes: &[u8]) -> Result<File> {
+    pub(crate) fn open(bytes: &[u8]) -> Result<File> {
         match kind_of(bytes)? {
             Kind::Nodes => {
                 let atlas = Atlas::from_bytes(bytes)?;
@@ -52,7 +52,7 @@ impl File {
     }
 
     /// What it says of itself.
-    pub fn about(&self) -> Value {
+    pub(crate) fn about(&self) -> Value {
         let (about, kind): (&About, _) = match self {
             File::Nodes(atlas) => (atlas.about(), "nodes"),
             File::Cells(cells) => (cells.about(), "cells"),
@@ -84,7 +84,7 @@ impl File {
     ///
     /// # Errors
     /// [`Error::Domain`] for axes and places that the file does not have.
-    pub fn plane(&self, plane: &Plane) -> Result<Value> {
+    pub(crate) fn plane(&self, plane: &Plane) -> Result<Value> {
         let axes = self.grid().axes();
         let cells = usize::from(matches!(self, File::Cells(_)));
         let count = |axis: usize| axes.get(axis).map_or(0, |axis| axis.values().len() - cells);

@@ -18,7 +18,7 @@ const AXES: [&str; 4] = ["phi0", "phi1", "kappa0", "kappa1"];
 
 /// What is asked for.
 #[derive(Deserialize)]
-pub struct Wanted {
+pub(crate) struct Wanted {
     family: String,
     phi0: f64,
     phi1: f64,
@@ -38,7 +38,7 @@ struct Tile {
 }
 
 /// A slice in the making. Pixels are stored column by column, since κ1 is the grid's fastest axis.
-pub struct Slice {
+pub(crate) struct Slice {
     family: &'static dyn Family,
     chart: usize,
     angles: [f64; 2],
@@ -55,7 +55,7 @@ pub struct Slice {
 impl Slice {
     /// # Errors
     /// [`Error::Domain`] for an unknown family, ranges that are none, or angles outside the family's domain.
-    pub fn new(wanted: Wanted) -> Result<Slice> {
+    pub(crate) fn new(wanted: Wanted) -> Result<Slice> {
         let Wanted { family, phi0, phi1, at, ranges, width, height } = wanted;
         let family = family::by_name(&family)?;
         let chart = family.about().charts.iter().position(|chart: &Chart| chart.axes == AXES);
@@ -93,7 +93,7 @@ impl Slice {
     }
 
     /// The names and the order of what is drawn.
-    pub fn about(&self) -> Value {
+    pub(crate) fn about(&self) -> Value {
         let bit = |name: &&str| self.family.about().bit(name);
         let flags: Vec<Value> = self
             .family
@@ -107,17 +107,17 @@ impl Slice {
     }
 
     /// The flags of each pixel, column by column, from below.
-    pub fn flags(&self) -> &[u8] {
+    pub(crate) fn flags(&self) -> &[u8] {
         &self.flags
     }
 
     /// Pixels all of whose points are proved.
-    pub fn proved(&self) -> usize {
+    pub(crate) fn proved(&self) -> usize {
         self.proved
     }
 
     /// Works on so many tiles, and returns how many wait.
-    pub fn refine(&mut self, tiles: usize) -> usize {
+    pub(crate) fn refine(&mut self, tiles: usize) -> usize {
         let grid = self.grid.clone();
         // The angles were checked before.
         let Ok(table) = self.family.table(&grid) else { return 0 };

@@ -59,7 +59,7 @@ impl Join {
 #[pyfunction]
 #[pyo3(signature = (start, end, greatest_curvature, *, family = "cubic", objective = "length", longest = None, most_pieces = None))]
 #[expect(clippy::too_many_arguments, reason = "in Python the options have names")]
-pub fn join(
+pub(crate) fn join(
     py: Python<'_>,
     start: [f64; 4],
     end: [f64; 4],

@@ -54,7 +54,7 @@ fn asked(
 ///     UndecidedError: not proved at the precision cap.
 #[pyfunction]
 #[pyo3(signature = (family, axis, within, *, flag = None, **coordinates))]
-pub fn ranges<'py>(
+pub(crate) fn ranges<'py>(
     py: Python<'py>,
     family: &str,
     axis: &str,
@@ -82,7 +82,7 @@ pub fn ranges<'py>(
 ///     As `ranges`.
 #[pyfunction]
 #[pyo3(signature = (family, *, flag = None, weights = None, **coordinates))]
-pub fn nearest<'py>(
+pub(crate) fn nearest<'py>(
     py: Python<'py>,
     family: &str,
     flag: Option<&str>,
@@ -132,7 +132,7 @@ pub fn nearest<'py>(
 ///     As `ranges`.
 #[pyfunction]
 #[pyo3(signature = (family, axes, within, *, cells = 256, flag = None, **coordinates))]
-pub fn boundary<'py>(
+pub(crate) fn boundary<'py>(
     py: Python<'py>,
     family: &str,
     axes: [String; 2],

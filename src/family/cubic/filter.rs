@@ -3,7 +3,7 @@
 //! Guesses (Newton's method, division, square roots) only choose where to look. What is stored rests on `+ - *` with
 //! these bounds, in units of u = 2^-53. The shader of `shaders/cubic/` does the same in f32, function by function.
 
-use super::precision::{Precision, Prepared, THROUGH};
+use super::precision::{Precision, Prepared, ROUNDINGS, THROUGH};
 use super::root::{Data, Root, Side, bernstein, residual, root, sides};
 use super::{ANY_SPIRAL, FLAGS, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::family::outer;
@@ -131,7 +131,7 @@ fn half_theorem<S: Simd>(side: &Side<S>, w: S::f64s, delta: S::f64s) -> (u64, u6
     let over = product * w * 8.0 - b1 * b1;
     let error = ((b0.abs() * e2 + b2.abs() * e0 + e0 * e2) * (w + delta) + product.abs() * delta) * THROUGH
         + (b1.abs() * 2.0 + e1) * e1
-        + (product.abs() * w * 8.0 + b1 * b1) * (16.0 * U);
+        + (product.abs() * w * 8.0 + b1 * b1) * (ROUNDINGS * U);
     let middle_yes = b1.simd_gt(e1) | over.simd_gt(error);
     let middle_no = b1.simd_lt(-e1) & over.simd_lt(-error);
     let yes = b0.simd_gt(e0) & b2.simd_gt(e2) & middle_yes;
@@ -169,7 +169,7 @@ fn dipping<S: Simd>(side: &Side<S>, w: S::f64s, delta: S::f64s) -> [(S::f64s, S:
     let mut terms = side.weighed(w, delta);
     terms[2] = (terms[2].0 * 2.0, terms[2].1 * 2.0);
     for (h, e) in &mut terms {
-        *e += h.abs() * (16.0 * Precision::F64.unit);
+        *e += h.abs() * (ROUNDINGS * Precision::F64.unit);
     }
     terms
 }

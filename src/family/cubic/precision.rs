@@ -9,6 +9,10 @@ pub(super) const TRIED: f64 = 2.5;
 pub(super) const SMALL: f64 = 64.0;
 /// `|y - y*| <= a (2x + δ) δ + η`, and δ is below x/60: so many `a x δ`.
 pub(super) const THROUGH_X: f64 = 2.1;
+/// Units by which the rounded ends x - δ and x + δ may be off: up to 2 each, for x up to 3.
+pub(super) const ENDS: f64 = 4.0;
+/// Units of rounding in `8 w B0 B2 - B1²`, and in a term of the spiral polynomial's value.
+pub(super) const ROUNDINGS: f64 = 16.0;
 /// Of `8 w B0 B2`: eight of what its factors' errors make, and a little for products of errors and for roundings.
 pub(super) const THROUGH: f64 = 8.1;
 

@@ -2,7 +2,7 @@
 //! there.
 
 use super::poly::{Bounds, side};
-use super::precision::{Precision, Prepared, SMALL, THROUGH_X, TRIED};
+use super::precision::{ENDS, Precision, Prepared, SMALL, THROUGH_X, TRIED};
 use crate::family::rows::bits;
 use crate::num::bernstein::Quintic;
 use crate::num::{COVER, Lanes, Number};
@@ -76,8 +76,8 @@ pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -
         & high.simd_le(S::f64s::splat(simd, 3.0))
         & y_high.simd_gt(S::f64s::splat(simd, d.precision.eta()));
     let small = (delta * SMALL).simd_lt(x);
-    // The root lies between the rounded x - δ and x + δ, each off by up to 2 units for x up to 3.
-    let delta = delta * COVER + 4.0 * Precision::F64.unit;
+    // The root lies between the rounded x - δ and x + δ.
+    let delta = delta * COVER + ENDS * Precision::F64.unit;
     let delta_y = d.a * x * delta * THROUGH_X + d.precision.eta();
     Root { x, y, delta: delta.max(delta_y), low, high, proved: bits::<S>(crossing & inside & small) }
 }

@@ -3,7 +3,7 @@
 use super::FLAGS;
 use super::pair;
 use super::poly::Bounds;
-use super::precision::{Precision, SMALL, THROUGH, THROUGH_X, TRIED};
+use super::precision::{ENDS, Precision, ROUNDINGS, SMALL, THROUGH, THROUGH_X, TRIED};
 use crate::family::kernel::{constants, fragment, tables};
 use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
@@ -29,6 +29,8 @@ pub(super) fn shader() -> Shader {
         ("ETA", P.eta()),
         ("RESIDUAL", P.residual()),
         ("RESIDUAL_FLOOR", P.residual_floor()),
+        ("ENDS", ENDS * P.unit),
+        ("ROUNDINGS", ROUNDINGS * P.unit),
         ("TRIED", TRIED),
         ("SMALL", SMALL),
         ("THROUGH_X", THROUGH_X),
