@@ -24,7 +24,7 @@ fn main() -> spiral_atlas::Result<()> {
         axis("kappa0", Spacing::Linear { lo: 0.01, hi: 1.0, count })?,
         axis("kappa1", Spacing::Log { lo: 0.1, hi: 100.0, count })?,
     ])?;
-    let family: &'static dyn Family = by_name("cubic").ok_or_else(|| spiral_atlas::Error::Domain("no cubic".into()))?;
+    let family: &'static dyn Family = by_name("cubic")?;
     let spec = Spec { name: "bench", family, grid: &grid, budget: (mib as u64) << 20, recipe: "" };
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
     let started = Instant::now();

@@ -1,5 +1,7 @@
 //! The one error type of the library: every message names the thing, its value and the way out.
 
+use std::borrow::Cow;
+use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
 /// What can go wrong, apart from bugs.
@@ -8,7 +10,7 @@ use std::path::PathBuf;
 pub enum Error {
     /// An argument, axis, datum or option lies outside its domain.
     #[error("{0}")]
-    Domain(String),
+    Domain(Domain),
     /// There is no path such as was asked for, or none was found: an answer rather than a mistake. The text is the
     /// reason.
     #[error("{0}")]
@@ -36,7 +38,8 @@ pub enum Error {
     #[error(
         "{}{coordinates}: {what} is not decided at the cap of {bits} bits; {}",
         node.map_or(String::new(), |n| format!("node {n} at ")),
-        if node.is_some() { "move the node or drop it from the grid" } else { "change a number by a unit in its last place" }
+        if node.is_some() { "move the node or drop it from the grid" } else { "change a number by a unit in its last \
+                                                                               place" }
     )]
     Undecided {
         /// Flat index; none for a single datum.
@@ -59,11 +62,136 @@ pub enum Error {
 /// Shorthand for results of this library.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
+/// What lies outside its domain.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Domain {
+    /// A number: "{what} is {value}; it must be {limit} ({way_out})".
+    Number {
+        /// Its name.
+        what: Cow<'static, str>,
+        /// Its value.
+        value: f64,
+        /// What it must be, such as "above 0".
+        limit: Cow<'static, str>,
+        /// What to do, where that does not go without saying.
+        way_out: Option<Cow<'static, str>>,
+    },
+    /// An angle in radians. The sentence is the same, with the value in degrees too.
+    Angle {
+        /// Its name.
+        what: Cow<'static, str>,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        limit: Cow<'static, str>,
+        /// What to do.
+        way_out: Cow<'static, str>,
+    },
+    /// Anything else, in a sentence.
+    Other(String),
+}
+
+impl Display for Domain {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let way_out = match self {
+            Domain::Number { what, value, limit, way_out } => {
+                write!(f, "{what} is {}; it must be {limit}", written(*value))?;
+                way_out.as_ref()
+            }
+            Domain::Angle { what, value, limit, way_out } => {
+                write!(f, "{what} is {}; it must be {limit}", written_angle(*value))?;
+                Some(way_out)
+            }
+            Domain::Other(sentence) => return f.write_str(sentence),
+        };
+        way_out.map_or(Ok(()), |way_out| write!(f, " ({way_out})"))
+    }
+}
+
 impl Error {
+    /// A number outside its domain: "{what} is {value}; it must be {limit}".
+    pub fn domain(what: impl Into<Cow<'static, str>>, value: f64, limit: impl Into<Cow<'static, str>>) -> Error {
+        Error::Domain(Domain::Number { what: what.into(), value, limit: limit.into(), way_out: None })
+    }
+
+    /// The same with what to do.
+    pub(crate) fn or(mut self, advice: impl Into<Cow<'static, str>>) -> Error {
+        if let Error::Domain(Domain::Number { way_out, .. }) = &mut self {
+            *way_out = Some(advice.into());
+        }
+        self
+    }
+
+    /// An angle in radians outside its domain.
+    pub(crate) fn angle(
+        what: impl Into<Cow<'static, str>>,
+        value: f64,
+        limit: impl Into<Cow<'static, str>>,
+        way_out: impl Into<Cow<'static, str>>,
+    ) -> Error {
+        Error::Domain(Domain::Angle { what: what.into(), value, limit: limit.into(), way_out: way_out.into() })
+    }
+
+    /// Something outside its domain, in a sentence that names it, its value, what is allowed and the way out.
+    pub fn invalid(sentence: impl Into<String>) -> Error {
+        Error::Domain(Domain::Other(sentence.into()))
+    }
+
+    /// The same with the place before it, such as a field or a line.
+    pub fn at(self, place: impl Display) -> Error {
+        let prefixed = |what: Cow<'static, str>| format!("{place}: {what}").into();
+        Error::Domain(match self {
+            Error::Domain(Domain::Number { what, value, limit, way_out }) => {
+                Domain::Number { what: prefixed(what), value, limit, way_out }
+            }
+            Error::Domain(Domain::Angle { what, value, limit, way_out }) => {
+                Domain::Angle { what: prefixed(what), value, limit, way_out }
+            }
+            other => Domain::Other(format!("{place}: {other}")),
+        })
+    }
+
     pub(crate) fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Error {
         let path = path.into();
         move |source| Error::Io { path, source }
     }
+}
+
+/// Refuses a number that is not finite.
+pub(crate) fn finite(what: impl Into<Cow<'static, str>>, value: f64) -> Result<f64> {
+    if value.is_finite() { Ok(value) } else { Err(Error::domain(what, value, "finite")) }
+}
+
+/// Refuses a number that is not finite and above 0.
+pub(crate) fn positive(what: impl Into<Cow<'static, str>>, value: f64) -> Result<f64> {
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(Error::domain(what, value, "finite and above 0")) }
+}
+
+/// Refuses a number that is not above 0; infinity is.
+pub(crate) fn above_zero(what: impl Into<Cow<'static, str>>, value: f64) -> Result<f64> {
+    if value > 0.0 { Ok(value) } else { Err(Error::domain(what, value, "above 0")) }
+}
+
+/// Refuses a number of samples with which a curve has not both its ends.
+pub(crate) fn samples(count: usize) -> Result<usize> {
+    let few = || Error::domain("the number of samples of a curve", count as f64, "at least 2, the ends");
+    if count >= 2 { Ok(count) } else { Err(few()) }
+}
+
+/// A number as a reader writes it: all its digits, no `.0`, and the scientific form from 1e16 on and below 1e-5, so
+/// that never a row of zeros stands in a sentence.
+pub(crate) fn written(x: f64) -> String {
+    let text = format!("{x:?}");
+    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
+}
+
+/// An angle in radians as a reader writes it, with the degrees that it is.
+fn written_angle(angle: f64) -> String {
+    let degrees = angle.to_degrees();
+    // Six decimals undo the rounding of degrees that were turned into radians; smaller angles have none to undo.
+    let degrees = if degrees.abs() < 1e-3 { degrees } else { (degrees * 1e6).round() / 1e6 };
+    if degrees.is_finite() { format!("{} ({} degrees)", written(angle), written(degrees)) } else { written(angle) }
 }
 
 /// What the system said, as a sentence with a way out where there is one, and its own words after.
@@ -83,4 +211,30 @@ fn in_words(source: &std::io::Error) -> String {
     };
     // An error that was made from its kind alone has no words beyond it.
     if source.raw_os_error().is_some() { format!("{what} ({source})") } else { what.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_messages_are_short() {
+        assert_eq!(
+            [2.0, 0.25, -0.0, 5e-324, 1.5e300, -1e-310].map(written),
+            ["2", "0.25", "-0", "5e-324", "1.5e300", "-1e-310"]
+        );
+    }
+
+    #[test]
+    fn sentences_have_their_parts_in_order() {
+        let error = Error::domain("the radius", 0.0, "finite and above 0");
+        assert_eq!(error.to_string(), "the radius is 0; it must be finite and above 0");
+        let error = error.or("change the unit").at("paths[2]");
+        assert_eq!(error.to_string(), "paths[2]: the radius is 0; it must be finite and above 0 (change the unit)");
+        let error = Error::angle("phi0", 4.0, "below pi", "radians").at("line 3");
+        assert_eq!(error.to_string(), "line 3: phi0 is 4 (229.183118 degrees); it must be below pi (radians)");
+        assert_eq!(Error::NoPath("none".into()).at("x").to_string(), "x: none");
+        assert!(finite("x", f64::NAN).is_err() && positive("x", f64::INFINITY).is_err() && samples(1).is_err());
+        assert_eq!((positive("x", 2.0).unwrap(), above_zero("x", f64::INFINITY).unwrap()), (2.0, f64::INFINITY));
+    }
 }

@@ -32,7 +32,7 @@ impl Draft {
     /// # Errors
     /// Those of the system, and one for a target that exists but is no ordinary file: renaming would replace a device
     /// or a pipe.
-    pub fn beside(path: &Path) -> io::Result<Draft> {
+    pub(crate) fn beside(path: &Path) -> io::Result<Draft> {
         let target = place(path)?;
         let folder = folder(&target);
         if !folder.is_dir() {
@@ -61,7 +61,7 @@ impl Draft {
     }
 
     /// The file to write to.
-    pub fn file(&mut self) -> &mut File {
+    pub(crate) fn file(&mut self) -> &mut File {
         self.file.as_file_mut()
     }
 
@@ -69,7 +69,7 @@ impl Draft {
     ///
     /// # Errors
     /// Those of the system; what was in the place before is then untouched.
-    pub fn keep(self) -> io::Result<()> {
+    pub(crate) fn keep(self) -> io::Result<()> {
         self.file.as_file().sync_all()?;
         self.file.persist(&self.target).map_err(|e| e.error)?;
         // Makes the new name durable; only Unix lets a folder be opened for that.
@@ -143,8 +143,9 @@ pub fn check_room(folder: &Path, what: &str, needed: u64) -> Result<()> {
     let there =
         folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.exists());
     match there.and_then(free) {
-        Some(free) if free < needed => Err(Error::Domain(format!(
-            "{what} would take {} and the disk of {} has {} free; choose another folder, free some room, or ask for fewer nodes or fields",
+        Some(free) if free < needed => Err(Error::invalid(format!(
+            "{what} would take {} and the disk of {} has {} free; choose another folder, free some room, or ask for \
+             fewer nodes or fields",
             size(needed),
             folder.display(),
             size(free)

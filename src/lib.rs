@@ -130,8 +130,7 @@ pub mod files;
 pub mod grid;
 #[cfg(test)]
 mod noise;
-#[doc(hidden)]
-pub mod num;
+mod num;
 pub mod path;
 #[cfg(feature = "picture")]
 pub mod picture;

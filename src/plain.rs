@@ -10,8 +10,8 @@ const QUOTED: usize = 60;
 /// A complaint of JSON's reader about the value at a path such as `paths[1].start`; an empty path is the whole text.
 pub fn json(path: &str, error: &serde_json::Error) -> String {
     use serde_json::error::Category;
-    let told = error.to_string();
-    let what = told.rfind(" at line ").map_or(&told[..], |end| &told[..end]);
+    let whole = error.to_string();
+    let what = whole.rfind(" at line ").map_or(&whole[..], |end| &whole[..end]);
     let place = format!("line {}, column {}", error.line(), error.column());
     let at = if path.is_empty() { String::new() } else { format!(", at {path}") };
     match error.classify() {
@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn what_serde_says_becomes_a_sentence() {
         let long = format!("{{\"start\": \"{}\"}}", "x".repeat(1000));
-        for (text, told) in [
+        for (text, part) in [
             (r#"{"start": "a"}"#, "it must be a pair of numbers [x, y]; it is the text \"a\" (line 1, column 13)"),
             (r#"{"start": "a, expected b"}"#, "it is the text \"a, expected b\" ("),
             (r#"{"start": [1]}"#, "must be a pair of numbers [x, y]; it has 1 value ("),
@@ -211,7 +211,7 @@ mod tests {
         ] {
             let said =
                 if text == "[]" { read::<std::collections::BTreeMap<String, f64>>(text) } else { read::<Input>(text) };
-            assert!(said.contains(told) && said.len() < 200, "{text}: {said}");
+            assert!(said.contains(part) && said.len() < 200, "{text}: {said}");
         }
     }
 

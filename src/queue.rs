@@ -39,27 +39,27 @@ impl<T> Ord for Entry<T> {
 }
 
 impl<T> Queue<T> {
-    pub fn new() -> Queue<T> {
+    pub(crate) fn new() -> Queue<T> {
         Queue { heap: BinaryHeap::new(), count: 0 }
     }
 
-    pub fn push(&mut self, bound: f64, item: T) {
+    pub(crate) fn push(&mut self, bound: f64, item: T) {
         self.heap.push(Entry { bound, number: self.count, item });
         self.count += 1;
     }
 
     /// The item of the least bound, and that.
-    pub fn pop(&mut self) -> Option<(f64, T)> {
+    pub(crate) fn pop(&mut self) -> Option<(f64, T)> {
         self.heap.pop().map(|entry| (entry.bound, entry.item))
     }
 
     /// The same, if the bound is below a limit.
-    pub fn pop_below(&mut self, limit: f64) -> Option<(f64, T)> {
+    pub(crate) fn pop_below(&mut self, limit: f64) -> Option<(f64, T)> {
         if self.least()? < limit { self.pop() } else { None }
     }
 
     /// The least bound.
-    pub fn least(&self) -> Option<f64> {
+    pub(crate) fn least(&self) -> Option<f64> {
         self.heap.peek().map(|entry| entry.bound)
     }
 }

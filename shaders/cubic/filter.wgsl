@@ -28,9 +28,9 @@ struct Half {
 fn half_theorem(b: vec3<f32>, e: vec3<f32>, w: f32, delta: f32) -> Half {
     let product = b.x * b.z;
     let over = 8.0 * (product * w) - b.y * b.y;
-    let error = ((abs(b.x) * e.z + abs(b.z) * e.x + e.x * e.z) * (w + delta) + abs(product) * delta) * 8.1
+    let error = ((abs(b.x) * e.z + abs(b.z) * e.x + e.x * e.z) * (w + delta) + abs(product) * delta) * THROUGH
         + (2.0 * abs(b.y) + e.y) * e.y
-        + (8.0 * (abs(product) * w) + b.y * b.y) * (16.0 * UNIT);
+        + (8.0 * (abs(product) * w) + b.y * b.y) * ROUNDINGS;
     let middle_yes = b.y > e.y || over > error;
     let middle_no = b.y < -e.y && over < -error;
     let bad_end = b.x < -e.x;
@@ -50,7 +50,7 @@ fn half_error(b: vec3<f32>, e: vec3<f32>, c: vec3<f32>, w: f32, delta: f32) -> f
         5.0 * (near * near * e.x + (w + near) * delta * abs(b.x)),
         near * e.y + delta * abs(b.y),
         near * e.z + delta * abs(b.z),
-    ) * 1.01 + 4.0 * UNIT * abs(c);
+    ) * COVER + 4.0 * UNIT * abs(c);
     return max(errors.x, max(errors.y, errors.z));
 }
 
@@ -147,7 +147,7 @@ fn evaluate(index: vec4<u32>) -> u32 {
         if at_start.theorem == YES && at_end.theorem == YES {
             spirals += 1u;
             flags |= SPIRAL | THEOREM31_ANY;
-            // With k > 1/3 the first root is the smaller positive one of (A.10).
+            // With k > 1/3 the first root is the smaller positive one of Habib & Sakai, (A.10).
             flags |= select(0u, THEOREM31, slot == 0u && solvable);
             continue;
         }

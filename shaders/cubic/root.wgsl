@@ -53,7 +53,7 @@ fn find_root(d: Datum, start: f32) -> Root {
     }
     let r = residual(d, x);
     // Near a double root delta may come out large; it then fails the test for `small`.
-    let delta = min(2.5 * r.error / abs(steep(r.slope)) + 4.0 * UNIT * x, 3.0);
+    let delta = min(TRIED * r.error / abs(steep(r.slope)) + 4.0 * UNIT * x, 3.0);
     let low = x - delta;
     let high = x + delta;
     let at_low = residual(d, low);
@@ -61,9 +61,9 @@ fn find_root(d: Datum, start: f32) -> Root {
     let falls = at_low.f > at_low.error && at_high.f < -at_high.error;
     let rises = at_low.f < -at_low.error && at_high.f > at_high.error;
     let inside = low > 0.0 && high <= 3.0 && at_high.y > ETA;
-    let small = delta * 64.0 < x;
+    let small = delta * SMALL < x;
     // The root lies between the rounded ends; see root.rs.
-    let reach = 1.01 * delta + 4.0 * UNIT;
-    let delta_y = 2.1 * (d.a * x * reach) + ETA;
+    let reach = COVER * delta + ENDS;
+    let delta_y = THROUGH_X * (d.a * x * reach) + ETA;
     return Root(x, r.y, max(reach, delta_y), low, high, (falls || rises) && inside && small);
 }

@@ -1,4 +1,4 @@
-// Given arc length: the end speed z and the root from (10)-(13), as in curve/equal_length.rs.
+// Given arc length: the end speed z and the root from Farouki et al., (10)-(13), as in curve/equal_length.rs.
 
 fn plus(a: Near, b: Near) -> Near {
     let value = a.value + b.value;
@@ -18,17 +18,17 @@ fn over(a: Near, b: Near) -> Near {
     }
     let value = a.value / b.value;
     let rest = abs(a.value - value * b.value) + 3.0 * UNIT * abs(a.value);
-    return Near(value, 1.01 * (rest + a.error + abs(value) * b.error) / least);
+    return Near(value, COVER * (rest + a.error + abs(value) * b.error) / least);
 }
 
 fn root_of(x: Near) -> Near {
     let value = sqrt(max(x.value, 1e-25));
     let rest = abs(x.value - value * value) + 3.0 * UNIT * value * value;
-    return Near(value, select(1e30, 1.01 * (rest + x.error) / value, x.value > x.error));
+    return Near(value, select(1e30, COVER * (rest + x.error) / value, x.value > x.error));
 }
 
 fn rounded(value: f32) -> Near {
-    return Near(value, 1.01 * UNIT * abs(value));
+    return Near(value, COVER * UNIT * abs(value));
 }
 
 // offsets: first pair of the chunk, where the axis of S begins.
@@ -42,7 +42,7 @@ fn ends(index: vec4<u32>, other: bool) -> Ends {
     let q0 = rounded(lengths.q0);
     let usable = sums.usable && p0.value > 0.0;
     // g comes from differences in f64.
-    let g = Near(forms.z, 1.01 * UNIT * abs(forms.z) + 1e-13);
+    let g = Near(forms.z, COVER * UNIT * abs(forms.z) + 1e-13);
     let a = times(p0, rounded(forms.x));
     let b = times(q0, rounded(forms.y));
     let above = a.value >= b.value;
@@ -60,7 +60,7 @@ fn ends(index: vec4<u32>, other: bool) -> Ends {
     let safe = root_of(over(times(top, plus(excess, root)), whole));
     let rest = over(times(g, z), safe);
     let size = root_of(z);
-    let error = 1.01 * size.error + 2.1 * UNIT * size.value;
+    let error = COVER * size.error + 2.1 * UNIT * size.value;
     var roots = vec2<f32>(rest.value, safe.value);
     if above {
         roots = roots.yx;

@@ -16,6 +16,6 @@ fn ends(index: vec4<u32>, other: bool) -> Ends {
     let length = modulus(root);
     // y^2 - Z = (y - r)(y + r), and one of both factors is at least |y|.
     let off = modulus(product(root, root) - z) + 24.0 * UNIT * size + 8.0 * UNIT * length * length;
-    let root_error = 1.01 * off / max(length, 1e-10);
+    let root_error = COVER * off / max(length, 1e-10);
     return Ends(w0, w2, error, root, root_error, usable && root_error < 0.1 * length);
 }

@@ -26,7 +26,7 @@ struct Shape {
 
 fn scaled(x: Near, by: f32) -> Near {
     let value = x.value * by;
-    return Near(value, abs(value) * SCALE + x.error * (1.01 * by) + FLOOR);
+    return Near(value, abs(value) * SCALE + x.error * (COVER * by) + FLOOR);
 }
 
 fn find_shape(angle: Angle, a: Near, b: Near, none: bool) -> Shape {
@@ -62,7 +62,7 @@ fn levels(angle: Angle, shape: Shape) -> u32 {
     if !(abs(inverse * m - 1.0) < 0.01) {
         return UNDECIDED;
     }
-    let relative = shape.m.error * inverse * 3.4 + shape.u.error * 2.2 + COEFFICIENT;
+    let relative = shape.m.error * inverse * 3.4 + shape.u.error * THROUGH_U + COEFFICIENT;
     var error: array<f32, 6>;
     for (var i = 0u; i < 6u; i += 1u) {
         error[i] = size[i] * relative;

@@ -2,10 +2,10 @@
 
 fn invert(alpha: Near, beta: Near, g: f32) -> Shape {
     let u = 1.0 / alpha.value;
-    let rho = (abs(alpha.value * u - 1.0) + alpha.error * u + 3.0 * UNIT) * 1.05;
+    let rho = (abs(alpha.value * u - 1.0) + alpha.error * u + 3.0 * UNIT) * LOOSE;
     let square = u * u;
     let sum = beta.value * square;
-    let error = (beta.error * square + abs(sum) * rho * 2.0) * 1.05 + (abs(sum) + 1.0) * (4.0 * UNIT);
+    let error = (beta.error * square + abs(sum) * rho * 2.0) * LOOSE + (abs(sum) + 1.0) * (4.0 * UNIT);
     return Shape(Near(u, rho), Near(sum - 1.0, error), true, false);
 }
 

@@ -12,7 +12,7 @@ fn residual(beta: Near, m: Near, u: f32) -> Near {
     let size = abs(m.value);
     let terms = 2.0 * ((size + 3.0) * u) + 3.0 * (size * (size + 1.0)) + 2.0 + abs(right);
     let through_m = (2.0 * u + 6.0 * size + 3.0 + 3.0 * m.error) * m.error;
-    return Near(left - right, (through_m + beta.error * (u * u * u)) * 1.01 + terms * RESIDUAL);
+    return Near(left - right, (through_m + beta.error * (u * u * u)) * COVER + terms * RESIDUAL);
 }
 
 // u G' - 3G, which is positive; for guesses, so never too small to divide by.
@@ -50,7 +50,7 @@ fn invert(alpha: Near, beta: Near, g: f32) -> Shape {
     let m = shape_at(alpha, g, u);
     let value = residual(beta, m, u);
     // Any delta would do that the proof accepts.
-    let wide = 2.5 * value.error / slope_at(alpha, beta, g, m.value, value.value, u) + 4.0 * UNIT;
+    let wide = TRIED * value.error / slope_at(alpha, beta, g, m.value, value.value, u) + 4.0 * UNIT;
     let rho = min(wide, 0.5);
     let low = u - rho * u;
     let high = u + rho * u;
@@ -59,8 +59,8 @@ fn invert(alpha: Near, beta: Near, g: f32) -> Shape {
     let g_high = residual(beta, shape_at(alpha, g, high), high);
     let crossing = g_low.value < -g_low.error && g_high.value > g_high.error;
     // The ends are rounded, and the root lies between them.
-    let around = rho * 1.01 + 4.0 * UNIT;
-    let error = m.error + (alpha.value * u + 12.0 * g) * u * 2.2 * around;
+    let around = rho * COVER + 4.0 * UNIT;
+    let error = m.error + (alpha.value * u + 12.0 * g) * u * THROUGH_U * around;
     return Shape(Near(u, around), Near(m.value, error), crossing && monotone(m_low), false);
 }
 

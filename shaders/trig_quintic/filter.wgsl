@@ -78,7 +78,7 @@ fn positive(coefficients: Coefficients) -> u32 {
             piece = step(piece);
         }
         // What steps took from beyond the last coefficient has reached none of these.
-        let after = e + 1.01 * f32(COEFFICIENTS - 1u) * UNIT * size;
+        let after = e + COVER * f32(COEFFICIENTS - 1u) * UNIT * size;
         waiting[count] = right;
         levels[count] = level + 1u;
         errors[count] = after;

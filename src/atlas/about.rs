@@ -1,7 +1,7 @@
 //! What an atlas says about itself: the metadata of the file, key by key.
 
 use super::Spec;
-use crate::family::{NO_VALUE, unpack};
+use crate::family::{self, Family, NO_VALUE, unpack};
 use crate::grid::{Axis, Grid, Spacing};
 use crate::plain;
 use serde::de::DeserializeOwned;
@@ -112,7 +112,7 @@ impl NamedAxis {
     }
 
     /// The axis with these values, if its spacing gives just them.
-    pub fn build(&self, values: Vec<f64>) -> Result<Axis, String> {
+    pub(super) fn build(&self, values: Vec<f64>) -> Result<Axis, String> {
         let (Some(&lo), Some(&hi), count) = (values.first(), values.last(), values.len()) else {
             return Err(format!("the axis `{}` is empty", self.name));
         };
@@ -136,6 +136,14 @@ impl NamedAxis {
 }
 
 impl About {
+    /// Its family.
+    ///
+    /// # Errors
+    /// [`crate::Error::Domain`] for one that this program does not have.
+    pub fn family(&self) -> crate::Result<&'static dyn Family> {
+        family::by_name(&self.family).map_err(|e| e.at(format!("the atlas `{}`", self.name)))
+    }
+
     pub(crate) fn of(spec: &Spec) -> Result<About, String> {
         let names: Vec<&str> = spec.grid.axes().iter().map(Axis::name).collect();
         let family = spec.family;
@@ -238,7 +246,8 @@ impl About {
         let version = text("format_version")?;
         if version != FORMAT_VERSION.to_string() {
             return Err(format!(
-                "its format version is {version:?}; this program reads version {FORMAT_VERSION}, so write it anew from its recipe"
+                "its format version is {version:?}; this program reads version {FORMAT_VERSION}, so write it anew from \
+                 its recipe"
             ));
         }
         let kind = match map.get("kind").map(String::as_str) {

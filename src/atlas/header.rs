@@ -51,7 +51,7 @@ pub(crate) struct Header {
 impl Header {
     /// Lays the tensors out, the widest type first, so that each is aligned when the header's end is; hashes are zero
     /// as yet.
-    pub fn new(about: About, grid: Grid) -> Result<Header, String> {
+    pub(crate) fn new(about: About, grid: Grid) -> Result<Header, String> {
         let shape = grid.shape();
         let scalars = about.scalars.iter().map(|s| (s.name.clone(), Dtype::F32, shape.clone()));
         let bytes = [FLAGS, SOLUTIONS].map(|name| (name.to_owned(), Dtype::U8, shape.clone()));
@@ -60,7 +60,7 @@ impl Header {
     }
 
     /// The same for cells: `top` of them along each axis, and so many words of trees.
-    pub fn of_cells(about: About, grid: Grid, top: usize, words: usize) -> Result<Header, String> {
+    pub(crate) fn of_cells(about: About, grid: Grid, top: usize, words: usize) -> Result<Header, String> {
         let shape = |last: usize| [vec![top; grid.axes().len()], vec![last]].concat();
         let fields = vec![
             (ROOTS.to_owned(), Dtype::U32, shape(about.flags.len())),
@@ -93,28 +93,41 @@ impl Header {
     }
 
     /// Number of bytes after the header.
-    pub fn body_len(&self) -> usize {
+    pub(crate) fn body_len(&self) -> usize {
         self.tensors.last().map_or(0, |t| t.info.data_offsets.1)
     }
 
-    /// Where a tensor lies, counted from the end of the header.
-    pub fn range(&self, name: &str) -> Option<Range<usize>> {
-        let (start, end) = self.tensors.iter().find(|t| t.name == name)?.info.data_offsets;
-        Some(start..end)
+    /// Where a tensor lies in the file, whose first tensor begins at `body`.
+    pub(crate) fn range(&self, name: &str, body: usize) -> Result<Range<usize>, String> {
+        let tensor = self.tensors.iter().find(|t| t.name == name);
+        let (start, end) = tensor.ok_or_else(|| format!("it has no tensor `{name}`"))?.info.data_offsets;
+        Ok(body + start..body + end)
+    }
+
+    /// [`Header::parse`] of a file of one kind, to be read on this machine.
+    pub(crate) fn open(file: &[u8], kind: Kind) -> Result<(Header, usize), String> {
+        if cfg!(target_endian = "big") {
+            return Err("its numbers are little-endian, those of this machine are not".into());
+        }
+        match Header::parse(file)? {
+            found if found.0.about.kind == kind => Ok(found),
+            _ if kind == Kind::Nodes => Err("it holds cells, not nodes; `spiral_atlas::cells::Cells` opens it".into()),
+            _ => Err("it holds nodes, not cells; `spiral_atlas::atlas::Atlas` opens it".into()),
+        }
     }
 
     /// The metadata of the file, sorted by key.
-    pub fn metadata(&self) -> Result<BTreeMap<String, String>, String> {
+    pub(crate) fn metadata(&self) -> Result<BTreeMap<String, String>, String> {
         self.metadata_with(self.id()?)
     }
 
     /// BLAKE3 of the header as written but with zeros for this hash itself: it stands for all that the atlas holds.
-    pub fn id(&self) -> Result<Hash, String> {
+    pub(crate) fn id(&self) -> Result<Hash, String> {
         Ok(blake3::hash(&self.render_with(ZERO)?))
     }
 
     /// The header's bytes with the length before them; their number does not depend on the hashes.
-    pub fn render(&self) -> Result<Vec<u8>, String> {
+    pub(crate) fn render(&self) -> Result<Vec<u8>, String> {
         self.render_with(self.id()?)
     }
 
@@ -150,7 +163,7 @@ impl Header {
     /// Reads and checks the header of a whole file; returns it with the offset of the first tensor.
     ///
     /// Touches the header and the axes only.
-    pub fn parse(file: &[u8]) -> Result<(Header, usize), String> {
+    pub(crate) fn parse(file: &[u8]) -> Result<(Header, usize), String> {
         let (text, body) = split(file)?;
         let metadata: Metadata = serde_json::from_slice(text)
             .map_err(|e| format!("its header is no safetensors header: {}", plain::json("", &e)))?;
@@ -200,7 +213,8 @@ impl Tensor {
         match found {
             Some(f) if (&f.dtype, &f.shape, &f.data_offsets) == (dtype, shape, data_offsets) => Ok(()),
             Some(f) => Err(format!(
-                "tensor `{}` is {:?} {:?} at {:?}; its grid and metadata ask for {dtype:?} {shape:?} at {data_offsets:?}",
+                "tensor `{}` is {:?} {:?} at {:?}; its grid and metadata ask for {dtype:?} {shape:?} at \
+                 {data_offsets:?}",
                 self.name, f.dtype, f.shape, f.data_offsets
             )),
             None => Err(format!("it has no tensor `{}`", self.name)),
@@ -214,7 +228,8 @@ fn split(file: &[u8]) -> Result<(&[u8], &[u8]), String> {
     let len = u64::from_le_bytes(*len);
     if len > MAX_HEADER as u64 || len % WORD as u64 != 0 {
         return Err(format!(
-            "it is no atlas: its first {WORD} bytes announce a header of {len} bytes, where an atlas has a multiple of {WORD} up to {MAX_HEADER}"
+            "it is no atlas: its first {WORD} bytes announce a header of {len} bytes, where an atlas has a multiple of \
+             {WORD} up to {MAX_HEADER}"
         ));
     }
     rest.split_at_checked(len as usize).ok_or_else(|| format!("it ends inside its header of {len} bytes"))

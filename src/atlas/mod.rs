@@ -133,17 +133,8 @@ impl Atlas {
 
     fn new(path: PathBuf, map: Map) -> Result<Atlas> {
         let invalid = |what| Error::Atlas { path: path.clone(), what };
-        if cfg!(target_endian = "big") {
-            return Err(invalid("its numbers are little-endian, those of this machine are not".into()));
-        }
-        let (header, body) = Header::parse(&map).map_err(invalid)?;
-        if header.about.kind != Kind::Nodes {
-            return Err(invalid("it holds cells, not nodes; `spiral_atlas::cells::Cells` opens it".into()));
-        }
-        let place = |name| {
-            let range = header.range(name).ok_or_else(|| invalid(format!("it has no tensor `{name}`")))?;
-            Ok(body + range.start..body + range.end)
-        };
+        let (header, body) = Header::open(&map, Kind::Nodes).map_err(invalid)?;
+        let place = |name| header.range(name, body).map_err(invalid);
         let (flags, solutions) = (place(FLAGS)?, place(SOLUTIONS)?);
         let (metadata, id) = (header.metadata().map_err(invalid)?, header.id().map_err(invalid)?);
         let lookups = header.grid.axes().iter().map(Lookup::new).collect();
@@ -293,8 +284,7 @@ impl Atlas {
     }
 
     fn tensor(&self, name: &str) -> Option<&[u8]> {
-        let range = self.header.range(name)?;
-        self.map.get(self.body + range.start..self.body + range.end)
+        self.map.get(self.header.range(name, self.body).ok()?)
     }
 
     fn invalid(&self, what: String) -> Error {
@@ -319,6 +309,6 @@ pub fn kind(path: impl AsRef<Path>) -> Result<Kind> {
 /// # Errors
 /// [`Error::Atlas`], with the path `(memory)`, when they are no atlas.
 pub fn kind_of(bytes: &[u8]) -> Result<Kind> {
-    let told = |what| Error::Atlas { path: PathBuf::from(MEMORY), what };
-    Header::parse(bytes).map(|(header, _)| header.about.kind).map_err(told)
+    let invalid = |what| Error::Atlas { path: PathBuf::from(MEMORY), what };
+    Header::parse(bytes).map(|(header, _)| header.about.kind).map_err(invalid)
 }

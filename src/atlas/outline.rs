@@ -5,7 +5,7 @@ use super::header::Header;
 use super::write::{Writer, header_of};
 use super::{Atlas, Kind, Spec};
 use crate::error::{Error, Result};
-use crate::family::{self, Family};
+use crate::family::Family;
 use crate::grid::{Grid, Lookup};
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -51,7 +51,7 @@ impl Outline {
         Ok(Outline::new(Header::new(atlas.about().clone(), atlas.grid().clone()).map_err(invalid)?))
     }
 
-    /// Reads what [`Outline::metadata`] told, and the values of the axes that it names.
+    /// Reads what [`Outline::metadata`] gives, and the values of the axes that it names.
     ///
     /// # Arguments
     /// - `place`: where they are from, for messages.
@@ -74,8 +74,8 @@ impl Outline {
             let grid = Grid::new(axes.iter().map(axis).collect::<Result<_, _>>()?).map_err(|e| e.to_string())?;
             let outline = Outline::new(Header::new(about, grid)?);
             // As a header, metadata have one spelling.
-            let told = outline.header.about.to_map(&outline.header.grid)?;
-            let differs = |(key, text): &(&String, &String)| told.get(*key) != Some(*text);
+            let known = outline.header.about.to_map(&outline.header.grid)?;
+            let differs = |(key, text): &(&String, &String)| known.get(*key) != Some(*text);
             match metadata.iter().find(differs) {
                 None => Ok(outline),
                 Some((key, text)) => Err(format!("its metadata `{key}` is not as this version spells it: {text:?}")),
@@ -104,7 +104,7 @@ impl Outline {
     /// # Errors
     /// None that an outline can have.
     pub fn metadata(&self) -> Result<BTreeMap<String, String>> {
-        self.about().to_map(self.grid()).map_err(Error::Domain)
+        self.about().to_map(self.grid()).map_err(Error::invalid)
     }
 
     /// The family, and which of its scalars there are.
@@ -113,12 +113,11 @@ impl Outline {
     /// [`Error::Domain`] for a family or a scalar that this program does not have.
     pub fn family(&self) -> Result<(&'static dyn Family, Vec<usize>)> {
         let about = self.about();
-        let family = family::by_name(&about.family)
-            .ok_or_else(|| Error::Domain(format!("this program has no family `{}`", about.family)))?;
+        let family = about.family()?;
         let place = |name: &str| family.about().scalars.iter().position(|s| s.name == name);
         let scalar = |s: &super::Named| {
             place(&s.name).ok_or_else(|| {
-                Error::Domain(format!("this program knows no scalar `{}` of `{}`", s.name, about.family))
+                Error::invalid(format!("this program knows no scalar `{}` of `{}`", s.name, about.family))
             })
         };
         Ok((family, about.scalars.iter().map(scalar).collect::<Result<_>>()?))
@@ -140,7 +139,7 @@ impl Outline {
     /// # Errors
     /// As there.
     pub fn create(&self, path: &Path) -> Result<Writer> {
-        let header = Header::new(self.about().clone(), self.grid().clone()).map_err(Error::Domain)?;
+        let header = Header::new(self.about().clone(), self.grid().clone()).map_err(Error::invalid)?;
         Writer::of(path, header)
     }
 }

@@ -48,7 +48,7 @@ impl Writer {
     /// twice, a recipe too long).
     pub fn size(spec: &Spec) -> Result<u64> {
         let header = header_of(spec)?;
-        Ok(header.render().map_err(Error::Domain)?.len() as u64 + header.body_len() as u64)
+        Ok(header.render().map_err(Error::invalid)?.len() as u64 + header.body_len() as u64)
     }
 
     /// Opens a temporary file in the folder of `path` and lays the atlas out.
@@ -61,7 +61,7 @@ impl Writer {
     }
 
     pub(super) fn of(path: &Path, header: Header) -> Result<Writer> {
-        let head = header.render().map_err(Error::Domain)?;
+        let head = header.render().map_err(Error::invalid)?;
         let io = || Error::io(path);
         let size = head.len() as u64 + header.body_len() as u64;
         check_room(folder(path), &format!("the atlas `{}`", header.about.name), size)?;
@@ -86,7 +86,7 @@ impl Writer {
     /// different lengths or values that no atlas may hold; [`Error::Io`], naming the target, for a full disk or the
     /// like.
     pub fn put(&mut self, chunk: &Chunk) -> Result<()> {
-        self.check(chunk).map_err(|what| Error::Domain(format!("chunk at node {}: {what}", chunk.start)))?;
+        self.check(chunk).map_err(|what| Error::invalid(format!("chunk at node {}: {what}", chunk.start)))?;
         let first = self.header.grid.axes().len();
         for (i, scalar) in chunk.scalars.iter().enumerate() {
             let mut at = 4 * chunk.start;
@@ -129,13 +129,13 @@ impl Writer {
     /// Writes the header, now that all hashes are known; returns the atlas's id.
     fn complete(&mut self) -> Result<Hash> {
         if self.next != self.nodes {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the atlas `{}` has {} of {} nodes; write them all before finishing",
                 self.header.about.name, self.next, self.nodes
             )));
         }
         self.header.hashes = self.hashers.iter().map(Hasher::finalize).collect();
-        let (head, id) = (self.header.render().map_err(Error::Domain)?, self.header.id().map_err(Error::Domain)?);
+        let (head, id) = (self.header.render().map_err(Error::invalid)?, self.header.id().map_err(Error::invalid)?);
         let file = self.draft.file();
         file.rewind().and_then(|()| file.write_all(&head)).map_err(Error::io(&self.target))?;
         Ok(id)
@@ -173,8 +173,8 @@ impl Writer {
 
 /// The header of a specification as it stands before any hash is known.
 pub(super) fn header_of(spec: &Spec) -> Result<Header> {
-    let domain = |what| Error::Domain(format!("the atlas `{}`: {what}", spec.name));
-    check_name("atlas", spec.name).map_err(Error::Domain)?;
+    let domain = |what| Error::invalid(format!("the atlas `{}`: {what}", spec.name));
+    check_name("atlas", spec.name).map_err(Error::invalid)?;
     let header = Header::new(About::of(spec).map_err(domain)?, spec.grid.clone()).map_err(domain)?;
     // Whether it is short enough.
     header.render().map_err(domain)?;

@@ -64,7 +64,7 @@ pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(
     let known = work.map(&tops, |place| prover.classify(&edges.bounds(place, size), size, all))?;
     let mut left = (spec.budget / WORD).saturating_sub(fixed_words(shape, &tops));
     if spec.budget / WORD < fixed_words(shape, &tops) {
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "the budget of `{}` is {} bytes; the {} top cells alone take {}",
             spec.name,
             spec.budget,
@@ -214,12 +214,12 @@ fn lay_out(shape: Layout, known: &[Known], trees: &[Tree]) -> Built {
 pub(super) fn shape(grid: &Grid, flags: usize) -> Result<Layout> {
     let counts = grid.shape();
     let resolution = counts[0] - 1;
-    check_resolution(resolution).map_err(Error::Domain)?;
+    check_resolution(resolution).map_err(Error::invalid)?;
     if counts.iter().any(|count| *count != counts[0]) {
-        return Err(Error::Domain(format!("the axes of cells have {counts:?} edges; all must have the same number")));
+        return Err(Error::invalid(format!("the axes of cells have {counts:?} edges; all must have the same number")));
     }
     if counts.len() > MOST_AXES {
-        return Err(Error::Domain(format!("cells have at most {MOST_AXES} axes; given: {}", counts.len())));
+        return Err(Error::invalid(format!("cells have at most {MOST_AXES} axes; given: {}", counts.len())));
     }
     let top = top_count(counts.len(), resolution);
     Ok(Layout { axes: counts.len(), flags, depth: resolution.ilog2(), top: top.ilog2() })

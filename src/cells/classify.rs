@@ -33,7 +33,7 @@ impl Prover {
     /// What is known of the wanted flags all over a cell, by the cell itself and its halves, breadth first.
     ///
     /// `size` is 0 for a cell of the finest size.
-    pub fn classify(&self, cell: &Bounds, size: u32, wanted: u8) -> Known {
+    pub(super) fn classify(&self, cell: &Bounds, size: u32, wanted: u8) -> Known {
         let most = MOST_TESTS[usize::from(size > 0)];
         // Flags that some part of the cell has, that some part has not, and that some part leaves open.
         let (mut some, mut none, mut open) = (0, 0, 0);

@@ -26,7 +26,7 @@ pub fn write(path: &Path, spec: &Spec, built: &Built) -> Result<()> {
 /// # Errors
 /// [`Error::Domain`] for a specification that does not fit the cells, or a recipe too long.
 pub fn bytes(spec: &Spec, built: &Built) -> Result<Vec<u8>> {
-    let domain = |what| Error::Domain(format!("the atlas `{}`: {what}", spec.name));
+    let domain = |what| Error::invalid(format!("the atlas `{}`: {what}", spec.name));
     let Spec { name, family, grid, recipe, .. } = *spec;
     let about = About::of(&crate::atlas::Spec { name, family, grid, scalars: &[], recipe }).map_err(domain)?;
     let about = About { kind: Kind::Cells, counts: Vec::new(), ..about };
@@ -96,26 +96,16 @@ impl Cells {
 
     fn new(path: PathBuf, map: Map) -> Result<Cells> {
         let invalid = |what| Error::Atlas { path: path.clone(), what };
-        if cfg!(target_endian = "big") {
-            return Err(invalid("its numbers are little-endian, those of this machine are not".into()));
-        }
-        let (header, body) = Header::parse(&map).map_err(invalid)?;
-        if header.about.kind != Kind::Cells {
-            return Err(invalid("it holds nodes, not cells; `spiral_atlas::atlas::Atlas` opens it".into()));
-        }
+        let (header, body) = Header::open(&map, Kind::Cells).map_err(invalid)?;
         let about = &header.about;
-        let family =
-            family::by_name(&about.family).ok_or_else(|| invalid(format!("no family is named `{}`", about.family)))?;
-        let told = |e: Error| invalid(e.to_string());
-        let (_, chart) = region(family, &header.grid).map_err(told)?;
-        let shape = shape(&header.grid, family.about().flags.len()).map_err(told)?;
+        let blame = |e: Error| invalid(e.to_string());
+        let family = family::by_name(&about.family).map_err(blame)?;
+        let (_, chart) = region(family, &header.grid).map_err(blame)?;
+        let shape = shape(&header.grid, family.about().flags.len()).map_err(blame)?;
         if !about.flags.iter().map(|f| &f.name[..]).eq(family.about().flags.iter().map(|f| f.name)) {
             return Err(invalid(format!("its flags are not those of `{}`", family.about().name)));
         }
-        let place = |name| {
-            let range = header.range(name).ok_or_else(|| invalid(format!("it has no tensor `{name}`")))?;
-            Ok(body + range.start..body + range.end)
-        };
+        let place = |name| header.range(name, body).map_err(invalid);
         let (roots, trees, top) = (place(ROOTS)?, place(TREES)?, place(TOP)?);
         if top.len() != 2 * shape.top_cells() {
             return Err(invalid(format!("`{TOP}` has {} bytes; these axes need {}", top.len(), 2 * shape.top_cells())));
@@ -169,7 +159,7 @@ impl Cells {
             return Ok(known.inside);
         }
         if point.len() != self.shape.axes {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the datum has {} coordinates; it must have {}",
                 point.len(),
                 self.shape.axes
@@ -243,8 +233,7 @@ impl Cells {
     /// [`Error::Atlas`] that names the first tensor that is not what it should be.
     pub fn check_hashes(&self) -> Result<()> {
         for (name, stated) in self.hashes() {
-            let range = self.header.range(name).unwrap_or_default();
-            let found = blake3::hash(&self.map[self.body + range.start..self.body + range.end]);
+            let found = blake3::hash(&self.map[self.header.range(name, self.body).unwrap_or_default()]);
             if found != stated {
                 let what = format!("the BLAKE3 of `{name}` is {found}, not {stated}: its bytes were damaged");
                 return Err(Error::Atlas { path: self.path.clone(), what });

@@ -75,26 +75,6 @@ fn by_weight(family: &dyn Family) -> Vec<usize> {
 /// # Errors
 /// [`crate::Error::Domain`] where the family has none, or the axes are no chart of it.
 fn region(family: &'static dyn Family, grid: &Grid) -> crate::Result<(&'static dyn family::Region, usize)> {
-    let domain = crate::Error::Domain;
-    let region = family.region().ok_or_else(|| {
-        let able: Vec<&str> = family::all().iter().filter(|f| f.region().is_some()).map(|f| f.about().name).collect();
-        domain(format!(
-            "`{}` has no proofs over boxes, so no cells; families that have: {}",
-            family.about().name,
-            able.join(", ")
-        ))
-    })?;
     let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
-    let chart = family.about().charts.iter().position(|c| c.axes == names && region.covers(c.name));
-    let chart = chart.ok_or_else(|| {
-        let able: Vec<String> =
-            family.about().charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(", ")).collect();
-        domain(format!(
-            "cells of `{}` need the axes {}; given: {}",
-            family.about().name,
-            able.join(" or "),
-            names.join(", ")
-        ))
-    })?;
-    Ok((region, chart))
+    family::proofs(family, &names)
 }

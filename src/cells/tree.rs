@@ -46,28 +46,28 @@ pub(super) struct Layout {
 impl Layout {
     /// Words of a node whose children have a size of 2 to the `size` finest cells.
     #[inline]
-    pub fn words(size: u32) -> usize {
+    pub(super) fn words(size: u32) -> usize {
         if size == 0 { 1 } else { 2 }
     }
 
-    pub fn top_cells(&self) -> usize {
+    pub(super) fn top_cells(&self) -> usize {
         1 << (self.top as usize * self.axes)
     }
 
     /// The bits of a node's children.
-    pub fn children(&self) -> u32 {
+    pub(super) fn children(&self) -> u32 {
         ((1u64 << (1 << self.axes)) - 1) as u32
     }
 
     /// The top cell of the finest cell with these indices.
     #[inline]
-    pub fn top_of(&self, place: &[u32]) -> usize {
+    pub(super) fn top_of(&self, place: &[u32]) -> usize {
         let shift = self.depth - self.top;
         place.iter().fold(0, |at, i| at << self.top | (i >> shift) as usize)
     }
 
     /// Numbers within a top cell with room for the bits of the other axes between their own.
-    pub fn spread(&self) -> Box<[u32]> {
+    pub(super) fn spread(&self) -> Box<[u32]> {
         let depth = self.depth - self.top;
         let spread = |i: u32| (0..depth).fold(0, |sum, bit| sum | (i >> bit & 1) << (bit as usize * self.axes));
         (0..1 << depth).map(spread).collect()
@@ -96,7 +96,7 @@ impl Words<'_> {
     /// What the smallest cell that holds the finest cell with these indices says of the wanted flags. Words that lead
     /// nowhere say MIXED.
     #[inline]
-    pub fn find(&self, place: &[u32], wanted: u8) -> Known {
+    pub(super) fn find(&self, place: &[u32], wanted: u8) -> Known {
         let at = self.shape.top_of(place);
         let Some([inside, outside]) = self.top.get(at) else { return Known::default() };
         let mut known = Known { inside: inside & wanted, outside: outside & wanted };
@@ -145,7 +145,7 @@ impl Words<'_> {
     ///
     /// # Errors
     /// In words, the first that is not.
-    pub fn check(&self) -> Result<(), String> {
+    pub(super) fn check(&self) -> Result<(), String> {
         let shape = self.shape;
         let all = ((1u32 << shape.flags) - 1) as u8;
         if word(self.trees, 0) != Some(0) {

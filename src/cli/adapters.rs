@@ -8,7 +8,7 @@ use spiral_atlas::files::size;
 /// List the GPU adapters: type, driver, limits.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas adapters --json")]
-pub struct Args {
+pub(super) struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -16,7 +16,7 @@ pub struct Args {
 
 /// Runs the command.
 #[cfg(feature = "gpu")]
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     use spiral_atlas::eval::gpu;
     let all = gpu::adapters();
     if args.json {

@@ -6,7 +6,7 @@ use std::num::NonZero;
 
 /// Who evaluates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Choice {
+pub(super) enum Choice {
     /// What is best here: a hardware GPU, else the CPU (to verify: all there are).
     Auto,
     /// The processor.
@@ -17,7 +17,7 @@ pub enum Choice {
 
 /// The options of all commands that evaluate grids.
 #[derive(Debug, Clone, clap::Args)]
-pub struct BackendArgs {
+pub(super) struct BackendArgs {
     /// Who evaluates; the result is the same, bit for bit.
     #[arg(long, value_enum, default_value_t = Choice::Auto)]
     pub backend: Choice,
@@ -31,7 +31,7 @@ pub struct BackendArgs {
 
 impl BackendArgs {
     /// Number of worker threads.
-    pub fn threads(&self) -> usize {
+    pub(super) fn threads(&self) -> usize {
         let all = || std::thread::available_parallelism().map_or(1, NonZero::get);
         self.threads.map_or_else(all, |threads| threads as usize)
     }
@@ -40,7 +40,7 @@ impl BackendArgs {
     ///
     /// # Errors
     /// [`Error::Gpu`] when a GPU is asked for and none fits.
-    pub fn one(&self) -> Result<Backend> {
+    pub(super) fn one(&self) -> Result<Backend> {
         self.check();
         match (self.backend, &self.adapter) {
             (Choice::Cpu, _) => Ok(Backend::Cpu),
@@ -54,7 +54,7 @@ impl BackendArgs {
     ///
     /// # Errors
     /// [`Error::Gpu`] when a GPU is asked for, as `required` does, and none fits.
-    pub fn all(&self, required: bool) -> Result<(Vec<Backend>, Option<String>)> {
+    pub(super) fn all(&self, required: bool) -> Result<(Vec<Backend>, Option<String>)> {
         self.check();
         if required && self.backend == Choice::Cpu {
             super::refuse("`--require-adapter` asks for a GPU; it does not go with `--backend cpu`");
@@ -85,12 +85,12 @@ impl BackendArgs {
 ///
 /// # Errors
 /// [`Error::Gpu`], saying what to install, when the CPU made it and there is no GPU adapter.
-pub fn others(made: &Backend) -> Result<Vec<Backend>> {
+pub(super) fn others(made: &Backend) -> Result<Vec<Backend>> {
     if *made == Backend::Cpu { every_gpu() } else { Ok(vec![Backend::Cpu]) }
 }
 
 /// A backend in words.
-pub fn describe(backend: &Backend) -> String {
+pub(super) fn describe(backend: &Backend) -> String {
     match backend {
         Backend::Cpu => "the CPU".into(),
         #[cfg(feature = "gpu")]

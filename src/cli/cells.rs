@@ -1,6 +1,7 @@
 //! What the commands do with an atlas of cells.
 
 use super::Outcome;
+use super::legend::{faults, flags, head, spacing, tail};
 use super::output::{self, Object, Product, grouped};
 use spiral_atlas::atlas::{Atlas, Kind};
 use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec};
@@ -15,13 +16,13 @@ use std::time::Instant;
 const ROUNDS: u64 = 5_000;
 
 /// A file of either kind.
-pub enum Opened {
+pub(super) enum Opened {
     Nodes(Box<Atlas>),
     Cells(Box<Cells>),
 }
 
 impl Opened {
-    pub fn open(path: impl AsRef<Path>) -> Result<Opened> {
+    pub(super) fn open(path: impl AsRef<Path>) -> Result<Opened> {
         let path = path.as_ref();
         Ok(match atlas::kind(path)? {
             Kind::Nodes => Opened::Nodes(Box::new(Atlas::open(path)?)),
@@ -30,7 +31,7 @@ impl Opened {
     }
 
     /// The same, and the hashes of all that the file holds are compared with those that it states.
-    pub fn checked(path: impl AsRef<Path>) -> Result<Opened> {
+    pub(super) fn checked(path: impl AsRef<Path>) -> Result<Opened> {
         let opened = Opened::open(path)?;
         match &opened {
             Opened::Nodes(atlas) => atlas.check_hashes()?,
@@ -42,7 +43,7 @@ impl Opened {
 
 /// What was made of one atlas of cells.
 #[derive(serde::Serialize)]
-pub struct Made {
+pub(super) struct Made {
     atlas: String,
     id: String,
     kind: &'static str,
@@ -54,7 +55,7 @@ pub struct Made {
 }
 
 /// What a plan of cells specifies, with the budget that it has.
-pub fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> Spec<'a> {
+pub(super) fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> Spec<'a> {
     Spec { name: &plan.name, family: plan.family, grid: &plan.grid, budget, recipe: &recipe.text }
 }
 
@@ -68,13 +69,19 @@ fn build(spec: &Spec, threads: usize, stop: &AtomicBool) -> Result<Built> {
 }
 
 /// Makes the cells of a plan for pictures alone.
-pub fn in_memory(recipe: &Recipe, plan: &AtlasPlan, budget: u64, threads: usize, stop: &AtomicBool) -> Result<Cells> {
+pub(super) fn in_memory(
+    recipe: &Recipe,
+    plan: &AtlasPlan,
+    budget: u64,
+    threads: usize,
+    stop: &AtomicBool,
+) -> Result<Cells> {
     let spec = spec(recipe, plan, budget);
     Cells::from_bytes(&cells::bytes(&spec, &build(&spec, threads, stop)?)?)
 }
 
 /// Makes the file of a plan, its report and its pictures.
-pub fn make(
+pub(super) fn make(
     recipe: &Recipe,
     plan: &AtlasPlan,
     budget: u64,
@@ -106,7 +113,7 @@ pub fn make(
 }
 
 impl Made {
-    pub fn summary(&self) -> String {
+    pub(super) fn summary(&self) -> String {
         let Made { atlas, resolution, threads, seconds, .. } = self;
         let text = format!(
             "{atlas}: cells, up to {resolution} an axis\n  by the CPU in {seconds:.2} s, with {threads} threads\n"
@@ -116,7 +123,7 @@ impl Made {
 }
 
 /// Draws pictures of cells into a folder.
-pub fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
+pub(super) fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
     let files = picture::files(folder, &cells.about().name, plans.len());
     let draw = |(plan, file): (&PicturePlan, PathBuf)| {
         write_file(&file, &picture::cells::draw(cells, plan)?)?;
@@ -140,7 +147,7 @@ struct Verified<'a> {
 }
 
 /// Makes the cells anew and compares every word; asks the family itself about points.
-pub fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
+pub(super) fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
     let started = Instant::now();
     let stop = super::stop_flag()?;
     let mut faults: Vec<String> = cells.check_hashes().err().map(|e| e.to_string()).into_iter().collect();
@@ -186,11 +193,7 @@ pub fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
 
 impl Verified<'_> {
     fn text(&self) -> String {
-        let mut text = format!("{}\n  id {}\n", self.atlas.display(), self.id);
-        text += if self.faults.is_empty() { "  hashes, legend and recipe are sound\n" } else { "" };
-        for fault in &self.faults {
-            text += &format!("  FAULT: {fault}\n");
-        }
+        let mut text = faults(self.atlas, &self.id, &self.faults);
         let Attack { points, verdicts, wrong, first } = &self.attack;
         let (points, verdicts) = (grouped(*points), grouped(*verdicts));
         text += &match (wrong, first) {
@@ -212,7 +215,7 @@ impl Verified<'_> {
 }
 
 /// What a file of cells says about itself.
-pub fn info(cells: &Cells, json: bool) -> Result<()> {
+pub(super) fn info(cells: &Cells, json: bool) -> Result<()> {
     let about = cells.about();
     let id = cells.id()?.to_hex().to_string();
     let axes = cells.grid().axes();
@@ -220,7 +223,7 @@ pub fn info(cells: &Cells, json: bool) -> Result<()> {
         let axis = |a: &spiral_atlas::grid::Axis| {
             let values = a.values();
             serde_json::json!({
-                "name": a.name(), "spacing": super::info::spacing(a), "first": values[0], "last": values[values.len() - 1],
+                "name": a.name(), "spacing": spacing(a), "first": values[0], "last": values[values.len() - 1],
             })
         };
         let hashes = Object(cells.hashes().map(|(name, hash)| (name, hash.to_hex().to_string())).collect());
@@ -231,41 +234,20 @@ pub fn info(cells: &Cells, json: bool) -> Result<()> {
             "flags": about.flags, "blake3": hashes, "recipe": about.recipe,
         }));
     }
-    let mut text = format!("{}\n", cells.path().display());
-    for (key, value) in [
-        ("name", &about.name),
-        ("id", &id),
-        ("generator", &about.generator),
-        ("family", &about.family),
-        ("conventions", &about.conventions),
-    ] {
-        text += &format!("  {key:<12} {value}\n");
-    }
+    let mut text = head(cells.path(), about, &id);
     let (resolution, bytes) = (cells.resolution(), size(cells.bytes()));
     text += &format!("cells, up to {resolution} an axis, in {bytes}; chart `{}`\n", about.chart);
     for axis in axes {
         let (first, last) = (axis.values()[0], axis.values()[resolution]);
-        text += &format!("  {:<12} {:<6} from {first:?} to {last:?}\n", axis.name(), super::info::spacing(axis));
+        text += &format!("  {:<12} {:<6} from {first:?} to {last:?}\n", axis.name(), spacing(axis));
     }
-    text += &format!("  {}\nflags\n", about.chart_doc);
-    for (bit, flag) in about.flags.iter().enumerate() {
-        text += &format!("  bit {bit} {:<14} {}\n", flag.name, flag.doc);
-    }
-    text += "BLAKE3 of each tensor, checked\n";
-    for (name, hash) in cells.hashes() {
-        text += &format!("  {name:<12} {hash}\n");
-    }
-    text += "recipe\n";
-    for line in about.recipe.lines() {
-        text += format!("  {line}").trim_end();
-        text += "\n";
-    }
-    output::print(&text)
+    text += &format!("  {}\nflags\n{}", about.chart_doc, flags(about));
+    output::print(&(text + &tail(about, cells.hashes())))
 }
 
 /// What the cell of a datum says of each flag; `None` outside the box, or for a datum in other coordinates than those
 /// of the file.
-pub fn look_up(cells: &Cells, chart: usize, point: &[f64]) -> Option<Object<&'static str, &'static str>> {
+pub(super) fn look_up(cells: &Cells, chart: usize, point: &[f64]) -> Option<Object<&'static str, &'static str>> {
     let Known { inside, outside } = if chart == cells.chart() { cells.lookup(point)? } else { return None };
     let word = |bit: usize| match (inside >> bit & 1, outside >> bit & 1) {
         (1, _) => "INSIDE",

@@ -1,13 +1,13 @@
 //! Data for any family, from options or from the columns of a table: an option for each axis that some family has.
 
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
+use spiral_atlas::Result;
 use spiral_atlas::family::{self, Chart, Family};
 use spiral_atlas::recipe::parse_coordinate;
-use spiral_atlas::{Error, Result};
 
 /// A datum in one of its family's charts.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Datum {
+pub(super) struct Datum {
     /// Index of the chart.
     pub chart: usize,
     /// Coordinates in the order of its axes.
@@ -16,7 +16,7 @@ pub struct Datum {
 
 /// The coordinates given as options.
 #[derive(Debug, Clone)]
-pub struct Coordinates(Vec<(&'static str, f64)>);
+pub(super) struct Coordinates(Vec<(&'static str, f64)>);
 
 /// The names of all axes of all families.
 fn names() -> Vec<&'static str> {
@@ -68,7 +68,7 @@ impl FromArgMatches for Coordinates {
 
 impl Coordinates {
     /// The datum of a family, or what is missing or too much.
-    pub fn datum(&self, family: &dyn Family) -> std::result::Result<Datum, String> {
+    pub(super) fn datum(&self, family: &dyn Family) -> std::result::Result<Datum, String> {
         let given: Vec<&str> = self.0.iter().map(|(name, _)| *name).collect();
         let chart = chart(family, &given).filter(|chart| chart.1.axes.len() == given.len());
         let Some((chart, Chart { axes, .. })) = chart else {
@@ -84,7 +84,7 @@ impl Coordinates {
 
 impl Coordinates {
     /// A chart of a family and its coordinates, where some of them, which are 0 here, must not be given.
-    pub fn but(
+    pub(super) fn but(
         &self,
         family: &dyn Family,
         free: &[&str],
@@ -116,16 +116,8 @@ fn chart(family: &dyn Family, names: &[&str]) -> Option<(usize, &'static Chart)>
 }
 
 /// A datum from the cells of a row, in the order of the chart's axes.
-pub fn from_cells(family: &dyn Family, chart: usize, cells: &[&str]) -> Result<Datum> {
+pub(super) fn from_cells(family: &dyn Family, chart: usize, cells: &[&str]) -> Result<Datum> {
     let axes = family.about().charts[chart].axes;
     let point = axes.iter().zip(cells).map(|(axis, cell)| parse_coordinate(axis, cell)).collect::<Result<_>>()?;
     Ok(Datum { chart, point })
-}
-
-/// The family of a name, for an option.
-pub fn parse_family(name: &str) -> Result<&'static dyn Family> {
-    family::by_name(name).ok_or_else(|| {
-        let known: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-        Error::Domain(format!("unknown family `{name}`; known are `{}`", known.join("`, `")))
-    })
 }

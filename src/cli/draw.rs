@@ -8,7 +8,7 @@ use spiral_atlas::{Error, Result, picture, plain};
 use std::path::{Path, PathBuf};
 
 /// Draws an atlas's pictures into a folder.
-pub fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
+pub(super) fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
     let files = picture::files(folder, &atlas.about().name, plans.len());
     let draw = |(plan, file): (&PicturePlan, PathBuf)| {
         write_file(&file, &picture::draw(atlas, plan)?)?;
@@ -27,7 +27,7 @@ fn with_slice(plan: &AtlasPlan) -> Option<(&AtlasPlan, &PicturePlan)> {
 }
 
 /// Draws the first planned slices or comparisons of several atlases side by side; `None` when there are not several.
-pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
+pub(super) fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
     let of_nodes = recipe.atlases.iter().filter(|plan| plan.cells.is_none());
     let planned = atlases.iter().zip(of_nodes).filter_map(|(atlas, plan)| Some((atlas, first_slice(&plan.pictures)?)));
     let slices = planned.map(|(atlas, plan)| picture::slice(atlas, plan)).collect::<Result<Vec<_>>>()?;
@@ -44,7 +44,7 @@ pub fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path
 ///
 /// # Errors
 /// Those of [`spiral_atlas::family::Family::table`], [`Error::Recipe`] that names the file, and [`Error::Io`].
-pub fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
+pub(super) fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
     for plan in &recipe.atlases {
         let checked = match plan.cells {
             Some(budget) => spiral_atlas::cells::check(&super::cells::spec(recipe, plan, budget)),

@@ -14,7 +14,7 @@ use std::path::PathBuf;
     after_help = "Example:\n  spiral-atlas curve --from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg \\\n      \
                         --start-curvature 0.004 --end-curvature 0.04 --json | spiral-atlas export opendrive - --out road.xodr"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(subcommand)]
     format: Format,
 }
@@ -49,7 +49,7 @@ struct RoadArgs {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let Format::Opendrive(args) = &args.format;
     let options = OpenDrive { lane_width: args.lane_width, tolerance: args.tolerance };
     let paths: Vec<Course> = args.source.courses()?.into_iter().map(|(_, course)| course).collect();

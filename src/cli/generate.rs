@@ -24,7 +24,7 @@ const SAMPLES: u64 = 2000;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas generate atlases/quickstart.toml\n  \
                         spiral-atlas generate my.toml --out maps --backend gpu --adapter llvmpipe --check full")]
-pub struct Args {
+pub(super) struct Args {
     /// The recipe, a TOML file.
     recipe: PathBuf,
     /// Folder for the files; created when missing.
@@ -68,7 +68,7 @@ struct ReportFile<'a> {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let (recipe, backend) = (Recipe::read(&args.recipe)?, args.backend.one()?);
     draw::check(&args.recipe, &recipe, &args.out)?;
     for plan in &recipe.atlases {
@@ -116,7 +116,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 }
 
 /// Makes sure, before any work, that the disk has room for all atlases of a recipe together.
-pub fn check_room(recipe: &Recipe, folder: &Path) -> Result<()> {
+pub(super) fn check_room(recipe: &Recipe, folder: &Path) -> Result<()> {
     let size = |plan: &AtlasPlan| plan.cells.map_or_else(|| Writer::size(&spec(recipe, plan)), Ok);
     let sizes = recipe.atlases.iter().map(size);
     let sum = sizes.sum::<Result<u64>>()?;
@@ -132,7 +132,7 @@ fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan) -> Spec<'a> {
 }
 
 /// Evaluates an atlas straight into its file, which is then whole but not finished.
-pub fn write_atlas(
+pub(super) fn write_atlas(
     recipe: &Recipe,
     plan: &AtlasPlan,
     path: &Path,

@@ -2,10 +2,11 @@
 
 use super::Outcome;
 use super::cells::{self, Opened};
+use super::legend::{flags, head, spacing, tail};
 use super::output::{self, Object, grouped};
 use spiral_atlas::Result;
 use spiral_atlas::atlas::{About, Atlas};
-use spiral_atlas::grid::{Axis, Spacing};
+use spiral_atlas::grid::Axis;
 use std::path::PathBuf;
 
 /// Tell what an atlas holds: grid, fields, legend, hashes, recipe.
@@ -15,7 +16,7 @@ use std::path::PathBuf;
 /// `verify` tells.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas info out/quickstart.atlas.safetensors")]
-pub struct Args {
+pub(super) struct Args {
     /// The atlas.
     atlas: PathBuf,
     /// Print JSON.
@@ -24,7 +25,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let atlas = match Opened::checked(&args.atlas)? {
         Opened::Nodes(atlas) => atlas,
         Opened::Cells(found) => return cells::info(&found, args.json).map(|()| Outcome::Fine),
@@ -35,14 +36,6 @@ pub fn run(args: &Args) -> Result<Outcome> {
         output::print(&text(&atlas))?
     }
     Ok(Outcome::Fine)
-}
-
-pub fn spacing(axis: &Axis) -> &'static str {
-    match axis.spacing() {
-        Spacing::Linear { .. } => "linear",
-        Spacing::Log { .. } => "log",
-        Spacing::Values(_) => "values",
-    }
 }
 
 fn json(atlas: &Atlas) -> serde_json::Value {
@@ -66,28 +59,14 @@ fn json(atlas: &Atlas) -> serde_json::Value {
 
 fn text(atlas: &Atlas) -> String {
     let about = atlas.about();
-    let mut text = format!("{}\n", atlas.path().display());
-    for (key, value) in [
-        ("name", &about.name),
-        ("id", &atlas.id().to_hex().to_string()),
-        ("generator", &about.generator),
-        ("family", &about.family),
-        ("conventions", &about.conventions),
-    ] {
-        text += &format!("  {key:<12} {value}\n");
-    }
+    let mut text = head(atlas.path(), about, &atlas.id().to_hex());
     text += &format!("grid of {} nodes, first axis slowest; chart `{}`\n", grouped(atlas.grid().len()), about.chart);
     for axis in atlas.grid().axes() {
         let values = axis.values();
         let (count, first, last) = (values.len(), values[0], values[values.len() - 1]);
         text += &format!("  {:<12} {:<6} {count:>6} values from {first:?} to {last:?}\n", axis.name(), spacing(axis));
     }
-    text += &format!("  {}\n", about.chart_doc);
-    text += "flags (u8)\n";
-    for (bit, flag) in about.flags.iter().enumerate() {
-        text += &format!("  bit {bit} {:<14} {}\n", flag.name, flag.doc);
-    }
-    text += "solutions (u8)\n";
+    text += &format!("  {}\nflags (u8)\n{}solutions (u8)\n", about.chart_doc, flags(about));
     for count in &about.counts {
         let last = count.shift + count.bits - 1;
         text += &format!("  bits {}-{last} {:<11} {}\n", count.shift, count.name, count.doc);
@@ -98,14 +77,5 @@ fn text(atlas: &Atlas) -> String {
     for scalar in &about.scalars {
         text += &format!("  {:<20} {}\n", scalar.name, scalar.doc);
     }
-    text += "BLAKE3 of each tensor, checked\n";
-    for (name, hash) in atlas.hashes() {
-        text += &format!("  {name:<12} {hash}\n");
-    }
-    text += "recipe\n";
-    for line in about.recipe.lines() {
-        text += format!("  {line}").trim_end();
-        text += "\n";
-    }
-    text
+    text + &tail(about, atlas.hashes())
 }

@@ -13,6 +13,7 @@ mod export;
 mod generate;
 mod info;
 mod join;
+mod legend;
 mod numbers;
 mod output;
 mod path;
@@ -71,7 +72,7 @@ enum Command {
     },
 }
 
-/// How a command ended that has told all it had to tell.
+/// How a command ended that has said all it had to say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     /// Yes, or simply done: exit status 0.
@@ -83,7 +84,7 @@ enum Outcome {
 }
 
 /// Runs the program with the process's arguments.
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     #[cfg(feature = "gpu")]
     tell_errors_without_panics();
     let done = match parse().command {
@@ -119,10 +120,10 @@ fn completions(shell: clap_complete::Shell) -> Result<Outcome> {
 /// Keeps panics of the GPU library silent where they become errors: a backtrace before a good message only hides it.
 #[cfg(feature = "gpu")]
 fn tell_errors_without_panics() {
-    let tell = std::panic::take_hook();
+    let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         if !spiral_atlas::eval::gpu::panic_becomes_error() {
-            tell(panic);
+            hook(panic);
         }
     }));
 }
@@ -180,6 +181,6 @@ fn stop_flag() -> Result<Arc<AtomicBool>> {
     let flag = Arc::new(AtomicBool::new(false));
     let set = flag.clone();
     ctrlc::set_handler(move || set.store(true, std::sync::atomic::Ordering::Relaxed))
-        .map_err(|e| Error::Domain(format!("Ctrl-C cannot be watched: {e}")))?;
+        .map_err(|e| Error::invalid(format!("Ctrl-C cannot be watched: {e}")))?;
     Ok(flag)
 }

@@ -3,17 +3,17 @@
 type Parsed<T> = std::result::Result<T, String>;
 
 /// A number.
-pub fn number(text: &str) -> Parsed<f64> {
+pub(super) fn number(text: &str) -> Parsed<f64> {
     text.trim().parse().map_err(|_| format!("{text:?} is no number; write it like 0.5, -3 or 1e-3"))
 }
 
 /// A whole number in a range.
-pub fn count<const LEAST: u32, const MOST: u32>(text: &str) -> Parsed<u32> {
+pub(super) fn count<const LEAST: u32, const MOST: u32>(text: &str) -> Parsed<u32> {
     let count = text.trim().parse().ok().filter(|count| (LEAST..=MOST).contains(count));
     count.ok_or_else(|| format!("{text:?} is no whole number from {LEAST} to {MOST}"))
 }
 
 /// How many samples of a curve.
-pub fn samples(text: &str) -> Parsed<u32> {
+pub(super) fn samples(text: &str) -> Parsed<u32> {
     count::<2, 1_000_000>(text)
 }

@@ -3,19 +3,19 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
 use spiral_atlas::files::size;
-pub use spiral_atlas::picture::{angle, grouped};
+pub(super) use spiral_atlas::picture::{angle, grouped};
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Prints to standard output.
-pub fn print(text: &str) -> Result<()> {
+pub(super) fn print(text: &str) -> Result<()> {
     stream(|out| out.write_all(text.as_bytes()))
 }
 
 /// Prints to standard output as it goes, so that the text need not fit in memory. That nobody reads on is no failure.
-pub fn stream(write: impl FnOnce(&mut BufWriter<io::StdoutLock>) -> io::Result<()>) -> Result<()> {
+pub(super) fn stream(write: impl FnOnce(&mut BufWriter<io::StdoutLock>) -> io::Result<()>) -> Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match write(&mut out).and_then(|()| out.flush()) {
         Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(stdout_error(e)),
@@ -29,27 +29,27 @@ pub fn stream(write: impl FnOnce(&mut BufWriter<io::StdoutLock>) -> io::Result<(
 }
 
 /// The failure of standard output.
-pub fn stdout_error(source: io::Error) -> Error {
+pub(super) fn stdout_error(source: io::Error) -> Error {
     Error::Io { path: "(standard output)".into(), source }
 }
 
 /// Before any work, whether a figure can be what its name says.
-pub fn check_figure(figure: Option<&Path>) -> Result<()> {
+pub(super) fn check_figure(figure: Option<&Path>) -> Result<()> {
     match figure.filter(|path| !has_extension(path, "png")) {
         None => Ok(()),
         Some(path) => {
-            Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())))
+            Err(Error::invalid(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())))
         }
     }
 }
 
 /// Whether a file's name ends so, in letters of either size.
-pub fn has_extension(path: &Path, extension: &str) -> bool {
+pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }
 
 /// Prints a value as JSON with indents.
-pub fn print_json(value: &impl Serialize) -> Result<()> {
+pub(super) fn print_json(value: &impl Serialize) -> Result<()> {
     stream(|out| {
         serde_json::to_writer_pretty(&mut *out, value)?;
         out.write_all(b"\n")
@@ -57,45 +57,45 @@ pub fn print_json(value: &impl Serialize) -> Result<()> {
 }
 
 /// A value as JSON with indents.
-pub fn to_json(value: &impl Serialize) -> Result<String> {
+pub(super) fn to_json(value: &impl Serialize) -> Result<String> {
     serde_json::to_string_pretty(value).map_err(json_error)
 }
 
 /// A value as part of a larger JSON text.
-pub fn to_value(value: &impl Serialize) -> Result<serde_json::Value> {
+pub(super) fn to_value(value: &impl Serialize) -> Result<serde_json::Value> {
     serde_json::to_value(value).map_err(json_error)
 }
 
 /// Writes samples with their header.
-pub fn table(out: &mut impl Write, samples: &[Station], comma: &str) -> io::Result<()> {
+pub(super) fn table(out: &mut impl Write, samples: &[Station], comma: &str) -> io::Result<()> {
     writeln!(out, "{}", Station::COLUMNS.join(comma))?;
     rows(out, "", samples, comma)
 }
 
 /// Writes rows of samples, each after the same words. A number that there is not, where a path stands still, is an
 /// empty cell.
-pub fn rows(out: &mut impl Write, lead: &str, samples: &[Station], comma: &str) -> io::Result<()> {
+pub(super) fn rows(out: &mut impl Write, lead: &str, samples: &[Station], comma: &str) -> io::Result<()> {
     let cell = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
     samples.iter().try_for_each(|s| writeln!(out, "{lead}{}", s.numbers().map(cell).join(comma)))
 }
 
 /// The failure of writing JSON; none is known.
-pub fn json_error(e: serde_json::Error) -> Error {
-    Error::Domain(format!("a report cannot be written as JSON: {e}"))
+pub(super) fn json_error(e: serde_json::Error) -> Error {
+    Error::invalid(format!("a report cannot be written as JSON: {e}"))
 }
 
 /// Tells an error. When even standard error is closed, the exit code must do.
-pub fn complain(what: &str) {
+pub(super) fn complain(what: &str) {
     let _ = writeln!(io::stderr(), "error: {what}");
 }
 
 /// Tells on standard error what is no error, where standard output is for numbers alone.
-pub fn note(what: &str) {
+pub(super) fn note(what: &str) {
     let _ = writeln!(io::stderr(), "{what}");
 }
 
 /// A bar on standard error for a number of nodes; silent when that is no terminal.
-pub fn progress(what: String, nodes: u64) -> ProgressBar {
+pub(super) fn progress(what: String, nodes: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(nodes), ProgressDrawTarget::stderr());
     let style = ProgressStyle::with_template("{msg} {wide_bar} {human_pos}/{human_len} nodes, {eta} left");
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())).with_message(what)
@@ -103,7 +103,7 @@ pub fn progress(what: String, nodes: u64) -> ProgressBar {
 
 /// A JSON object whose keys keep their order.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Object<K, V>(pub Vec<(K, V)>);
+pub(super) struct Object<K, V>(pub Vec<(K, V)>);
 
 impl<K: Serialize, V: Serialize> Serialize for Object<K, V> {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
@@ -113,7 +113,7 @@ impl<K: Serialize, V: Serialize> Serialize for Object<K, V> {
 
 /// A file that was written, with what tells it from others.
 #[derive(Debug, Clone, serde::Serialize)]
-pub struct Product {
+pub(super) struct Product {
     /// Where it is.
     pub path: PathBuf,
     /// Its length.
@@ -124,7 +124,7 @@ pub struct Product {
 
 impl Product {
     /// Reads the file once.
-    pub fn of(path: &Path) -> Result<Product> {
+    pub(super) fn of(path: &Path) -> Result<Product> {
         let io = |source| Error::Io { path: path.to_owned(), source };
         let mut hasher = blake3::Hasher::new();
         hasher.update_reader(std::fs::File::open(path).map_err(io)?).map_err(io)?;
@@ -132,25 +132,25 @@ impl Product {
     }
 
     /// A line of a summary.
-    pub fn line(&self) -> String {
+    pub(super) fn line(&self) -> String {
         format!("  {}  {}\n    BLAKE3 {}\n", self.path.display(), size(self.bytes), self.blake3)
     }
 }
 
 /// Where the atlas of a name goes.
-pub fn atlas_path(folder: &Path, name: &str) -> PathBuf {
+pub(super) fn atlas_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.atlas.safetensors"))
 }
 
 /// Where its report goes.
-pub fn report_path(folder: &Path, name: &str) -> PathBuf {
+pub(super) fn report_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.report.json"))
 }
 
 /// Creates a folder with its parents, unless it is there.
-pub fn make_folder(path: &Path) -> Result<()> {
+pub(super) fn make_folder(path: &Path) -> Result<()> {
     if path.exists() && !path.is_dir() {
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "{} is a file; the folder for the results needs another name",
             path.display()
         )));

@@ -17,7 +17,7 @@ const MAX_LINE: usize = 1 << 16;
 const MAX_SKIPPED: usize = 1 << 26;
 
 /// A row of data.
-pub struct Row<'l> {
+pub(super) struct Row<'l> {
     /// Index of the first set of columns that the header has.
     pub chart: usize,
     /// Its number among the rows of data, from 1.
@@ -29,7 +29,7 @@ pub struct Row<'l> {
 impl Row<'_> {
     /// The rows of a table of samples, which begin with the number of this row; without samples the reason goes to
     /// standard error.
-    pub fn table(&self, samples: &[Station], reason: Option<&str>) -> Result<Vec<u8>> {
+    pub(super) fn table(&self, samples: &[Station], reason: Option<&str>) -> Result<Vec<u8>> {
         if let Some(reason) = reason {
             output::note(&format!("row {}: {reason}", self.number));
         }
@@ -46,7 +46,7 @@ fn table_header() -> String {
 
 /// Answers for every row of a file, or of standard input for `-`, with what `answer` gives: a line of JSON, or for a
 /// `table` whole rows.
-pub fn run(
+pub(super) fn run(
     path: &Path,
     charts: &[&'static [&'static str]],
     table: bool,
@@ -59,7 +59,7 @@ pub fn run(
     let header = loop {
         match lines.next().map_err(io)? {
             None => {
-                return Err(Error::Domain(format!(
+                return Err(Error::invalid(format!(
                     "{}: it is empty; its first line must be {}",
                     path.display(),
                     columns(charts)
@@ -69,7 +69,7 @@ pub fn run(
             Some(line) => break line.and_then(|line| Header::parse(charts, line)),
         }
     };
-    let header = header.map_err(|what| Error::Domain(format!("{}: line {}: {what}", path.display(), lines.number)))?;
+    let header = header.map_err(|what| Error::invalid(format!("{}: line {}: {what}", path.display(), lines.number)))?;
     let mut out = BufWriter::new(io::stdout().lock());
     let (mut outcome, mut number) = (Outcome::Fine, 0);
     if table && let Some(end) = broken(out.write_all(table_header().as_bytes()))? {
@@ -81,7 +81,7 @@ pub fn run(
         if let Some(end) = if waiting { broken(out.flush())? } else { None } {
             return Ok(end);
         }
-        let told = match lines.next().map_err(io)? {
+        let line = match lines.next().map_err(io)? {
             None => break,
             Some(Ok(line)) if line.trim().is_empty() => continue,
             Some(line) => {
@@ -92,7 +92,7 @@ pub fn run(
                 })
             }
         };
-        let mut text = match told {
+        let mut text = match line {
             Ok(text) => text,
             Err(error) => {
                 outcome = Outcome::Failed;

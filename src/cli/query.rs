@@ -1,15 +1,15 @@
 //! `query`: the exact answer for one datum of any family, or for many as a stream.
 
 use super::cells::{self, Opened};
-use super::datum::{Coordinates, Datum, from_cells, parse_family};
+use super::datum::{Coordinates, Datum, from_cells};
 use super::output::{self, Object};
 use super::question::QuestionArgs;
 use super::{Outcome, points};
 use serde::Serialize;
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::family::cubic::Cubic;
-use spiral_atlas::family::{self, Family, NO_VALUE, Value};
-use spiral_atlas::{Error, Result, picture};
+use spiral_atlas::family::{self, Family, NO_VALUE, Value, by_name};
+use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
 
 /// Answer exactly for one datum, or for a table of them.
@@ -33,9 +33,9 @@ use std::path::PathBuf;
                         spiral-atlas query --points data.csv > answers.jsonl\n  \
                         spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --ranges kappa1 --within 0,100\n  \
                         spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 3 --kappa1 4 --nearest --weights inf,inf,1,1")]
-pub struct Args {
+pub(super) struct Args {
     /// The family; that of the atlas, or `cubic`, unless given.
-    #[arg(long, value_name = "NAME", value_parser = parse_family)]
+    #[arg(long, value_name = "NAME", value_parser = by_name)]
     family: Option<&'static dyn Family>,
     #[command(flatten)]
     coordinates: Coordinates,
@@ -55,18 +55,19 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let atlas = args.atlas.as_ref().map(Opened::checked).transpose()?;
     let of = |atlas: &Opened| match atlas {
-        Opened::Nodes(atlas) => picture::of(atlas.about()),
+        Opened::Nodes(atlas) => atlas.about().family(),
         Opened::Cells(found) => Ok(found.family()),
     };
-    let told = atlas.as_ref().map(of).transpose()?;
-    let family = args.family.or(told).unwrap_or(&Cubic);
-    if let (Some(path), Some(told)) = (&args.atlas, told)
-        && told.about().name != family.about().name
+    let its_own = atlas.as_ref().map(of).transpose()?;
+    let family = args.family.or(its_own).unwrap_or(&Cubic);
+    if let (Some(path), Some(its_own)) = (&args.atlas, its_own)
+        && its_own.about().name != family.about().name
     {
-        let what = format!("it is an atlas of `{}`; the datum is one of `{}`", told.about().name, family.about().name);
+        let what =
+            format!("it is an atlas of `{}`; the datum is one of `{}`", its_own.about().name, family.about().name);
         return Err(Error::Atlas { path: path.clone(), what });
     }
     if let Some(path) = &args.points {
@@ -89,9 +90,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
     Ok(if answer.holds { Outcome::Fine } else { Outcome::Bad })
 }
 
-/// All that is known of a datum, as it is told in JSON.
+/// All that is known of a datum, as it is printed in JSON.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(super) struct Answer {
     /// Whether what the family looks for exists.
     #[serde(skip)]
     holds: bool,
@@ -105,7 +106,7 @@ pub struct Answer {
     solutions: Vec<Object<&'static str, Value>>,
     chosen: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    atlas: Option<Told>,
+    atlas: Option<AtlasReport>,
     /// What the cell of the datum says of each flag, where the atlas has cells; none outside them.
     #[serde(skip_serializing_if = "Option::is_none")]
     cell: Option<Option<Object<&'static str, &'static str>>>,
@@ -114,7 +115,7 @@ pub struct Answer {
 /// What an atlas says.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
-enum Told {
+enum AtlasReport {
     Node {
         node: u64,
         coordinates: Object<String, f64>,
@@ -137,7 +138,7 @@ impl Answer {
     ///
     /// # Errors
     /// Those of [`Family::answer`].
-    pub fn new(family: &dyn Family, datum: Datum, atlas: Option<&Opened>) -> Result<Answer> {
+    pub(super) fn new(family: &dyn Family, datum: Datum, atlas: Option<&Opened>) -> Result<Answer> {
         let solved = family.answer(datum.chart, &datum.point)?;
         let axes = family.about().charts[datum.chart].axes;
         let flag = |(bit, flag): (usize, &family::Flag)| (flag.name, solved.code.flags() >> bit & 1 == 1);
@@ -187,7 +188,7 @@ impl Answer {
             Some(None) => text += "the cells do not reach there, or have other coordinates\n",
             None => {}
         }
-        text + &self.atlas.as_ref().map_or(String::new(), Told::text)
+        text + &self.atlas.as_ref().map_or(String::new(), AtlasReport::text)
     }
 }
 
@@ -206,11 +207,11 @@ fn word(value: &Value) -> String {
     }
 }
 
-impl Told {
+impl AtlasReport {
     fn text(&self) -> String {
         match self {
-            Told::Outside { outside } => format!("the atlas does not reach there: {outside}\n"),
-            Told::Node { node, coordinates, flags, solutions, scalars } => {
+            AtlasReport::Outside { outside } => format!("the atlas does not reach there: {outside}\n"),
+            AtlasReport::Node { node, coordinates, flags, solutions, scalars } => {
                 let place = list(&coordinates.0, |x| format!("{x:?}"));
                 let set: Vec<&str> = flags.0.iter().filter(|(_, set)| *set).map(|(name, _)| &name[..]).collect();
                 let set = if set.is_empty() { "no flag".into() } else { set.join(" ") };
@@ -229,16 +230,18 @@ fn yes(holds: bool) -> &'static str {
 }
 
 /// What an atlas says of the place with these coordinates, by axis.
-fn look_up(atlas: &Atlas, coordinate: impl Fn(&str) -> f64) -> Told {
+fn look_up(atlas: &Atlas, coordinate: impl Fn(&str) -> f64) -> AtlasReport {
     let axes = atlas.grid().axes();
     let point: Vec<f64> = axes.iter().map(|axis| coordinate(axis.name())).collect();
-    let Some((node, entry)) = atlas.nearest(&point) else { return Told::Outside { outside: outside(atlas, &point) } };
+    let Some((node, entry)) = atlas.nearest(&point) else {
+        return AtlasReport::Outside { outside: outside(atlas, &point) };
+    };
     let names = axes.iter().map(|a| a.name().to_owned());
     let scalar = |name: &str| {
         let value = atlas.scalar(name).and_then(|values| values.get(node as usize)).copied();
         (name.to_owned(), value.filter(|v| *v != NO_VALUE))
     };
-    Told::Node {
+    AtlasReport::Node {
         node,
         coordinates: Object(names.zip(atlas.grid().node(node)).collect()),
         flags: Object(

@@ -11,7 +11,7 @@ use spiral_atlas::{Error, Result};
 /// What to find instead of the answer for the datum.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Questions beyond yes and no")]
-pub struct QuestionArgs {
+pub(super) struct QuestionArgs {
     /// All intervals of this coordinate in which the property holds, the others being given.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["nearest", "boundary"])]
     ranges: Option<String>,
@@ -37,20 +37,15 @@ pub struct QuestionArgs {
 
 impl QuestionArgs {
     /// Whether anything is asked.
-    pub fn any(&self) -> bool {
+    pub(super) fn any(&self) -> bool {
         self.ranges.is_some() || self.nearest || self.boundary.is_some()
     }
 
     /// The answer, printed.
-    pub fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
+    pub(super) fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
         let free: Vec<&str> = self.ranges.iter().chain(self.boundary.iter().flatten()).map(|name| &name[..]).collect();
         let (axes, point) = coordinates.but(family, &free).unwrap_or_else(|what| super::refuse(&what));
-        let flag = match (&self.property, family.about().yes) {
-            (Some(name), _) => name,
-            (None, [only]) => *only,
-            (None, several) => super::refuse(&format!("name a --property, such as {}", several.join(" or "))),
-        };
-        let property = Property::new(family.about().name, axes, flag)?;
+        let property = Property::new(family.about().name, axes, self.property.as_deref())?;
         let place = |name: &&str| axes.iter().position(|axis| axis == name).unwrap_or_default();
         let within = || free.iter().enumerate().map(|(i, name)| self.within(i, name)).collect::<Result<Vec<_>>>();
         if self.nearest {
@@ -82,7 +77,7 @@ impl QuestionArgs {
             super::refuse(&format!("give --within FROM,TO for {name}, the interval to look in"));
         };
         let ends = text.split_once(',').ok_or_else(|| {
-            Error::Domain(format!(
+            Error::invalid(format!(
                 "--within is {text:?}; it must be two values with a comma between them, such as 0,10"
             ))
         })?;

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  spiral-atlas render out/quickstart.atlas.safetensors --out pictures\n  \
                         spiral-atlas render atlases/habib-sakai-fig2.toml")]
-pub struct Args {
+pub(super) struct Args {
     /// An atlas (.safetensors) or a recipe (.toml).
     source: PathBuf,
     /// Folder for the pictures; created when missing.
@@ -30,7 +30,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let products = if args.source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
         of_recipe(args)?
     } else {

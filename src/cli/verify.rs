@@ -3,11 +3,12 @@
 use super::Outcome;
 use super::backend::{self, BackendArgs};
 use super::cells::{self, Opened};
+use super::legend::faults;
 use super::output::{self, grouped};
+use spiral_atlas::Result;
 use spiral_atlas::atlas::verify;
 use spiral_atlas::eval::agree::{self, Agreement, Stored};
 use spiral_atlas::eval::{Backend, Job};
-use spiral_atlas::{Result, picture};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
@@ -22,7 +23,7 @@ use std::sync::atomic::AtomicBool;
 #[command(after_help = "Examples:\n  spiral-atlas verify out/quickstart.atlas.safetensors\n  \
                         spiral-atlas verify out/quickstart.atlas.safetensors --adapter llvmpipe --json\n  \
                         spiral-atlas verify out/quickstart.atlas.safetensors --require-adapter")]
-pub struct Args {
+pub(super) struct Args {
     /// The atlas.
     atlas: PathBuf,
     /// Fail, with status 2, unless a GPU adapter can recompute it too.
@@ -37,7 +38,7 @@ pub struct Args {
 
 /// A comparison with what one backend computes.
 #[derive(Debug, Clone, serde::Serialize)]
-pub struct Compared {
+pub(super) struct Compared {
     /// Who recomputed.
     pub with: String,
     /// Wall time.
@@ -63,12 +64,12 @@ struct Verified {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let atlas = match Opened::open(&args.atlas)? {
         Opened::Nodes(atlas) => atlas,
         Opened::Cells(found) => return cells::verify(&found, args.backend.threads(), args.json),
     };
-    let family = picture::of(atlas.about())?;
+    let family = atlas.about().family()?;
     let scalars = verify::scalars(&atlas, family)?;
     let job = Job { family, grid: atlas.grid(), scalars: &scalars };
     let (stored, (backends, no_gpu)) = (verify::stored(&atlas)?, args.backend.all(args.require_adapter)?);
@@ -92,7 +93,13 @@ pub fn run(args: &Args) -> Result<Outcome> {
 }
 
 /// Compares all nodes with what a backend computes.
-pub fn compared(job: &Job, stored: &Stored, backend: &Backend, threads: usize, stop: &AtomicBool) -> Result<Compared> {
+pub(super) fn compared(
+    job: &Job,
+    stored: &Stored,
+    backend: &Backend,
+    threads: usize,
+    stop: &AtomicBool,
+) -> Result<Compared> {
     let with = backend::describe(backend);
     let bar = output::progress(format!("against {with}"), job.grid.len());
     let found = agree::compare(job, stored, backend, threads, stop, |nodes| bar.set_position(nodes));
@@ -102,7 +109,7 @@ pub fn compared(job: &Job, stored: &Stored, backend: &Backend, threads: usize, s
 }
 
 /// Compares some nodes with what the top of the ladder computes.
-pub fn sampled(job: &Job, stored: &Stored, count: u64, stop: &AtomicBool) -> Result<Compared> {
+pub(super) fn sampled(job: &Job, stored: &Stored, count: u64, stop: &AtomicBool) -> Result<Compared> {
     let bar = output::progress("against intervals".into(), count.min(job.grid.len()));
     let started = std::time::Instant::now();
     let agreement = agree::sample(job, stored, count, stop, |nodes| bar.set_position(nodes));
@@ -113,12 +120,12 @@ pub fn sampled(job: &Job, stored: &Stored, count: u64, stop: &AtomicBool) -> Res
 
 impl Compared {
     /// Whether all values agree.
-    pub fn holds(&self) -> bool {
+    pub(super) fn holds(&self) -> bool {
         self.agreement.holds()
     }
 
     /// A line, and one more for each difference.
-    pub fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         let Agreement { nodes, values, differences, first } = &self.agreement;
         let verdict = if *differences == 0 { "all agree".into() } else { format!("{} DIFFER", grouped(*differences)) };
         let left = self.undecided_f32.map(|n| format!(", {} nodes left to the CPU", grouped(n))).unwrap_or_default();
@@ -141,11 +148,7 @@ impl Compared {
 
 impl Verified {
     fn text(&self) -> String {
-        let mut text = format!("{}\n  id {}\n", self.atlas.display(), self.id);
-        text += if self.faults.is_empty() { "  hashes, legend and recipe are sound\n" } else { "" };
-        for fault in &self.faults {
-            text += &format!("  FAULT: {fault}\n");
-        }
+        let mut text = faults(&self.atlas, &self.id, &self.faults);
         for compared in &self.comparisons {
             text += &format!("  {}", compared.text());
         }

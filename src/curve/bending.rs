@@ -2,8 +2,6 @@
 
 use super::PhQuintic;
 use super::energy::energy as energy_integral;
-use super::extrema::derivative;
-use super::quintic::changes;
 use crate::num::{Ball, Interval, Number, Real, formula};
 use crate::steps::step;
 
@@ -42,7 +40,7 @@ impl PhQuintic {
 
     /// The sum over parts that begin and end where the speed is least.
     fn energy_from_slow_places(&self) -> Option<Ball> {
-        let mut ends = changes(&derivative(&self.speed_coefficients()));
+        let mut ends = self.speed_extrema();
         ends.insert(0, 0.0);
         ends.push(1.0);
         let part = |w: &[f64]| {
@@ -70,7 +68,7 @@ impl PhQuintic {
     }
 }
 
-/// Bernstein coefficients of the speed σ and of h: (6), (14).
+/// Bernstein coefficients of the speed σ and of h: Farouki et al., (6), (14).
 type Rates<N> = ([N; 5], [N; 3]);
 
 fn rates<N: Real>(w: &[[N; 2]; 3]) -> Option<Rates<N>> {

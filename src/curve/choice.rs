@@ -33,7 +33,7 @@ impl Choice {
             if curve.is_finite() && candidate.absolute_rotation.is_finite() {
                 return Ok(candidate);
             }
-            Err(Error::Domain(format!("{what}: a solution leaves the range of doubles (change the unit of length)")))
+            Err(Error::invalid(format!("{what}: a solution leaves the range of doubles (change the unit of length)")))
         };
         let candidates = curves.into_iter().map(candidate).collect::<Result<Vec<_>>>()?;
         let best = best(&candidates, 0..candidates.len());

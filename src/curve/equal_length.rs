@@ -1,9 +1,9 @@
-//! Paths of a given arc length between given points and directions: (10)-(13).
+//! Paths of a given arc length between given points and directions: Farouki et al., (10)-(13).
 
 use super::PhQuintic;
 use super::choice::{Choice, best};
 use super::vector::{complex, finite, pair};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, written};
 use num_complex::Complex64;
 
 /// End points, directions of travel and arc length.
@@ -59,12 +59,13 @@ pub fn equal_length(ends: &EqualLength) -> Result<Choice> {
     }
     let chord = complex(end) - complex(start);
     let distance = chord.norm();
-    let fail = |what: String| Err(Error::Domain(format!("equal length: {what}")));
     if distance == 0.0 {
-        return fail(format!("`start` and `end` are both {start:?}; the ends must be apart"));
+        let what = format!("equal length: `start` and `end` are both {start:?}; the ends must be apart");
+        return Err(Error::invalid(what));
     }
     if length <= distance {
-        return fail(format!("`length` is {length:?}; it must exceed the distance {distance:?} of the ends"));
+        let limit = format!("above the distance {} of the ends", written(distance));
+        return Err(Error::domain("equal length: `length`", length, limit));
     }
     let half = |direction: f64| 0.5 * (Complex64::cis(direction) * chord.conj()).arg();
     let (first, last) = (Complex64::cis(half(start_direction)), Complex64::cis(half(end_direction)));

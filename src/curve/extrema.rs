@@ -1,30 +1,32 @@
 //! Interior extrema of curvature: the sign changes of a polynomial in Bernstein form.
 
 use super::vector::{Vector, cross, length, scale, sub};
+use crate::num::bernstein::halve;
+use crate::num::{Number, formula};
 
 /// Halvings at most: then an interval is narrower than a double near 1.
-pub(super) const DEPTH: u32 = 53;
+const DEPTH: u32 = 53;
 
 /// Parameters in (0, 1), increasing, where the curvature of the cubic with these control points has an extremum.
 ///
 /// The numerator of dκ/dt is `σ C' - 3/2 C σ'` with `σ = |P'|²`, `C = P' × P''`: a quintic, since the leading parts of
-/// `P' × P''` cancel. Its Bernstein coefficients are found, and its sign changes isolated by halving.
+/// `P' × P''` cancel.
 pub(super) fn curvature_extrema(p: &[Vector; 4]) -> Vec<f64> {
-    let mut roots = Vec::new();
-    if let Some(q) = sides(p) {
-        sign_changes(&numerator(&q), 0.0, 1.0, DEPTH, &mut roots);
-    }
-    roots
+    let numerator = |q: [Vector; 3]| {
+        let squared = |i: usize| {
+            let side = [q[0][i], 2.0 * q[1][i], q[2][i]];
+            product::<f64, 3, 3, 5>(&side, &side)
+        };
+        let (x, y) = (squared(0), squared(1));
+        slopes(&std::array::from_fn(|k| x[k] + y[k]), &turning(&q), 1.5)
+    };
+    sides(p).map_or(Vec::new(), |q| sign_changes(&numerator(q)))
 }
 
 /// Parameters in (0, 1), increasing, where the curvature of the cubic with these control points changes its sign: as
 /// that of `P' × P''`.
 pub(super) fn inflections(p: &[Vector; 4]) -> Vec<f64> {
-    let mut roots = Vec::new();
-    if let Some(q) = sides(p) {
-        sign_changes(&turning(&q), 0.0, 1.0, DEPTH, &mut roots);
-    }
-    roots
+    sides(p).map_or(Vec::new(), |q| sign_changes(&turning(&q)))
 }
 
 /// Bernstein coefficients of `(P' × P'') / 18`, where those of `P' / 3` are q.
@@ -39,36 +41,43 @@ fn sides(p: &[Vector; 4]) -> Option<[Vector; 3]> {
     (longest.is_normal()).then(|| q.map(|v| scale(v, 1.0 / longest)))
 }
 
-/// Bernstein coefficients of the numerator of dκ/dt, up to a positive factor.
-fn numerator(q: &[Vector; 3]) -> Vec<f64> {
-    let turning = turning(q);
-    let coordinate = |i: usize| q.map(|v| v[i]);
-    let (x, y) = (product(&coordinate(0), &coordinate(0)), product(&coordinate(1), &coordinate(1)));
-    let squared: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x + y).collect();
-    let rising = product(&squared, &derivative(&turning));
-    let falling = product(&turning, &derivative(&squared));
-    rising.iter().zip(&falling).map(|(r, f)| r - 1.5 * f).collect()
+/// Bernstein coefficients, times 10, of `s h' - p h s'`: the numerator of the slope of `h / s^p`. Those of h are given,
+/// and those of s times binomials.
+pub(super) fn slopes<N: Number>(s: &[N; 5], h: &[N; 3], p: f64) -> [N; 6] {
+    let rise = |i: usize| formula!(2.0 * (h[i + 1] - h[i]));
+    // s' from 1, 4, 6, 4, 1 times s: `4 (s1 - s0)`, `12 (s2 - s1)` and so on.
+    let gain = [
+        formula!(s[1] - 4.0 * s[0]),
+        formula!(2.0 * s[2] - 3.0 * s[1]),
+        formula!(3.0 * s[3] - 2.0 * s[2]),
+        formula!(4.0 * s[4] - s[3]),
+    ];
+    let turn = [h[0].clone(), h[1].times(2.0), h[2].clone()];
+    let (up, down): ([N; 6], [N; 6]) = (product(s, &[rise(0), rise(1)]), product(&turn, &gain));
+    let binomial = [10.0, 2.0, 1.0, 1.0, 2.0, 10.0];
+    std::array::from_fn(|i| formula!((up[i] - { p } * down[i]) * { binomial[i] }))
 }
 
-pub(super) fn derivative(b: &[f64]) -> Vec<f64> {
-    b.windows(2).map(|w| (b.len() - 1) as f64 * (w[1] - w[0])).collect()
+/// Of polynomials as Bernstein coefficients times binomials: those of the product are the plain convolution.
+pub(super) fn product<N: Number, const A: usize, const B: usize, const C: usize>(a: &[N; A], b: &[N; B]) -> [N; C] {
+    std::array::from_fn(|k| {
+        let terms = (k.saturating_sub(B - 1)..=k.min(A - 1)).map(|i| a[i].mul(&b[k - i]));
+        terms.reduce(|sum, x| sum.add(&x)).unwrap_or_else(|| a[0].clone())
+    })
 }
 
-pub(super) fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
-    let (m, n) = (a.len() - 1, b.len() - 1);
-    let coefficient = |k: usize| {
-        let terms = (k.saturating_sub(n)..=k.min(m)).map(|i| choose(m, i) * choose(n, k - i) * a[i] * b[k - i]);
-        terms.sum::<f64>() / choose(m + n, k)
-    };
-    (0..=m + n).map(coefficient).collect()
+/// The parameters in (0, 1), increasing, where a polynomial changes its sign. A touching zero is no change. None where
+/// a coefficient is not finite: a NaN has no sign, and infinite ones would be halved for ever.
+pub(super) fn sign_changes<const K: usize>(c: &[f64; K]) -> Vec<f64> {
+    let mut roots = Vec::new();
+    if c.iter().all(|x| x.is_finite()) {
+        isolate(c, 0.0, 1.0, DEPTH, &mut roots);
+    }
+    roots
 }
 
-fn choose(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |c, i| c * (n - i) as f64 / (i + 1) as f64)
-}
-
-/// Halves until the coefficients change sign at most once, then bisects. A touching zero is no change.
-pub(super) fn sign_changes(b: &[f64], lo: f64, hi: f64, depth: u32, roots: &mut Vec<f64>) {
+/// Halves until the coefficients change sign at most once, then bisects.
+fn isolate<const K: usize>(b: &[f64; K], lo: f64, hi: f64, depth: u32, roots: &mut Vec<f64>) {
     let signs = || b.iter().filter(|c| **c != 0.0).map(|c| *c > 0.0);
     let first = signs().next();
     if signs().all(|sign| Some(sign) == first) {
@@ -82,70 +91,52 @@ pub(super) fn sign_changes(b: &[f64], lo: f64, hi: f64, depth: u32, roots: &mut 
         }
         return;
     }
-    let (left, right) = halves(b);
-    let (left, right) = (&left[..b.len()], &right[..b.len()]);
-    sign_changes(left, lo, middle, depth - 1, roots);
+    let (left, right) = halve(b);
+    isolate(&left, lo, middle, depth - 1, roots);
     // A zero exactly in the middle belongs to neither half's inside.
     let (before, after) = (last_sign(left.iter().rev()), last_sign(right.iter()));
     if left.last() == Some(&0.0) && before != after {
         roots.push(middle);
     }
-    sign_changes(right, middle, hi, depth - 1, roots);
+    isolate(&right, middle, hi, depth - 1, roots);
 }
 
 fn last_sign<'b>(mut b: impl Iterator<Item = &'b f64>) -> Option<bool> {
     b.find(|c| **c != 0.0).map(|c| *c > 0.0)
 }
 
-/// The most coefficients of a form here, those of a degree of 7.
-const MOST: usize = 8;
-
-/// De Casteljau at 1/2; both halves have as many coefficients as b, at most [`MOST`].
-pub(super) fn halves(b: &[f64]) -> ([f64; MOST], [f64; MOST]) {
-    let (mut left, mut right) = ([0.0; MOST], [0.0; MOST]);
-    right[..b.len()].copy_from_slice(b);
-    for (step, first) in left[..b.len()].iter_mut().enumerate() {
-        *first = right[0];
-        for i in 0..b.len() - 1 - step {
-            right[i] = 0.5 * (right[i] + right[i + 1]);
-        }
-    }
-    (left, right)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Of `h / s`: h = 1 + t, s = 1 + t⁴, so `s h' - h s' = 1 - 4t³ - 3t⁴`.
     #[test]
-    fn products_and_derivatives_of_bernstein_forms() {
-        // t = (0, 1), t² = (0, 0, 1), (t²)' = 2t = (0, 2).
-        assert_eq!(product(&[0.0, 1.0], &[0.0, 1.0]), [0.0, 0.0, 1.0]);
-        assert_eq!(product(&[1.0, 0.0], &[0.0, 1.0]), [0.0, 0.5, 0.0]);
-        assert_eq!(derivative(&[0.0, 0.0, 1.0]), [0.0, 2.0]);
-        assert_ne!(product(&[1.0, 0.5], &[0.0, 1.0]), [0.0, 0.5, 0.0]);
+    fn products_and_slopes_of_bernstein_forms() {
+        // t = (0, 1), t² = (0, 0, 1).
+        assert_eq!(product::<f64, 2, 2, 3>(&[0.0, 1.0], &[0.0, 1.0]), [0.0, 0.0, 1.0]);
+        assert_eq!(product::<f64, 3, 2, 4>(&[1.0, 0.0, 0.0], &[0.0, 1.0]), [0.0, 1.0, 0.0, 0.0]);
+        let slopes = slopes(&[1.0, 4.0, 6.0, 4.0, 2.0], &[1.0, 1.5, 2.0], 1.0);
+        assert_eq!(slopes.map(|x| x / 10.0), [1.0, 1.0, 1.0, 0.6, -1.2, -6.0]);
     }
 
     #[test]
     fn sign_changes_are_found_wherever_they_lie() {
-        let found = |b: &[f64]| {
-            let mut roots = Vec::new();
-            sign_changes(b, 0.0, 1.0, DEPTH, &mut roots);
-            roots
-        };
         let line = |root: f64| [-root, 1.0 - root];
         for root in [0.5, 0.25, 1.0 / 3.0, 1e-9, 0.999] {
-            let roots = found(&line(root));
+            let roots = sign_changes(&line(root));
             assert_eq!(roots.len(), 1, "{root}");
             assert!((roots[0] - root).abs() < 1e-15, "{root} {roots:?}");
         }
-        let two = product(&line(0.25), &line(0.8));
-        let roots = found(&two);
+        let both = |a: f64, b: f64| {
+            let [c0, c1, c2] = product(&line(a), &line(b));
+            [c0, 0.5 * c1, c2]
+        };
+        let roots = sign_changes(&both(0.25, 0.8));
         assert_eq!(roots.len(), 2, "{roots:?}");
         assert!((roots[0] - 0.25).abs() < 1e-14 && (roots[1] - 0.8).abs() < 1e-14, "{roots:?}");
         // A double zero in the middle, and zeros at the very ends, are no changes of sign inside.
-        assert!(found(&product(&line(0.5), &line(0.5))).is_empty());
-        assert!(found(&[0.0, 1.0, 2.0]).is_empty());
-        assert!(found(&[0.0, 0.0]).is_empty());
+        assert!(sign_changes(&both(0.5, 0.5)).is_empty());
+        assert!(sign_changes(&[0.0, 1.0, 2.0]).is_empty());
+        assert!(sign_changes(&[0.0, 0.0]).is_empty() && sign_changes(&[f64::NAN, 1.0]).is_empty());
     }
 }

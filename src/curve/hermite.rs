@@ -45,7 +45,7 @@ pub fn hermite(ends: &Hermite) -> Result<Choice> {
     let root = |name: &str, d: [f64; 2]| -> Result<Complex64> {
         finite("Hermite interpolation", name, &d)?;
         if d == [0.0, 0.0] {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "Hermite interpolation: `{name}` is 0, which has no direction; give a vector along the path"
             )));
         }

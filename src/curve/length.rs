@@ -47,6 +47,40 @@ fn refine(speed: &impl Fn(f64) -> [f64; 1], from: f64, to: f64, whole: f64, tole
     refine(speed, from, middle, left, tolerance, depth - 1) + refine(speed, middle, to, right, tolerance, depth - 1)
 }
 
+/// The parameter in a bracket at which a curve has a length: Newton's method from a guess, and halving where that
+/// leaves the bracket.
+///
+/// # Arguments
+/// - `at`: how much the length at a parameter exceeds the wanted one, which is below 0 at the first end, and the speed.
+/// - `near`: an excess of at most this size is none.
+///
+/// # Accuracy
+/// The last step is at most two roundings of the parameter, unless the excess was small enough before.
+pub(crate) fn parameter_of(
+    mut at: impl FnMut(f64) -> [f64; 2],
+    [mut low, mut high]: [f64; 2],
+    guess: f64,
+    near: f64,
+) -> f64 {
+    let mut t = if low < guess && guess < high { guess } else { 0.5 * (low + high) };
+    // Halving alone needs 53 to exhaust a double.
+    for _ in 0..100 {
+        let [excess, speed] = at(t);
+        if excess.abs() <= near {
+            break;
+        }
+        *if excess < 0.0 { &mut low } else { &mut high } = t;
+        let newton = t - excess / speed;
+        let next = if low <= newton && newton <= high { newton } else { 0.5 * (low + high) };
+        let step = (next - t).abs();
+        t = next;
+        if step <= 2.0 * f64::EPSILON * t.abs() {
+            break;
+        }
+    }
+    t
+}
+
 /// The 16-point Gauss-Legendre rule on `[from, to]`, for one integrand or several at once.
 pub(crate) fn gauss<const N: usize>(speed: impl Fn(f64) -> [f64; N], from: f64, to: f64) -> [f64; N] {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));

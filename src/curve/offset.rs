@@ -1,8 +1,8 @@
 //! Offset curves of Pythagorean-hodograph quintics.
 
 use super::PhQuintic;
-use super::extrema::product;
-use super::quintic::{complex, value};
+use super::hodograph::complex;
+use super::quintic::value;
 use serde::Serialize;
 
 /// A rational curve of degree 9 in homogeneous coordinates, as Bernstein coefficients.
@@ -42,4 +42,18 @@ impl PhQuintic {
         let (x, y) = (component(0), component(1));
         Offset { numerator: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(), weight: product(&speed, &[1.0; 6]) }
     }
+}
+
+/// Bernstein coefficients of a product.
+fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let (m, n) = (a.len() - 1, b.len() - 1);
+    let coefficient = |k: usize| {
+        let terms = (k.saturating_sub(n)..=k.min(m)).map(|i| choose(m, i) * choose(n, k - i) * a[i] * b[k - i]);
+        terms.sum::<f64>() / choose(m + n, k)
+    };
+    (0..=m + n).map(coefficient).collect()
+}
+
+fn choose(n: usize, k: usize) -> f64 {
+    (0..k).fold(1.0, |c, i| c * (n - i) as f64 / (i + 1) as f64)
 }

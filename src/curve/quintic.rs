@@ -4,8 +4,12 @@
 //! speed `σ = |w|²`, its arc length, unit tangent, curvature and offsets are polynomials or quotients of them (Farouki
 //! et al., (2)-(9)).
 
-use super::extrema::{self, product, sign_changes};
+use super::extrema::sign_changes;
+use super::hodograph::{Bound, Hodograph, complex};
 use super::jet::{Jet, casteljau};
+use super::length::parameter_of;
+use crate::num::bernstein::halve;
+use crate::num::{Ball, Interval, Real};
 use num_complex::Complex64;
 
 /// A Pythagorean-hodograph quintic for t in [0, 1], anywhere in the plane, in any unit of length.
@@ -102,16 +106,12 @@ impl PhQuintic {
 
     /// Bernstein coefficients of the speed σ: (6).
     pub fn speed_coefficients(&self) -> [f64; 5] {
-        let [w0, w1, w2] = complex(&self.preimage);
-        let re = |a: Complex64, b: Complex64| a.re * b.re + a.im * b.im;
-        [w0.norm_sqr(), re(w0, w1), (2.0 * w1.norm_sqr() + re(w0, w2)) / 3.0, re(w1, w2), w2.norm_sqr()]
+        self.hodograph().speed_coefficients()
     }
 
     /// Bernstein coefficients of h, where the curvature is `h / σ²`: (14).
     pub fn turn_coefficients(&self) -> [f64; 3] {
-        let [w0, w1, w2] = complex(&self.preimage);
-        let im = |a: Complex64, b: Complex64| a.re * b.im - a.im * b.re;
-        [4.0 * im(w0, w1), 2.0 * im(w0, w2), 4.0 * im(w1, w2)]
+        self.hodograph().turn
     }
 
     /// Bernstein coefficients of the arc length from the start: (8).
@@ -143,26 +143,7 @@ impl PhQuintic {
         if s <= 0.0 || s >= lengths[5] {
             return if s > 0.0 { 1.0 } else { 0.0 };
         }
-        let (mut low, mut high, mut t) = (0.0, 1.0, s / lengths[5]);
-        for _ in 0..100 {
-            let off = value(lengths, t) - s;
-            if off == 0.0 {
-                break;
-            }
-            if off < 0.0 {
-                low = t;
-            } else {
-                high = t;
-            }
-            let newton = t - off / self.speed(t);
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            let step = (next - t).abs();
-            t = next;
-            if step <= 2.0 * f64::EPSILON * t {
-                break;
-            }
-        }
-        t
+        parameter_of(|t| [value(lengths, t) - s, self.speed(t)], [0.0, 1.0], s / lengths[5], 0.0)
     }
 
     /// Signed curvature at t, positive to the left: (4); NaN where the speed is zero.
@@ -177,11 +158,12 @@ impl PhQuintic {
     /// # Accuracy
     /// As [`super::CubicBezier::curvature_extrema`].
     pub fn curvature_extrema(&self) -> Vec<f64> {
-        let unit = self.scaled().0;
-        let (speed, turn) = (unit.speed_coefficients(), unit.turn_coefficients());
-        let rising = product(&speed, &extrema::derivative(&turn));
-        let falling = product(&turn, &extrema::derivative(&speed));
-        changes(&rising.iter().zip(&falling).map(|(r, f)| r - 2.0 * f).collect::<Vec<_>>())
+        sign_changes(&self.scaled().0.slopes())
+    }
+
+    /// Bernstein coefficients of `σh' - 2hσ'`, which has the sign of the curvature's slope, times 10.
+    pub(crate) fn slopes(&self) -> [f64; 6] {
+        self.hodograph().slopes()
     }
 
     /// The largest curvature by size, and where: `(t, |κ|)`. Infinite for a curve that stands still somewhere and is no
@@ -197,21 +179,26 @@ impl PhQuintic {
             return (self.least_speed().0, size);
         }
         let mut candidates = vec![0.0];
-        self.scaled().0.bends([0.0, 1.0], &mut candidates);
+        bends(&self.scaled().0.hodograph(), [0.0, 1.0], &mut candidates);
         let sizes = candidates.into_iter().map(|t| (t, self.curvature(t).abs()));
         sizes.fold((0.0, 0.0), |best, next| if next.1 > best.1 || next.1.is_nan() { next } else { best })
     }
 
     /// The parameters in (0, 1), increasing, where the curvature changes its sign.
     pub fn inflections(&self) -> Vec<f64> {
-        changes(&self.scaled().0.turn_coefficients())
+        sign_changes(&self.scaled().0.turn_coefficients())
     }
 
     /// The least speed over [0, 1], and where: `(t, σ)`.
     pub fn least_speed(&self) -> (f64, f64) {
-        let turns = changes(&extrema::derivative(&self.speed_coefficients()));
-        let all = [0.0, 1.0].into_iter().chain(turns).map(|t| (t, self.speed(t)));
+        let all = [0.0, 1.0].into_iter().chain(self.speed_extrema()).map(|t| (t, self.speed(t)));
         all.fold((0.0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+    }
+
+    /// The parameters in (0, 1), increasing, where the speed has an extremum.
+    pub(super) fn speed_extrema(&self) -> Vec<f64> {
+        let s = self.speed_coefficients();
+        sign_changes(&[0, 1, 2, 3].map(|i| s[i + 1] - s[i]))
     }
 
     /// Whether it stands still nowhere: its least speed is above 1e-12 of its mean speed.
@@ -252,6 +239,20 @@ impl PhQuintic {
         bound(&speed, &turn, floor, halvings) * (1.0 + 1e-7) / size
     }
 
+    /// Whether |κ| stays below `most`, proved; false also where that is not.
+    pub(crate) fn bends_less(&self, most: f64) -> bool {
+        fn proved<N: Real>(preimage: [[f64; 2]; 3], most: f64, bits: usize) -> bool {
+            let whole = Hodograph::new(preimage.map(|z| z.map(|x| N::of(x, bits))));
+            matches!(whole.below(&N::of(most, bits), 0), Bound::Below)
+        }
+        proved::<Ball>(self.preimage, most, 53) || proved::<Interval>(self.preimage, most, 256)
+    }
+
+    /// Its speed and bend, apart from its place.
+    fn hodograph(&self) -> Hodograph<f64> {
+        Hodograph::new(self.preimage)
+    }
+
     /// w and w' at t.
     fn image(&self, t: f64) -> [Complex64; 2] {
         let [w0, w1, w2] = complex(&self.preimage);
@@ -263,28 +264,6 @@ impl PhQuintic {
     fn bend(&self) -> Complex64 {
         let [w0, w1, w2] = complex(&self.preimage);
         2.0 * ((w2 - w1) - (w1 - w0))
-    }
-
-    /// Adds where the curvature may be greatest on this piece, between parameters of the whole: the extrema, and the
-    /// end. Close to where the speed is low the roundings of the whole would cover them, so there the pieces are small.
-    fn bends(&self, [from, to]: [f64; 2], all: &mut Vec<f64>) {
-        let speed = self.speed_coefficients();
-        let most = speed.iter().copied().fold(0.0, f64::max);
-        if to - from > 1e-9 && speed.iter().any(|s| *s < 1e-2 * most) {
-            let ([first, second], middle) = (self.halves(), 0.5 * (from + to));
-            first.bends([from, middle], all);
-            return second.bends([middle, to], all);
-        }
-        all.extend(self.curvature_extrema().into_iter().map(|t| from + t * (to - from)));
-        all.push(to);
-    }
-
-    /// Both halves, as far as their pre-images say.
-    fn halves(&self) -> [PhQuintic; 2] {
-        let [w0, w1, w2] = complex(&self.preimage);
-        let (a, b) = (0.5 * (w0 + w1), 0.5 * (w1 + w2));
-        let middle = 0.5 * (a + b);
-        [[w0, a, middle], [middle, b, w2]].map(|w| PhQuintic { preimage: w.map(|z| [z.re, z.im]), ..*self })
     }
 
     /// The same shape with coefficients of w near 1, and the power of two that lengths were divided by.
@@ -311,8 +290,18 @@ impl PhQuintic {
     }
 }
 
-pub(crate) fn complex(w: &[[f64; 2]; 3]) -> [Complex64; 3] {
-    w.map(|[re, im]| Complex64::new(re, im))
+/// Adds where the curvature may be greatest on this piece, between parameters of the whole: the extrema, and the end.
+/// Close to where the speed is low the roundings of the whole would cover them, so there the pieces are small.
+fn bends(piece: &Hodograph<f64>, [from, to]: [f64; 2], all: &mut Vec<f64>) {
+    let speed = piece.speed_coefficients();
+    let most = speed.iter().copied().fold(0.0, f64::max);
+    if to - from > 1e-9 && speed.iter().any(|s| *s < 1e-2 * most) {
+        let ([first, second], middle) = (piece.halves(), 0.5 * (from + to));
+        bends(&first, [from, middle], all);
+        return bends(&second, [middle, to], all);
+    }
+    all.extend(sign_changes(&piece.slopes()).into_iter().map(|t| from + t * (to - from)));
+    all.push(to);
 }
 
 /// The value of a Bernstein form (de Casteljau).
@@ -324,15 +313,6 @@ pub(super) fn value(mut c: impl AsMut<[f64]>, t: f64) -> f64 {
         }
     }
     c.first().copied().unwrap_or(0.0)
-}
-
-pub(super) fn changes(c: &[f64]) -> Vec<f64> {
-    let mut roots = Vec::new();
-    // A NaN has no sign; infinite coefficients would be halved for ever.
-    if c.iter().all(|x| x.is_finite()) {
-        sign_changes(c, 0.0, 1.0, extrema::DEPTH, &mut roots);
-    }
-    roots
 }
 
 /// Twice the angles under which the roots see the way from `a` to `b`.
@@ -347,13 +327,12 @@ fn turned(roots: &[Complex64], a: f64, b: f64) -> f64 {
 }
 
 /// The largest of `|h|/σ²` over pieces, from the largest |h| and the least σ among the coefficients of each.
-fn bound(speed: &[f64], turn: &[f64], floor: f64, halvings: u32) -> f64 {
+fn bound(speed: &[f64; 5], turn: &[f64; 3], floor: f64, halvings: u32) -> f64 {
     if halvings == 0 {
         let least = speed.iter().copied().fold(f64::INFINITY, f64::min);
         let most = turn.iter().fold(0.0f64, |most, h| most.max(h.abs()));
         return if least > floor { (most + 1e-12) / (least * least) } else { f64::INFINITY };
     }
-    let ((s0, s1), (h0, h1)) = (extrema::halves(speed), extrema::halves(turn));
-    let half = |s: &[f64], h: &[f64]| bound(&s[..speed.len()], &h[..turn.len()], floor, halvings - 1);
-    half(&s0, &h0).max(half(&s1, &h1))
+    let ((s0, s1), (h0, h1)) = (halve(speed), halve(turn));
+    bound(&s0, &h0, floor, halvings - 1).max(bound(&s1, &h1, floor, halvings - 1))
 }

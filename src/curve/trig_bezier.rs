@@ -93,11 +93,11 @@ impl TrigBezier {
     pub fn new(points: [[f64; 2]; 6], p: f64, q: f64) -> Result<TrigBezier> {
         for (name, value) in [("p", p), ("q", q)] {
             if !(-4.0..=1.0).contains(&value) {
-                return Err(Error::Domain(format!("{name} is {value}; it must be -4 to 1")));
+                return Err(Error::domain(name, value, "-4 to 1"));
             }
         }
         if let Some([x, y]) = points.iter().find(|p| !p.iter().all(|x| x.is_finite())) {
-            return Err(Error::Domain(format!("a control point is ({x}, {y}); it must be finite")));
+            return Err(Error::invalid(format!("a control point is ({x}, {y}); it must be finite")));
         }
         let sides = std::array::from_fn(|i| [points[i + 1][0] - points[i][0], points[i + 1][1] - points[i][1]]);
         Ok(TrigBezier { start: points[0], sides, p, q })

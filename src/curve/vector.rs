@@ -21,7 +21,7 @@ pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// Signed area of the parallelogram, positive when `b` lies to the left of `a`: (2.3).
+/// Signed area of the parallelogram, positive when `b` lies to the left of `a`: Habib & Sakai, (2.3).
 pub(crate) fn cross(a: Vector, b: Vector) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
@@ -62,6 +62,6 @@ pub(crate) fn pair(z: Complex64) -> [f64; 2] {
 pub(crate) fn finite(what: &str, name: &str, numbers: &[f64]) -> Result<()> {
     match numbers.iter().all(|x| x.is_finite()) {
         true => Ok(()),
-        false => Err(Error::Domain(format!("{what}: `{name}` is {numbers:?}; all numbers must be finite"))),
+        false => Err(Error::invalid(format!("{what}: `{name}` is {numbers:?}; all numbers must be finite"))),
     }
 }

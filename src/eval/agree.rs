@@ -101,7 +101,7 @@ pub fn compare(
     })?;
     if comparison.found.nodes != job.grid.len() {
         let compared = comparison.found.nodes;
-        return Err(Error::Domain(format!("{compared} of {} nodes were compared; all must be", job.grid.len())));
+        return Err(Error::invalid(format!("{compared} of {} nodes were compared; all must be", job.grid.len())));
     }
     let agreement = comparison.finish()?;
     if report.undecided_f32 == Some(agreement.nodes) {
@@ -166,11 +166,11 @@ impl<'a> Comparison<'a> {
         let lengths =
             [stored.flags.len(), stored.solutions.len()].into_iter().chain(stored.scalars.iter().map(|s| s.len()));
         if let Some(length) = lengths.into_iter().find(|length| *length as u64 != nodes) {
-            return Err(Error::Domain(format!("a stored field has {length} values; the grid has {nodes} nodes")));
+            return Err(Error::invalid(format!("a stored field has {length} values; the grid has {nodes} nodes")));
         }
         if stored.scalars.len() != job.scalars.len() {
             let (stored, asked) = (stored.scalars.len(), job.scalars.len());
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "{stored} scalars are stored and {asked} asked for; compare the same ones"
             )));
         }
@@ -179,13 +179,13 @@ impl<'a> Comparison<'a> {
 
     fn put(&mut self, chunk: &Chunk) -> Result<()> {
         let (start, len) = (chunk.start, chunk.len());
-        let outside = || Error::Domain(format!("nodes {start} + {len} lie outside the stored fields"));
+        let outside = || Error::invalid(format!("nodes {start} + {len} lie outside the stored fields"));
         let from = usize::try_from(start).map_err(|_| outside())?;
         let range = from..from.checked_add(len).filter(|end| *end <= self.stored.flags.len()).ok_or_else(outside)?;
         let fields = 2 + self.job.scalars.len();
         let whole = chunk.solutions.len() == len && chunk.scalars.iter().all(|s| s.len() == len);
         if !whole || chunk.scalars.len() + 2 != fields {
-            return Err(Error::Domain(format!("the chunk at node {start} has not {len} values of {fields} fields")));
+            return Err(Error::invalid(format!("the chunk at node {start} has not {len} values of {fields} fields")));
         }
         self.found.nodes += len as u64;
         self.found.values += len as u64 * fields as u64;
@@ -226,7 +226,7 @@ impl<'a> Comparison<'a> {
     /// A comparison of nothing proves nothing, so it is an error.
     fn finish(self) -> Result<Agreement> {
         match self.found.values {
-            0 => Err(Error::Domain("nothing was compared; at least one node must be".into())),
+            0 => Err(Error::invalid("nothing was compared; at least one node must be")),
             _ => Ok(self.found),
         }
     }

@@ -15,7 +15,7 @@
 
 use crate::curve::vector::{Vector, add, cross, length, scale, sub};
 use crate::curve::{PhQuintic, arc_length, casteljau};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 use crate::path::Course;
 use crate::transition::{Arc, Cubic, Line, Piece};
 use quick_xml::Writer;
@@ -56,22 +56,18 @@ pub struct Fit {
 /// PH quintic that would need more than 2,000 cubics, and pieces that OpenDRIVE does not have: involutes and
 /// trigonometric curves.
 pub fn opendrive(paths: &[Course], options: &OpenDrive) -> Result<(String, Fit)> {
-    for (name, x) in [("lane width", options.lane_width), ("tolerance", options.tolerance)] {
-        if !(x > 0.0 && x.is_finite()) {
-            return Err(Error::Domain(format!("the {name} is {x:?}; it must be above 0")));
-        }
-    }
+    positive("the lane width", options.lane_width)?;
+    positive("the tolerance", options.tolerance)?;
     if paths.is_empty() {
-        return Err(Error::Domain("there is no path; a file has one road at least".into()));
+        return Err(Error::invalid("there is no path; a file has one road at least"));
     }
     let mut fit = Fit::default();
     let mut roads = Vec::with_capacity(paths.len());
     for (i, path) in paths.iter().enumerate() {
-        let blame = |e: Error| Error::Domain(format!("paths[{i}]: {e}"));
-        roads.push(geometries(path, options.tolerance, &mut fit).map_err(blame)?);
+        roads.push(geometries(path, options.tolerance, &mut fit).map_err(|e| e.at(format!("paths[{i}]")))?);
     }
     let mut out = Writer::new_with_indent(Vec::new(), b' ', 2);
-    write(&mut out, &roads, options.lane_width).map_err(|e| Error::Domain(format!("OpenDRIVE: {e}")))?;
+    write(&mut out, &roads, options.lane_width).map_err(|e| Error::invalid(format!("OpenDRIVE: {e}")))?;
     let text = String::from_utf8_lossy(&out.into_inner()).into_owned();
     Ok((format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{text}\n"), fit))
 }
@@ -99,7 +95,7 @@ enum Primitive {
 fn geometries(path: &Course, tolerance: f64, fit: &mut Fit) -> Result<Vec<Geometry>> {
     let mut all = Vec::new();
     for (i, piece) in path.pieces().iter().enumerate() {
-        let blame = |what: String| Error::Domain(format!("pieces[{i}] {what}"));
+        let blame = |what: String| Error::invalid(format!("pieces[{i}] {what}"));
         match piece {
             Piece::Line(Line { start, end }) => {
                 let [x, y] = sub(*end, *start);
@@ -113,7 +109,8 @@ fn geometries(path: &Course, tolerance: f64, fit: &mut Fit) -> Result<Vec<Geomet
             Piece::PhQuintic(curve) => all.extend(fitted(curve, tolerance, fit).map_err(blame)?),
             Piece::Involute(_) | Piece::TrigQuintic(_) => {
                 return Err(blame(format!(
-                    "is of the kind `{}`, which OpenDRIVE does not have; ask for a curve of the family cubic or ph-quintic",
+                    "is of the kind `{}`, which OpenDRIVE does not have; ask for a curve of the family cubic or \
+                     ph-quintic",
                     piece.kind().name()
                 )));
             }

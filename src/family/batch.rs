@@ -33,7 +33,7 @@ pub fn verdicts(family: &dyn Family, chart: usize, data: &[f64], threads: usize)
     let whole = data.chunks_exact(axes);
     if !whole.remainder().is_empty() {
         let what = format!("the data are {} numbers; each datum has {axes}", data.len());
-        return Err(RowError { row: whole.len(), error: Error::Domain(what) });
+        return Err(RowError { row: whole.len(), error: Error::invalid(what) });
     }
     let mut codes = vec![Code::UNDECIDED; whole.len()];
     let pieces = codes.chunks_mut(PIECE).zip(data.chunks(PIECE * axes)).enumerate();

@@ -1,19 +1,10 @@
 //! The domain of G² Hermite data in the chord's frame: `0 < φ0`, `0 < φ1`, `φ0 + φ1 < π`.
 
 use super::region::clip_side;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, finite, written};
 use crate::grid::Grid;
 use crate::num::sines::sum_below_pi;
-use crate::num::told;
 use std::f64::consts::PI;
-
-/// An angle for an error message, which may have been given in degrees.
-pub(super) fn told_angle(angle: f64) -> String {
-    let degrees = angle.to_degrees();
-    // Six decimals undo the rounding of degrees that were turned into radians; smaller angles have none to undo.
-    let degrees = if degrees.abs() < 1e-3 { degrees } else { (degrees * 1e6).round() / 1e6 };
-    if degrees.is_finite() { format!("{} ({} degrees)", told(angle), told(degrees)) } else { told(angle) }
-}
 
 /// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by
 /// [`check_angles`].
@@ -21,10 +12,7 @@ fn check_angle(name: &str, angle: f64) -> Result<()> {
     if angle > 0.0 && angle <= PI {
         return Ok(());
     }
-    let angle = told_angle(angle);
-    Err(Error::Domain(format!(
-        "{name} is {angle}; it must be above 0 and below pi (radians; write `40deg` for degrees)"
-    )))
+    Err(Error::angle(name.to_owned(), angle, "above 0 and below pi", "radians; write `40deg` for degrees"))
 }
 
 /// The tangents must meet: φ0 + φ1 < π, decided exactly.
@@ -32,18 +20,16 @@ fn check_angles(phi0: f64, phi1: f64) -> Result<()> {
     if sum_below_pi(phi0, phi1) {
         return Ok(());
     }
-    let [first, second, sum] = [phi0, phi1, phi0 + phi1].map(told);
-    Err(Error::Domain(format!(
+    let [first, second, sum] = [phi0, phi1, phi0 + phi1].map(written);
+    Err(Error::invalid(format!(
         "phi0 + phi1 reaches {first} + {second} = {sum}; it must stay below pi, so that the tangents meet"
     )))
 }
 
 /// A datum: two angles, then two finite curvature coordinates, by name.
-pub(super) fn check(datum: [(&str, f64); 4]) -> Result<()> {
+pub(super) fn check(datum: [(&'static str, f64); 4]) -> Result<()> {
     for (name, value) in &datum[2..] {
-        if !value.is_finite() {
-            return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
-        }
+        finite(*name, *value)?;
     }
     for (name, angle) in &datum[..2] {
         check_angle(name, *angle)?;

@@ -1,8 +1,9 @@
 //! The f32 step of a family, for a GPU: plain data, whoever runs it.
 
-use super::Code;
 use super::record::Record;
+use super::{Code, Flag};
 use crate::grid::Grid;
+use crate::num::COVER;
 
 /// A family's f32 step on one grid.
 pub trait Kernel: Sync {
@@ -30,15 +31,16 @@ pub struct ShaderInputs {
     pub offsets: [u32; 4],
 }
 
-/// A shader's constants in WGSL: flags, whole numbers, numbers, and what marks an undecided node.
-pub(super) fn constants(flags: &[(&str, u8)], counts: &[(&str, usize)], numbers: &[(&str, f64)]) -> String {
+/// A shader's constants in WGSL: flags by their bits, whole numbers, numbers, and what all shaders know.
+pub(super) fn constants(flags: &[Flag], counts: &[(&str, usize)], numbers: &[(&str, f64)]) -> String {
     let whole = |name: &str, value: usize| format!("const {name}: u32 = {value}u;\n");
     let mut text = whole("UNDECIDED", Code::UNDECIDED.0.into());
     // What every question in a shader answers: OPEN where f32 cannot tell.
     text.extend(["NO", "YES", "OPEN"].iter().zip(0..).map(|(name, value)| whole(name, value)));
-    text.extend(flags.iter().map(|(name, bit)| whole(name, (*bit).into())));
+    text.extend(flags.iter().enumerate().map(|(bit, flag)| whole(flag.name, 1 << bit)));
     text.extend(counts.iter().map(|(name, count)| whole(name, *count)));
-    text.extend(numbers.iter().map(|(name, value)| format!("const {name}: f32 = {value:e};\n")));
+    let numbers = [("COVER", COVER)].iter().chain(numbers);
+    text.extend(numbers.map(|(name, value)| format!("const {name}: f32 = {value:e};\n")));
     text
 }
 

@@ -178,7 +178,7 @@ pub trait Family: Sync {
                     .zip(point)
                     .map(|(axis, x)| format!("{axis} = {x:?}"))
                     .collect();
-                Err(Error::Domain(format!(
+                Err(Error::invalid(format!(
                     "{what} leaves the range of doubles for {}; choose less extreme numbers",
                     datum.join(", ")
                 )))
@@ -207,7 +207,7 @@ fn chart_of(family: &dyn Family, grid: &Grid) -> Result<usize> {
     let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
     family.about().charts.iter().position(|c| c.axes == names).ok_or_else(|| {
         let known: Vec<String> = family.about().charts.iter().map(|c| c.axes.join(", ")).collect();
-        Error::Domain(format!(
+        Error::invalid(format!(
             "axes {} are no chart of `{}`; it has: {}",
             names.join(", "),
             family.about().name,
@@ -218,7 +218,7 @@ fn chart_of(family: &dyn Family, grid: &Grid) -> Result<usize> {
 
 /// A datum with as many coordinates as it must have.
 fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
-    point.try_into().map_err(|_| Error::Domain(format!("the datum has {} coordinates; it must have {N}", point.len())))
+    point.try_into().map_err(|_| Error::invalid(format!("the datum has {} coordinates; it must have {N}", point.len())))
 }
 
 /// The code of one datum, as a grid of one node has it.
@@ -274,7 +274,38 @@ pub fn all() -> &'static [&'static dyn Family] {
     ]
 }
 
+/// The names of the families that are so.
+fn names(able: impl Fn(&dyn Family) -> bool) -> String {
+    let all: Vec<&str> = all().iter().filter(|f| able(**f)).map(|f| f.about().name).collect();
+    all.join(", ")
+}
+
 /// The family of a name.
-pub fn by_name(name: &str) -> Option<&'static dyn Family> {
-    all().iter().copied().find(|f| f.about().name == name)
+///
+/// # Errors
+/// [`Error::Domain`], with the names that there are.
+pub fn by_name(name: &str) -> Result<&'static dyn Family> {
+    let found = all().iter().copied().find(|f| f.about().name == name);
+    found.ok_or_else(|| Error::invalid(format!("no family is named `{name}`; there are: {}", names(|_| true))))
+}
+
+/// The proofs of a family over boxes, and its chart with these axes.
+///
+/// # Errors
+/// [`Error::Domain`] where the family has no such proofs, or none in a chart of these axes.
+pub(crate) fn proofs(family: &'static dyn Family, axes: &[&str]) -> Result<(&'static dyn Region, usize)> {
+    let About { name, charts, .. } = family.about();
+    let region = family.region().ok_or_else(|| {
+        let able = names(|f| f.region().is_some());
+        Error::invalid(format!("`{name}` has no proofs over boxes; families that have: {able}"))
+    })?;
+    let chart = charts.iter().position(|c| c.axes == axes && region.covers(c.name)).ok_or_else(|| {
+        let all: Vec<String> = charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(", ")).collect();
+        let all = all.join(" or ");
+        Error::invalid(format!(
+            "the axes are {}; for proofs over boxes of `{name}` they must be {all}",
+            axes.join(", ")
+        ))
+    })?;
+    Ok((region, chart))
 }

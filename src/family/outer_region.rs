@@ -17,7 +17,8 @@
 //!
 //! **Factors.** Always, u, v and the square lie between the values that their own coordinates allow.
 
-use super::region::{MOST_SIDES, add_pull, positive};
+use super::hermite::holds_box;
+use super::region::{Facts, MOST_SIDES, add_pull, positive, sides};
 use crate::num::bernstein::Certain;
 use crate::num::sines::{SIN_ERROR, sin};
 use crate::num::verdict::and;
@@ -64,11 +65,23 @@ fn sines([low, high]: [f64; 2]) -> [Ball; 2] {
 ///
 /// Where it holds, φ0 < π/2. So larger ones are left out. The way of the corners (above) then needs `φ0 + φ1 < π` only
 /// while φ1 falls, and there it stays so.
-pub(super) fn fails_within_domain([phi0, phi1, kappa0, kappa1]: &[[f64; 2]; 4]) -> bool {
+fn fails_within_domain([phi0, phi1, kappa0, kappa1]: &[[f64; 2]; 4]) -> bool {
     let angles = phi0[0] > 0.0 && phi1[0] > 0.0 && phi1[1] <= PI;
     let most = phi0[1].min(FRAC_PI_2.next_up());
     let finite = [kappa0, kappa1].into_iter().flatten().all(|x| x.is_finite());
     angles && finite && (phi0[0] > most || any(&[[phi0[0], most], *phi1, *kappa0, *kappa1]).0 == Some(false))
+}
+
+/// [`super::Region::facts`] of a family with the domain of [`super::hermite`]: what `prove` says of a box in it, and of
+/// other boxes that the flags `none` hold nowhere, where no spiral of any kind fits.
+pub(super) fn facts(low: &[f64], high: &[f64], none: u8, prove: impl FnOnce(&[[f64; 2]; 4]) -> Facts) -> Facts {
+    let mut facts = Facts::default();
+    match sides(low, high) {
+        Some(sides) if holds_box(&sides) => return prove(&sides),
+        Some(sides) if fails_within_domain(&sides) => facts.note(none, Some(false)),
+        _ => {}
+    }
+    facts
 }
 
 /// Whether the flag holds all over a box of the domain, or nowhere; and how much each coordinate moves f, about.

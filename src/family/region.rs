@@ -40,6 +40,11 @@ pub trait Region: Sync {
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts;
 }
 
+/// The sides of a box in N coordinates; `None` in another number.
+pub(super) fn sides<const N: usize>(low: &[f64], high: &[f64]) -> Option<[[f64; 2]; N]> {
+    (low.len() == N && high.len() == N).then(|| std::array::from_fn(|i| [low[i], high[i]]))
+}
+
 /// Shrinks a side to the doubles from `least` to `most`; false where none is left.
 pub(super) fn clip_side(low: &mut f64, high: &mut f64, least: f64, most: f64) -> bool {
     (*low, *high) = (low.max(least), high.min(most));

@@ -2,7 +2,13 @@
 
 use super::Code;
 use crate::grid::{Grid, MAX_AXES};
-use fearless_simd::{Simd, SimdBase};
+use fearless_simd::{Simd, SimdBase, SimdMask};
+
+/// A mask as bits, one a lane.
+#[inline(always)]
+pub(super) fn bits<S: Simd>(mask: S::mask64s) -> u64 {
+    mask.to_bitmask()
+}
 
 /// A family that classifies vectors of nodes which differ in their last coordinate alone.
 pub(super) trait Rows {

@@ -42,7 +42,7 @@ impl Guess {
 }
 
 impl Lookup {
-    pub fn new(axis: &Axis) -> Lookup {
+    pub(crate) fn new(axis: &Axis) -> Lookup {
         let values = axis.values();
         let (first, last) = (values[0], values[values.len() - 1]);
         // Halved before subtracting, so that nothing overflows.
@@ -55,7 +55,7 @@ impl Lookup {
 
     /// Number of values.
     #[inline]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.padded.len() - 2
     }
 
@@ -71,7 +71,7 @@ impl Lookup {
 
     /// Index of the cell between two neighbouring values that holds `x`; of two the upper one. `None` outside the axis.
     #[inline]
-    pub fn cell(&self, x: f64) -> Option<usize> {
+    pub(crate) fn cell(&self, x: f64) -> Option<usize> {
         let values = &self.padded[1..=self.count()];
         let last = values.len().checked_sub(2)?;
         // NaN fails.
@@ -90,7 +90,7 @@ impl Lookup {
     ///
     /// An axis of a single value has no step, and so accepts that value alone.
     #[inline]
-    pub fn nearest(&self, x: f64) -> Option<usize> {
+    pub(crate) fn nearest(&self, x: f64) -> Option<usize> {
         // NaN fails both comparisons, an infinity one.
         if !((self.low <= x) & (x <= self.high)) {
             return None;

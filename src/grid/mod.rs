@@ -4,8 +4,8 @@ mod lookup;
 
 pub(crate) use lookup::Lookup;
 
-use crate::error::{Error, Result};
-use crate::num::{log_space, told};
+use crate::error::{Error, Result, written};
+use crate::num::log_space;
 use serde::{Deserialize, Serialize};
 
 /// Most axes a grid may have.
@@ -56,7 +56,7 @@ impl Axis {
     /// [`Error::Domain`] when a bound is not finite, the order is not strictly increasing, the axis is empty or has
     /// more than [`MAX_COUNT`] values, or a logarithmic axis does not start above zero.
     pub fn new(name: &str, spacing: Spacing) -> Result<Axis> {
-        let fail = |what: String| Err(Error::Domain(format!("axis `{name}` {what}")));
+        let fail = |what: String| Err(Error::invalid(format!("axis `{name}` {what}")));
         let values = match &spacing {
             Spacing::Linear { lo, hi, count } | Spacing::Log { lo, hi, count } => {
                 let log = matches!(spacing, Spacing::Log { .. });
@@ -64,8 +64,8 @@ impl Axis {
                 if !((hi - lo).is_finite() && lo < hi) {
                     return fail(format!(
                         "runs from {} to {}; both and their difference must be finite, with lo < hi",
-                        told(*lo),
-                        told(*hi)
+                        written(*lo),
+                        written(*hi)
                     ));
                 }
                 if !(2..=MAX_COUNT).contains(count) {
@@ -74,7 +74,7 @@ impl Axis {
                     ));
                 }
                 if log && *lo <= 0.0 {
-                    return fail(format!("is logarithmic from {}; it must start above 0", told(*lo)));
+                    return fail(format!("is logarithmic from {}; it must start above 0", written(*lo)));
                 }
                 if log { log_space(*lo, *hi, *count) } else { lin_space(*lo, *hi, *count) }
             }
@@ -89,8 +89,8 @@ impl Axis {
         if let Some(pair) = values.windows(2).find(|w| w[0] >= w[1]) {
             return fail(format!(
                 "has {} before {}; values must increase strictly (fewer values, or a wider range)",
-                told(pair[0]),
-                told(pair[1])
+                written(pair[0]),
+                written(pair[1])
             ));
         }
         Ok(Axis { name: name.to_owned(), spacing, values })
@@ -150,17 +150,17 @@ impl Grid {
     /// [`Error::Domain`] for no axes, more than [`MAX_AXES`], two of one name, or more than [`MAX_NODES`] nodes.
     pub fn new(axes: Vec<Axis>) -> Result<Grid> {
         if axes.is_empty() || axes.len() > MAX_AXES {
-            return Err(Error::Domain(format!("a grid has {} axes; it must have 1 to {MAX_AXES}", axes.len())));
+            return Err(Error::invalid(format!("a grid has {} axes; it must have 1 to {MAX_AXES}", axes.len())));
         }
         for (i, axis) in axes.iter().enumerate() {
             if axes[..i].iter().any(|other| other.name == axis.name) {
-                return Err(Error::Domain(format!("axis `{}` is given twice", axis.name)));
+                return Err(Error::invalid(format!("axis `{}` is given twice", axis.name)));
             }
         }
         let nodes = axes.iter().try_fold(1u64, |n, a| n.checked_mul(a.values.len() as u64));
         match nodes {
             Some(n) if n <= MAX_NODES => Ok(Grid { axes }),
-            _ => Err(Error::Domain(format!("the grid has more than {MAX_NODES} nodes; split it"))),
+            _ => Err(Error::invalid(format!("the grid has more than {MAX_NODES} nodes; split it"))),
         }
     }
 
@@ -224,7 +224,7 @@ impl Grid {
     /// increase.
     pub fn pick(&self, nodes: &[Vec<usize>]) -> Result<Grid> {
         if nodes.len() != self.axes.len() {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "nodes of {} axes are chosen; the grid has {}",
                 nodes.len(),
                 self.axes.len()
@@ -236,7 +236,7 @@ impl Grid {
             }
             let value = |node: &usize| {
                 let beyond =
-                    || Error::Domain(format!("axis `{}` has no node {node}; it has {}", axis.name, axis.values.len()));
+                    || Error::invalid(format!("axis `{}` has no node {node}; it has {}", axis.name, axis.values.len()));
                 axis.values.get(*node).copied().ok_or_else(beyond)
             };
             Axis::new(&axis.name, Spacing::Values(nodes.iter().map(value).collect::<Result<_>>()?))

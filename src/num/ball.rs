@@ -2,7 +2,7 @@
 //! hand would not pay.
 
 use super::bernstein::Certain;
-use super::{Interval, Number, Real};
+use super::{Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
 
 /// Unit roundoff.
@@ -14,7 +14,7 @@ const TINY: f64 = f64::MIN_POSITIVE;
 
 /// All numbers within `error` of `value`. Overflow makes it hold all numbers: no comparison is certain then.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ball {
+pub(crate) struct Ball {
     /// The middle.
     pub value: f64,
     /// The radius, at least 0.
@@ -24,7 +24,7 @@ pub struct Ball {
 impl Ball {
     /// The same number of another arithmetic, as well as doubles can hold it.
     #[inline(always)]
-    pub fn enclosing<N: Real>(x: &N) -> Ball {
+    pub(crate) fn enclosing<N: Real>(x: &N) -> Ball {
         let value = x.approx();
         if !value.is_finite() {
             // Beyond the range of doubles every number is possible.
@@ -36,14 +36,8 @@ impl Ball {
     }
 
     /// A number known to `units` of 2^-53, relative.
-    pub fn near(value: f64, units: f64) -> Ball {
+    pub(crate) fn near(value: f64, units: f64) -> Ball {
         Ball { value, error: value.abs() * (units * UNIT * GROW) + TINY }
-    }
-
-    /// The interval from its smallest to its largest number; `None` when those are no doubles.
-    pub fn interval(&self, bits: usize) -> Option<Interval> {
-        let number = |x: f64| x.is_finite().then(|| Interval::new(x, bits));
-        Some(&number(self.value)? + &number(self.error)?.size())
     }
 
     /// From the smallest to the largest of its numbers, a little widened.

@@ -1,20 +1,19 @@
 //! Signs of polynomials and least values of quintics in Bernstein form on [0, 1], with proof.
 
-use super::Verdict;
 use super::formula::formula;
-use super::{Interval, Number};
+use super::{COVER, Interval, Number, Verdict};
 use crate::steps::step;
 use std::cmp::Ordering;
 
 /// Most halvings of intervals: deeper pieces are ties for every purpose, and the recursion stays within a thread's
 /// stack.
-pub const MOST_HALVINGS: u32 = 400;
+pub(crate) const MOST_HALVINGS: u32 = 400;
 
 /// Bernstein coefficients of a quintic.
-pub type Quintic<N> = [N; 6];
+pub(crate) type Quintic<N> = [N; 6];
 
 /// A number whose comparison with zero can be certain or not.
-pub trait Certain: Number {
+pub(crate) trait Certain: Number {
     /// The sign if it is certain, given that the value may be off by `error` in either direction.
     fn certain_sign(&self, error: f64) -> Option<Ordering>;
     /// Its absolute value, as far as rounding errors depend on it: 0 where numbers carry their own.
@@ -91,7 +90,7 @@ impl Certain for Interval {
 /// steps are off by at most `K - 1` units of 2^-53 of the largest coefficient, and pass on errors of the input
 /// undiminished but not grown.
 #[inline]
-pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
+pub(crate) fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
     let (mut left, mut right) = (c.clone(), c.clone());
     for step in 1..K {
         left[step - 1] = right[0].clone();
@@ -113,9 +112,9 @@ pub fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
 ///
 /// Coefficients bound the polynomial from below on their piece (convex hull); the outer two are its values there.
 /// A zero is never decided: the truth at a tie needs more than this test.
-pub fn positive<N: Certain, const K: usize>(c: &[N; K], error: f64, rounding: f64, depth: u32) -> Verdict {
+pub(crate) fn positive<N: Certain, const K: usize>(c: &[N; K], error: f64, rounding: f64, depth: u32) -> Verdict {
     // Relative from here on, because pieces may be much smaller than the whole.
-    let unit = if rounding > 0.0 { 1.01 * rounding / largest(c).max(f64::MIN_POSITIVE) } else { 0.0 };
+    let unit = if rounding > 0.0 { COVER * rounding / largest(c).max(f64::MIN_POSITIVE) } else { 0.0 };
     positive_piece(c, error, unit, depth)
 }
 
@@ -156,7 +155,7 @@ fn positive_piece<N: Certain, const K: usize>(c: &[N; K], error: f64, unit: f64,
 /// # Accuracy
 /// The value is at most `(5 · 64 + 8) 2^-53` of the largest coefficient from the least value: 5 units for each of up to
 /// 64 halvings, 8 units for the tolerance.
-pub fn least(c: &Quintic<f64>) -> (f64, f64) {
+pub(crate) fn least(c: &Quintic<f64>) -> (f64, f64) {
     const DEPTH: u32 = 64;
     let tolerance = c.iter().fold(0.0f64, |m, v| m.max(v.abs())) * 2f64.powi(-50);
     let mut best = if c[0] <= c[5] { (c[0], 0.0) } else { (c[5], 1.0) };
@@ -183,7 +182,7 @@ pub fn least(c: &Quintic<f64>) -> (f64, f64) {
 }
 
 /// Error of [`least`] for coefficients that may each be off by `error`.
-pub fn least_error(c: &Quintic<f64>, error: f64) -> f64 {
+pub(crate) fn least_error(c: &Quintic<f64>, error: f64) -> f64 {
     let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs())) + error;
     error + 340.0 * (0.5 * f64::EPSILON) * largest
 }
@@ -197,7 +196,7 @@ pub fn least_error(c: &Quintic<f64>, error: f64) -> f64 {
 /// # Accuracy
 /// Near a least value inside, the lowest coefficient of a piece is below it by the square of the piece's width, so that
 /// some bits/4 halvings suffice. A feature of width w asks for log2 1/w more.
-pub fn least_interval(c: &Quintic<Interval>) -> Interval {
+pub(crate) fn least_interval(c: &Quintic<Interval>) -> Interval {
     let bits = c[0].bits();
     let less = |a: &Interval, b: &Interval| a.compare(b) == Some(Ordering::Less);
     let min = |a: Interval, b: Interval| if less(&b, &a) { b } else { a };
@@ -229,7 +228,7 @@ pub fn least_interval(c: &Quintic<Interval>) -> Interval {
 
 /// The margin of a quintic: its least value on [0, 1] over its largest coefficient, and how far that may be off, for
 /// coefficients that may each be off by `error`.
-pub fn margin(c: &Quintic<f64>, error: f64) -> (f64, f64) {
+pub(crate) fn margin(c: &Quintic<f64>, error: f64) -> (f64, f64) {
     let largest = c.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let (value, _) = least(c);
     let ratio = value / largest;
@@ -238,7 +237,7 @@ pub fn margin(c: &Quintic<f64>, error: f64) -> (f64, f64) {
 }
 
 /// [`margin`] in intervals; `None` at too low a precision.
-pub fn exact_margin(c: &Quintic<Interval>) -> Option<Interval> {
+pub(crate) fn exact_margin(c: &Quintic<Interval>) -> Option<Interval> {
     let mut largest = Interval::new(0.0, c[0].bits());
     for c in c {
         let size = if c.sign()? == Ordering::Less { -c } else { c.clone() };

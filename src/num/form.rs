@@ -28,7 +28,7 @@ const TINY: f64 = f64::MIN_POSITIVE;
 ///
 /// `H` is `K (K + 1) / 2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Form<const K: usize, const H: usize> {
+pub(crate) struct Form<const K: usize, const H: usize> {
     /// In the middle of the box.
     pub value: f64,
     /// Of each symbol.
@@ -40,7 +40,7 @@ pub struct Form<const K: usize, const H: usize> {
 }
 
 /// A form in two symbols.
-pub type Quadratic = Form<2, 3>;
+pub(crate) type Quadratic = Form<2, 3>;
 
 #[inline(always)]
 fn sum<const N: usize>(terms: &[f64; N]) -> f64 {
@@ -54,13 +54,13 @@ fn sum<const N: usize>(terms: &[f64; N]) -> f64 {
 impl<const K: usize, const H: usize> Form<K, H> {
     /// Numbers of a ball, which may depend on the symbols in any way.
     #[inline(always)]
-    pub fn ball(ball: Ball) -> Form<K, H> {
+    pub(crate) fn ball(ball: Ball) -> Form<K, H> {
         const { assert!(2 * H == K * (K + 1)) };
         Form { value: ball.value, slope: [0.0; K], bend: [0.0; H], error: ball.error }
     }
 
     /// The numbers from `low` to `high`, as a linear function of one symbol.
-    pub fn along([low, high]: [f64; 2], symbol: usize) -> Form<K, H> {
+    pub(crate) fn along([low, high]: [f64; 2], symbol: usize) -> Form<K, H> {
         // More than the roundings of both.
         let error = 2.0 * f64::EPSILON * (low.abs() + high.abs()) + TINY;
         let mut form = Form::ball(Ball { value: 0.5 * (low + high), error });
@@ -85,19 +85,19 @@ impl<const K: usize, const H: usize> Form<K, H> {
     }
 
     /// Every number it holds.
-    pub fn range(&self) -> Ball {
+    pub(crate) fn range(&self) -> Ball {
         Ball { value: self.value, error: self.around() }
     }
 
     /// Less than every number it holds, and not by much where it is convex or nearly linear.
     #[inline(always)]
-    pub fn low(&self) -> f64 {
+    pub(crate) fn low(&self) -> f64 {
         self.value - self.depth(1.0)
     }
 
     /// More than every number it holds, and not by much where it is concave or nearly linear.
     #[inline(always)]
-    pub fn high(&self) -> f64 {
+    pub(crate) fn high(&self) -> f64 {
         self.value + self.depth(-1.0)
     }
 
@@ -130,7 +130,7 @@ impl<const K: usize, const H: usize> Form<K, H> {
 
     /// Off by so much more.
     #[inline(always)]
-    pub fn off(mut self, error: f64) -> Form<K, H> {
+    pub(crate) fn off(mut self, error: f64) -> Form<K, H> {
         self.error = (self.error + error) * GROW;
         self
     }
@@ -149,7 +149,7 @@ impl<const K: usize, const H: usize> Form<K, H> {
     }
 
     /// `1 / self`: with a double r near `1 / value` and `self r = 1 + u` that is `r (1 - u + u² - u³ / (1 + u))`.
-    pub fn inverse(&self) -> Option<Form<K, H>> {
+    pub(crate) fn inverse(&self) -> Option<Form<K, H>> {
         let r = 1.0 / self.value;
         let u = formula!(self * { r } - 1.0);
         let most = u.most();

@@ -12,7 +12,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 pub struct Term<'n, N>(pub &'n N);
 
 /// Makes every number usable as a letter.
-pub trait Letter: Number {
+pub(crate) trait Letter: Number {
     /// This number as a letter.
     #[inline(always)]
     fn term(&self) -> Term<'_, Self> {

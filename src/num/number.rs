@@ -60,7 +60,7 @@ impl Number for Interval {
 
 /// A vector of doubles as wide as the processor likes.
 #[derive(Debug, Clone, Copy)]
-pub struct Lanes<S: Simd>(pub S::f64s);
+pub(crate) struct Lanes<S: Simd>(pub S::f64s);
 
 impl<S: Simd> Number for Lanes<S> {
     #[inline(always)]
@@ -88,13 +88,13 @@ impl<S: Simd> Number for Lanes<S> {
 impl<S: Simd> Lanes<S> {
     /// One value in every lane.
     #[inline(always)]
-    pub fn splat(simd: S, value: f64) -> Self {
+    pub(crate) fn splat(simd: S, value: f64) -> Self {
         Lanes(S::f64s::splat(simd, value))
     }
 }
 
 /// Enclosed numbers of some precision: what a family computes with once, for doubles and for the top of the ladder.
-pub trait Real: super::bernstein::Certain + Sized {
+pub(crate) trait Real: super::bernstein::Certain + Sized {
     /// A double, exactly, with results rounded to `bits`.
     fn of(x: f64, bits: usize) -> Self;
     /// The precision of results.

@@ -16,7 +16,7 @@ use std::cmp::Ordering::{self, Equal, Greater, Less};
 /// let root = spiral_atlas::num::roots::find(|x| x * x - 2.0, 0.0, 2.0, 1e-15);
 /// assert!((root - 2f64.sqrt()).abs() < 2e-15);
 /// ```
-pub fn find(f: impl Fn(f64) -> f64, low: f64, high: f64, tolerance: f64) -> f64 {
+pub(crate) fn find(f: impl Fn(f64) -> f64, low: f64, high: f64, tolerance: f64) -> f64 {
     // The usual parameters: κ1 = 0.2 / width, κ2 = 2, n0 = 1.
     let (mut low, mut high, mut below, mut above) = (low, high, f(low), f(high));
     let width = high - low;
@@ -47,7 +47,7 @@ pub fn find(f: impl Fn(f64) -> f64, low: f64, high: f64, tolerance: f64) -> f64 
 }
 
 /// A function with its derivative, in intervals and, for guesses, in doubles.
-pub trait Curve {
+pub(crate) trait Curve {
     /// Value and slope; `None` where the precision does not suffice.
     fn at(&self, x: &Interval) -> Option<(Interval, Interval)>;
     /// The value, about.
@@ -62,7 +62,7 @@ pub trait Curve {
 /// bracket.
 ///
 /// `None` when f has no certain, opposite signs at the ends.
-pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Interval> {
+pub(crate) fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Interval> {
     let (mut low, mut high) = (from.clone(), to.clone());
     let side = f.at(&low)?.0.sign()?;
     if side == Equal || f.at(&high)?.0.sign()? != side.reverse() {
@@ -109,7 +109,7 @@ pub fn bracketed(from: &Interval, to: &Interval, f: &impl Curve) -> Option<Inter
 
 /// Proves a root around a guess: opposite certain signs at `x - δ` and `x + δ`, with about the least δ that works. The
 /// first is what the value at the guess and its rounding ask for.
-pub fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
+pub(crate) fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
     let bits = guess.bits();
     let (value, slope) = f.at(guess)?;
     let most = &guess.size().upper() * &Interval::power_of_two(-(bits as isize) / 4, bits);
@@ -132,7 +132,7 @@ pub fn enclose(f: &impl Curve, guess: &Interval) -> Option<Interval> {
 /// whose range doubles have.
 ///
 /// `f` gives value and slope. Three steps double the digits of any guess that shows some 14 of them.
-pub fn near<N: Real>(f: impl Fn(&N) -> Option<(N, N)>, guess: f64) -> Option<N> {
+pub(crate) fn near<N: Real>(f: impl Fn(&N) -> Option<(N, N)>, guess: f64) -> Option<N> {
     let mut x = N::of(guess, TWIN_BITS);
     let bits = x.bits();
     let mut last = f(&x)?;

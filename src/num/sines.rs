@@ -15,7 +15,7 @@ const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
 const THREE_HALVES_PI_LOW: f64 = 1.8369701987210297e-16;
 
 /// Relative error of [`sin`], [`cos`] and [`sin_of_sum`], in units of 2^-53.
-pub const SIN_ERROR: f64 = 10.0;
+pub(crate) const SIN_ERROR: f64 = 10.0;
 
 struct Knot {
     sin: f64,
@@ -60,7 +60,7 @@ fn sin_quadrant(x: f64) -> f64 {
 /// # Accuracy
 /// [`SIN_ERROR`] units of 2^-53, relative: beyond π/2 the angle is taken from π exactly (Sterbenz)
 /// and rounded once; a relative error of the angle below π/2 costs at most as much in the sine.
-pub fn sin(x: f64) -> f64 {
+pub(crate) fn sin(x: f64) -> f64 {
     if x <= FRAC_PI_2 {
         return sin_quadrant(x);
     }
@@ -73,7 +73,7 @@ pub fn sin(x: f64) -> f64 {
 /// # Accuracy
 /// [`SIN_ERROR`] units of 2^-53, relative, also close to π/2: the complement is exact from π/4 on, and below π/4 its
 /// rounding error, under 1.6 units, reaches the cosine times tan x < 1. Beyond π the same holds from 3π/2.
-pub fn cos(x: f64) -> f64 {
+pub(crate) fn cos(x: f64) -> f64 {
     if x > PI {
         // The difference is exact.
         return -sin_quadrant((3.0 * FRAC_PI_2 - x) + THREE_HALVES_PI_LOW);
@@ -83,7 +83,7 @@ pub fn cos(x: f64) -> f64 {
 }
 
 /// A rounded sum and its rounding error, exactly (Knuth).
-pub fn two_sum(x: f64, y: f64) -> (f64, f64) {
+pub(crate) fn two_sum(x: f64, y: f64) -> (f64, f64) {
     let sum = x + y;
     let part = sum - x;
     (sum, (x - (sum - part)) + (y - part))
@@ -91,7 +91,7 @@ pub fn two_sum(x: f64, y: f64) -> (f64, f64) {
 
 /// Whether `x + y < π`, decided exactly: π lies between the double [`PI`] and the next one up, so where the rounded sum
 /// equals [`PI`] its rounding error tells.
-pub fn sum_below_pi(x: f64, y: f64) -> bool {
+pub(crate) fn sum_below_pi(x: f64, y: f64) -> bool {
     let (sum, low) = two_sum(x, y);
     sum < PI || sum == PI && low < PI_LOW
 }
@@ -101,7 +101,7 @@ pub fn sum_below_pi(x: f64, y: f64) -> bool {
 /// # Accuracy
 /// [`SIN_ERROR`] units of 2^-53, relative: the rounding error of the sum is recovered (Knuth's two-sum) and kept where
 /// it matters, close to π.
-pub fn sin_of_sum(x: f64, y: f64) -> f64 {
+pub(crate) fn sin_of_sum(x: f64, y: f64) -> f64 {
     let (sum, low) = two_sum(x, y);
     if sum <= FRAC_PI_2 { sin_quadrant(sum) } else { sin_quadrant((PI - sum) + (PI_LOW - low)) }
 }

@@ -15,12 +15,12 @@ const GROW: f64 = 1.0 + 16.0 * UNIT;
 /// range, each by less than 2^-1074.
 const TINY: f64 = f64::MIN_POSITIVE;
 /// What results are about good to, in bits.
-pub const TWIN_BITS: usize = 100;
+pub(crate) const TWIN_BITS: usize = 100;
 
 /// All numbers within `error` of `high + low`, where `high` is the double next to that sum. Overflow makes it hold
 /// all numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Twin {
+pub(crate) struct Twin {
     high: f64,
     low: f64,
     error: f64,
@@ -53,13 +53,8 @@ impl Twin {
     }
 
     /// The same numbers.
-    pub fn around(ball: &Ball) -> Twin {
+    pub(crate) fn around(ball: &Ball) -> Twin {
         Twin::sum(ball.value, 0.0, ball.error)
-    }
-
-    /// The sum of two doubles, exactly.
-    pub fn of_sum(x: f64, y: f64) -> Twin {
-        Twin::sum(x, y, 0.0)
     }
 
     /// `(sin x, cos x)` for |x| <= π.
@@ -68,7 +63,7 @@ impl Twin {
     /// As its error says, some 2^-104. With `x = k/16 + r`, `|r| <= 1/32` (exact: both are multiples of the last bit
     /// of x, and the difference is smaller than x), the series in r stop at `r^15/15! < 2^-115` and `r^16/16! <
     /// 2^-124`.
-    pub fn sine_cosine(x: f64) -> (Twin, Twin) {
+    pub(crate) fn sine_cosine(x: f64) -> (Twin, Twin) {
         let size = x.abs();
         let k = (size * 16.0).round();
         let r = size - k / 16.0;
@@ -98,7 +93,8 @@ impl Twin {
     }
 
     /// The nearest double, when that is certain.
-    pub fn to_f64(&self) -> Option<f64> {
+    #[expect(clippy::wrong_self_convention, reason = "as `Interval::to_f64`: one of both is handed on")]
+    pub(crate) fn to_f64(&self) -> Option<f64> {
         // Rounding is monotone: what lies between two numbers that round alike rounds like them.
         let error = self.error * GROW + self.low.abs() * (2.0 * f64::EPSILON);
         let ends = [self.high + (self.low - error), self.high + (self.low + error)];

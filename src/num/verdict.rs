@@ -3,7 +3,7 @@
 /// A condition's verdict: `Some(true)`, it is proved to hold; `Some(false)`, it is proved to fail; `None`, undecided.
 ///
 /// Shaders call the three `YES`, `NO` and `OPEN`. An undecided node has the code `Code::UNDECIDED`.
-pub type Verdict = Option<bool>;
+pub(crate) type Verdict = Option<bool>;
 
 /// Whether all hold: no where one fails, else undecided where one is undecided.
 pub(crate) fn all(conditions: impl IntoIterator<Item = Verdict>) -> Verdict {

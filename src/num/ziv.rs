@@ -13,7 +13,7 @@ const MOST_BITS: usize = 16384;
 ///
 /// # Errors
 /// [`Error::Undecided`] at 16384 bits, with the datum and what was to be decided.
-pub fn climb<T>(datum: &impl Debug, what: &str, attempt: impl Fn(usize) -> Option<T>) -> Result<(T, usize)> {
+pub(crate) fn climb<T>(datum: &impl Debug, what: &str, attempt: impl Fn(usize) -> Option<T>) -> Result<(T, usize)> {
     let mut bits = FIRST_BITS;
     while bits <= MOST_BITS {
         if let Some(found) = attempt(bits) {
@@ -21,9 +21,9 @@ pub fn climb<T>(datum: &impl Debug, what: &str, attempt: impl Fn(usize) -> Optio
         }
         bits *= 2;
     }
-    let told = format!("{datum:?}");
+    let text = format!("{datum:?}");
     // Fields without the type's name.
     let coordinates =
-        told.split_once(" { ").map_or(told.as_str(), |(_, fields)| fields.trim_end_matches(" }")).to_owned();
+        text.split_once(" { ").map_or(text.as_str(), |(_, fields)| fields.trim_end_matches(" }")).to_owned();
     Err(Error::Undecided { node: None, coordinates, what: what.into(), bits: MOST_BITS })
 }

@@ -1,8 +1,9 @@
-//! Rounding the corner of a polyline by a PH quintic that joins its legs with continuous curvature: (15)-(21).
+//! Rounding the corner of a polyline by a PH quintic that joins its legs with continuous curvature:
+//! Farouki et al., (15)-(21).
 
 use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, above_zero};
 use num_complex::Complex64;
 
 /// A path of two straight legs turns: half the turning angle θ, as cosine c and sine s.
@@ -129,15 +130,13 @@ impl Turn {
     /// ```
     pub fn corner(&self, at: [f64; 2], reach: f64) -> Result<PhQuintic> {
         finite("corner", "at", &at)?;
-        if reach.is_nan() || reach <= 0.0 {
-            return Err(Error::Domain(format!("corner: the reach is {reach:?}; it must be above 0")));
-        }
+        above_zero("corner: the reach", reach)?;
         let [first, last] = self.legs.map(|leg| leg * reach);
         let curve = PhQuintic::between(pair(complex(at) - first), pair(complex(at) + last), self.preimage(reach));
         match curve.is_finite() {
             true => Ok(curve),
             false => {
-                Err(Error::Domain(format!("corner: a curve of reach {reach:?} at {at:?} leaves the range of doubles")))
+                Err(Error::invalid(format!("corner: a curve of reach {reach:?} at {at:?} leaves the range of doubles")))
             }
         }
     }

@@ -74,7 +74,7 @@ impl Course {
     /// [`Error::Domain`] without a piece, for a length that is not finite, and for a gap between pieces above 1e-10 of
     /// their length and place.
     pub fn new(pieces: Vec<Piece>) -> Result<Course> {
-        let fail = |what: String| Err(Error::Domain(what));
+        let fail = |what: String| Err(Error::invalid(what));
         if pieces.is_empty() {
             return fail("`pieces` is empty; a path has one at least".into());
         }
@@ -189,9 +189,9 @@ impl Course {
     /// still.
     pub fn offset(&self, d: f64) -> Result<Vec<OffsetCurve>> {
         let fail = |i: usize| {
-            Error::Domain(format!(
-                "pieces[{i}]: its offset at distance {d:?} is not finite: the piece stands still somewhere, or the offset leaves the range of \
-                 doubles; then change the unit of length"
+            Error::invalid(format!(
+                "pieces[{i}]: its offset at distance {d:?} is not finite: the piece stands still somewhere, or the \
+                 offset leaves the range of doubles; then change the unit of length"
             ))
         };
         let one = |(i, piece): (usize, &Piece)| {

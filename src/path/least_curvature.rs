@@ -97,7 +97,7 @@ const LEAST: f64 = 1e-2;
 pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     let (chord, search) = checked(ends)?;
     let distance = chord.norm();
-    // By (10), equal end derivatives of paths of a length S have at least 3/2 (S - 1), for S near 1.
+    // By Farouki et al., (10), equal end derivatives of paths of a length S have at least 3/2 (S - 1), for S near 1.
     let low = LEAST.min(0.5 * search.beyond);
     let space = Space::new(search, ends.free, low);
     let (best, at_least) = space.least().ok_or_else(|| {
@@ -108,8 +108,9 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     let curve = PhQuintic::between(ends.start, ends.end, best.preimage.map(|w| pair(complex(w) * back)));
     if !curve.is_regular() {
         return Err(Error::NoPath(format!(
-            "the paths as short as `greatest_length`, {:?}, all but stand still at their ends, slower than 1e-12 of their mean speed, \
-             where doubles have no curvature for them: it hardly exceeds the distance {distance:?} of the ends; allow more",
+            "the paths as short as `greatest_length`, {:?}, all but stand still at their ends, slower than 1e-12 of \
+             their mean speed, where doubles have no curvature for them: it hardly exceeds the distance {distance:?} of \
+             the ends; allow more",
             ends.greatest_length
         )));
     }
@@ -125,7 +126,7 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
 }
 
 fn fail<T>(what: String) -> Result<T> {
-    Err(Error::Domain(format!("least curvature: {what}")))
+    Err(Error::invalid(format!("least curvature: {what}")))
 }
 
 /// The chord, and what is searched in units of it.
@@ -148,7 +149,8 @@ fn checked(ends: &Directions) -> Result<(Complex64, Search)> {
     }
     if !(greatest_length > distance && greatest_length <= 1e6 * distance) {
         return fail(format!(
-            "`greatest_length` is {greatest_length:?}; it must exceed the distance {distance:?} of the ends, at most 1e6 times"
+            "`greatest_length` is {greatest_length:?}; it must exceed the distance {distance:?} of the ends, at most \
+             1e6 times"
         ));
     }
     let theta = |direction: f64| (Complex64::cis(direction) * chord.conj()).arg();

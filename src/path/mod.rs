@@ -8,7 +8,7 @@
 //! # How it is done
 //! - One PH quintic type, `curve::PhQuintic`: pre-image and both ends. Both, so that ends are met exactly; control
 //!   points come from the nearer end.
-//! - Its energy is that of the family (`family/ph_quintic/energy.rs`): a proved enclosure needs no partial fractions,
+//! - Its energy is that of the family (`curve/energy.rs`): a proved enclosure needs no partial fractions,
 //!   which cancel where roots nearly coincide.
 //! - `curve/equal_length.rs`: of √p and √q the one that is a sum, the other from their product; the discriminant as a
 //!   sum of squares. Nothing cancels near `θ1 = ±θ0`.
@@ -77,7 +77,7 @@ fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
 
 /// Refuses spans that are not finite, or that do not join exactly.
 fn check_joined(what: &str, spans: &[PhQuintic]) -> Result<()> {
-    let fail = |told: String| Err(Error::Domain(format!("{what}: {told}")));
+    let fail = |why: String| Err(Error::invalid(format!("{what}: {why}")));
     if let Some(i) = spans.iter().position(|span| !span.is_finite()) {
         return fail(format!("span {i} of the path is not finite: {:?}", spans[i]));
     }

@@ -1,8 +1,8 @@
 //! A vehicle that travels along its path at a constant speed: where it is, and by how much that may be wrong.
 
 use super::way::{Reached, Way};
-use super::{Course, ROUNDINGS, distance, finite};
-use crate::error::{Error, Result};
+use super::{Course, ROUNDINGS, distance};
+use crate::error::{Error, Result, finite, positive};
 use crate::transition::Piece;
 
 /// Times, and lengths covered in them, are at most this.
@@ -49,14 +49,10 @@ impl Motion {
     /// [`Error::Domain`] without a piece, for an involute, for pieces that [`Course::new`] refuses, a path of no
     /// length, a speed not above 0, or a number not finite.
     pub fn new<P: Into<Piece>>(pieces: impl IntoIterator<Item = P>, speed: f64, start_time: f64) -> Result<Motion> {
-        let fail = |what: String| Err(Error::Domain(format!("motion: {what}")));
-        finite("motion", "speed", &[speed])?;
-        finite("motion", "start_time", &[start_time])?;
-        if speed <= 0.0 {
-            return fail(format!("`speed` is {speed:?}; it must be above 0"));
-        }
+        positive("motion: `speed`", speed)?;
+        finite("motion: `start_time`", start_time)?;
         let course = Course::new(pieces.into_iter().map(Into::into).collect())?;
-        let way = |(i, piece)| Way::new(piece).map_err(|e| Error::Domain(format!("pieces[{i}] {e}")));
+        let way = |(i, piece)| Way::new(piece).map_err(|e| Error::invalid(format!("pieces[{i}] {e}")));
         let ways = course.pieces().iter().enumerate().map(way).collect::<Result<Vec<Way>>>()?;
         let mut lengths = vec![0.0];
         for way in &ways {
@@ -64,7 +60,7 @@ impl Motion {
         }
         let length = lengths[lengths.len() - 1];
         if !(length > 0.0 && length.is_finite()) {
-            return fail(format!("its path is {length:?} long; it must have a length"));
+            return Err(Error::invalid(format!("motion: its path is {length:?} long; it must have a length")));
         }
         let most = |of: fn(&Way) -> f64| ways.iter().map(of).fold(0.0, f64::max);
         let direction_off = most(|way| way.direction_off);
@@ -88,14 +84,15 @@ impl Motion {
         let extent = far.max(length);
         let motion = Motion { course, ways, lengths, speed, start_time, curvature, kinks, extent, size, mismatch };
         let [start, end] = motion.times();
-        let told = speed * (start.abs() + end.abs());
+        let traveled = speed * (start.abs() + end.abs());
         // Written so that NaN is refused.
-        let fits = start < end && start.abs().max(end.abs()).max(told) <= LARGEST;
+        let fits = start < end && start.abs().max(end.abs()).max(traveled) <= LARGEST;
         if !fits {
-            return fail(format!(
-                "its path of length {length:?} takes from time {start:?} to {end:?} at the `speed` {speed:?}; these must differ, and be at most \
-                 {LARGEST:e}, as must be what it would cover in them: change the unit of time"
-            ));
+            return Err(Error::invalid(format!(
+                "motion: its path of length {length:?} takes from time {start:?} to {end:?} at the `speed` {speed:?}; \
+                 these must differ, and be at most {LARGEST:e}, as must be what it would cover in them: change the unit \
+                 of time"
+            )));
         }
         Ok(motion)
     }

@@ -103,7 +103,7 @@ pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<(usize, usize
 fn check(minimum: f64) -> Result<()> {
     finite("separation", "minimum", &[minimum])?;
     if minimum < 0.0 {
-        return Err(Error::Domain(format!("separation: `minimum` is {minimum:?}; a distance is at least 0")));
+        return Err(Error::domain("separation: `minimum`", minimum, "at least 0"));
     }
     Ok(())
 }

@@ -70,7 +70,7 @@ pub fn spline(points: &[[f64; 2]], closed: bool) -> Result<Spline> {
 
 /// The points, of a closed curve with the first again at the end.
 fn checked(points: &[[f64; 2]], closed: bool) -> Result<Vec<[f64; 2]>> {
-    let fail = |what: String| Err(Error::Domain(format!("spline: {what}")));
+    let fail = |what: String| Err(Error::invalid(format!("spline: {what}")));
     for (i, p) in points.iter().enumerate() {
         finite("spline", &format!("points[{i}]"), p)?;
     }
@@ -232,9 +232,9 @@ impl Problem<'_> {
     fn failed(&self, z: &[Complex64], steps: usize) -> Result<usize> {
         let off = |i: usize| self.residual(z, i).0.norm() / (60.0 * self.chords[i].norm());
         let worst = (0..z.len()).max_by(|i, j| off(*i).total_cmp(&off(*j))).unwrap_or_default();
-        Err(Error::Domain(format!(
-            "spline: Newton's method did not converge in {steps} steps; the span from points[{worst}] misses its end by {:.1e} of its chord \
-             (space the points more evenly, or add some where the path turns)",
+        Err(Error::invalid(format!(
+            "spline: Newton's method did not converge in {steps} steps; the span from points[{worst}] misses its end by \
+             {:.1e} of its chord (space the points more evenly, or add some where the path turns)",
             off(worst)
         )))
     }

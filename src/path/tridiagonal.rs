@@ -7,7 +7,7 @@ const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 /// `lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1]`; `lower[0]` and the last of `upper` are the corners of a
 /// closed loop, else 0.
 #[derive(Debug, Clone)]
-pub struct Tridiagonal {
+pub(super) struct Tridiagonal {
     pub lower: Vec<Complex64>,
     pub diagonal: Vec<Complex64>,
     pub upper: Vec<Complex64>,
@@ -18,7 +18,7 @@ impl Tridiagonal {
     ///
     /// Elimination with row exchanges. The corners are a change of rank one (Sherman and Morrison), for at least three
     /// unknowns.
-    pub fn solve(&self, right: &[Complex64]) -> Vec<Complex64> {
+    pub(super) fn solve(&self, right: &[Complex64]) -> Vec<Complex64> {
         let last = self.diagonal.len() - 1;
         let (corner, other) = (self.lower[0], self.upper[last]);
         if corner == ZERO && other == ZERO {

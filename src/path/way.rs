@@ -92,7 +92,7 @@ impl Way {
     /// # Errors
     /// [`Error::Domain`] for an involute, whose points have no proved error, and for lengths and coordinates beyond
     /// [`RANGE`], or not finite.
-    pub fn new(piece: &Piece) -> Result<Way> {
+    pub(super) fn new(piece: &Piece) -> Result<Way> {
         let way = match piece {
             Piece::PhQuintic(curve) => Way::quintic(*curve),
             Piece::Line(line) => Way::quintic(PhQuintic::straight(line.start, line.end)),
@@ -100,9 +100,9 @@ impl Way {
             Piece::Cubic(cubic) => Way::integrated(Bezier::Cubic(*cubic)),
             Piece::TrigQuintic(part) => Way::integrated(Bezier::Trig(*part)),
             Piece::Involute(_) => {
-                return Err(Error::Domain(format!(
-                    "is of the kind `{}`, whose points have no proved error; separation takes all other kinds. Take points of the path \
-                     with `path measure --samples`, and lay a path through them with `path spline`",
+                return Err(Error::invalid(format!(
+                    "is of the kind `{}`, whose points have no proved error; separation takes all other kinds. Take \
+                     points of the path with `path measure --samples`, and lay a path through them with `path spline`",
                     piece.kind().name()
                 )));
             }
@@ -112,9 +112,9 @@ impl Way {
         if way.length >= shortest && size <= most && way.mismatch.is_finite() {
             return Ok(way);
         }
-        Err(Error::Domain(format!(
-            "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers up to {most:e}: leave \
-             out a piece of no length, or change the unit of length",
+        Err(Error::invalid(format!(
+            "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers up \
+             to {most:e}: leave out a piece of no length, or change the unit of length",
             piece.length()
         )))
     }
@@ -206,7 +206,7 @@ impl Way {
     ///
     /// Derivatives differ by no more than `|w² - v²| <= |w - v| (|w| + |v|)`, or three times a difference of legs; so
     /// do speeds, and then points after the same length by twice that.
-    pub fn unlike(&self, other: &Way) -> f64 {
+    pub(super) fn unlike(&self, other: &Way) -> f64 {
         let most = |v: &[[f64; 2]]| v.iter().map(|x| length(*x)).fold(0.0, f64::max);
         let apart = |v: &[[f64; 2]], w: &[[f64; 2]]| v.iter().zip(w).map(|(v, w)| distance(*v, *w)).fold(0.0, f64::max);
         let equal = |same: bool| if same { 0.0 } else { f64::INFINITY };
@@ -228,7 +228,7 @@ impl Way {
     }
 
     /// Where one is after a length.
-    pub fn after(&self, local: f64) -> Reached {
+    pub(super) fn after(&self, local: f64) -> Reached {
         match &self.curve {
             Curve::Quintic(curve) => {
                 let t = curve.parameter_at(local);

@@ -38,7 +38,7 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
     for y in &up {
         for x in &across {
             (point[plan.x], point[plan.y]) = (*x, *y);
-            let cell = cells.lookup(&point).ok_or_else(|| Error::Domain(format!("{point:?} is in no cell")))?;
+            let cell = cells.lookup(&point).ok_or_else(|| Error::invalid(format!("{point:?} is in no cell")))?;
             known.push(cell);
         }
     }

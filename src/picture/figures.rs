@@ -2,7 +2,6 @@
 
 use super::Source;
 use super::words::{angles, grouped, short};
-use crate::atlas::About;
 use crate::error::{Error, Result};
 use crate::eval::{Backend, Job, evaluate};
 use crate::family::{self, Family, Flag};
@@ -24,10 +23,10 @@ pub(super) struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// # Errors
     /// [`Error::Domain`] for a family that this program does not have.
-    pub fn of(atlas: &'a dyn Source) -> Result<Subject<'a>> {
+    pub(super) fn of(atlas: &'a dyn Source) -> Result<Subject<'a>> {
         Ok(Subject {
             name: &atlas.about().name,
-            family: family_of(atlas.about())?,
+            family: atlas.about().family()?,
             grid: atlas.grid(),
             atlas: Some(atlas),
         })
@@ -43,7 +42,7 @@ pub(super) fn sheet(look: &Look, usual: (u32, u32)) -> Sheet {
 pub(super) fn middle_slice(grid: &Grid) -> Result<PicturePlan> {
     let counts = grid.shape();
     let Some(x) = counts.len().checked_sub(2) else {
-        return Err(Error::Domain("an atlas of one axis has no slices; pictures need two axes".into()));
+        return Err(Error::invalid("an atlas of one axis has no slices; pictures need two axes"));
     };
     let at = counts[..x].iter().enumerate().map(|(axis, count)| (axis, vec![count / 2])).collect();
     Ok(PicturePlan {
@@ -94,7 +93,7 @@ pub(super) fn heading(plan: &PicturePlan, usual: &str) -> String {
     plan.look.title.as_deref().unwrap_or(usual.trim_end_matches([':', ' '])).to_owned()
 }
 
-/// Panels over the other axes. Those of one node are told in the heading; of the rest the slower ones make the rows,
+/// Panels over the other axes. Those of one node are named in the heading; of the rest the slower ones make the rows,
 /// upwards, and the faster ones the columns.
 pub(super) fn multiples(subject: &Subject, plan: &PicturePlan) -> Result<Multiples> {
     let axes = subject.grid.axes();
@@ -136,12 +135,12 @@ fn captions(axes: &[Axis], chosen: &[Chosen], backwards: bool) -> Vec<Caption> {
     let caption = |(i, (axis, nodes)): (usize, &Chosen)| {
         let axis = &axes[*axis];
         let of = nodes.iter().map(|node| axis.values()[*node]).collect::<Vec<_>>();
-        let mut told = values(axis, &of);
+        let mut texts = values(axis, &of);
         if backwards {
-            told.reverse();
+            texts.reverse();
         }
         let (slower, faster) = (count(&chosen[..i]), count(&chosen[i + 1..]));
-        let values = told.iter().cycle().take(slower * told.len()).map(|value| (value.clone(), faster)).collect();
+        let values = texts.iter().cycle().take(slower * texts.len()).map(|value| (value.clone(), faster)).collect();
         Caption { name: format!("{} =", plot::symbol(axis.name())), values }
     };
     chosen.iter().enumerate().map(caption).collect()
@@ -176,7 +175,7 @@ fn plane(subject: &Subject, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> R
         for (place, byte) in plane.iter_mut().enumerate() {
             (index[plan.x], index[plan.y]) = (place % x, place / x);
             *byte |=
-                atlas.flags(&index).ok_or_else(|| Error::Domain(format!("the node {index:?} is not in the atlas")))?;
+                atlas.flags(&index).ok_or_else(|| Error::invalid(format!("the node {index:?} is not in the atlas")))?;
         }
     }
     Ok(plane)
@@ -226,7 +225,7 @@ fn at_most(subject: &Subject, plan: &PicturePlan, levels: &Levels, at: &[(usize,
     let values = nodes.map(|(atlas, place)| {
         (index[plan.x], index[plan.y]) = (place % x, place / x);
         let value = atlas.scalar(levels.field, &index);
-        let value = value.ok_or_else(|| Error::Domain(format!("the atlas has no scalar `{}`", levels.field)))?;
+        let value = value.ok_or_else(|| Error::invalid(format!("the atlas has no scalar `{}`", levels.field)))?;
         Ok(Some(value).filter(|value| *value != family::NO_VALUE))
     });
     let values: Vec<Option<f32>> = values.collect::<Result<_>>()?;
@@ -239,8 +238,7 @@ fn at_most(subject: &Subject, plan: &PicturePlan, levels: &Levels, at: &[(usize,
 
 /// Where any spiral exists, where only this family has one, only the other, and both; the other is evaluated here.
 fn compared(subject: &Subject, plan: &PicturePlan, with: &str) -> Result<Vec<Region>> {
-    let (own, other) = (subject.family, family::by_name(with));
-    let other = other.ok_or_else(|| Error::Domain(format!("this program has no family `{with}`")))?;
+    let (own, other) = (subject.family, family::by_name(with)?);
     let bit = |family: &dyn Family, name: &str| family.about().bit(name).unwrap_or_default();
     let (ours, theirs) = (plane(subject, plan, &plan.at)?, evaluated(other, subject, plan)?);
     let (a, b) = (bit(own, "SPIRAL"), bit(other, "SPIRAL"));
@@ -281,21 +279,6 @@ fn evaluated(family: &'static dyn Family, subject: &Subject, plan: &PicturePlan)
     Ok((0..x * y).map(|place| flags[at((place % x, place / x))]).collect())
 }
 
-/// The family of an atlas.
-///
-/// # Errors
-/// [`Error::Domain`] for one that this program does not have.
-pub fn family_of(about: &About) -> Result<&'static dyn Family> {
-    family::by_name(&about.family).ok_or_else(|| {
-        let known: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-        let (name, family) = (&about.name, &about.family);
-        Error::Domain(format!(
-            "the family of the atlas `{name}` is `{family}`; this program has `{}`",
-            known.join("`, `")
-        ))
-    })
-}
-
 pub(super) fn view(axis: &Axis) -> AxisView {
     let log = matches!(axis.spacing(), Spacing::Log { .. });
     AxisView { name: axis.name().into(), label: plot::symbol(axis.name()), values: axis.values().to_vec(), log }
@@ -312,9 +295,9 @@ fn value(axis: &Axis, node: usize) -> String {
 
 /// Values of an axis, all in one unit, with as many digits as a reader wants, or as tell them apart.
 fn values(axis: &Axis, of: &[f64]) -> Vec<String> {
-    let told = if is_angle(axis.name()) { angles(of) } else { of.iter().map(|x| short(*x)).collect::<Vec<_>>() };
-    let alike = (1..told.len()).any(|i| told[i] == told[i - 1]);
-    if alike { of.iter().map(|x| x.to_string().replace('-', "−")).collect() } else { told }
+    let texts = if is_angle(axis.name()) { angles(of) } else { of.iter().map(|x| short(*x)).collect::<Vec<_>>() };
+    let alike = (1..texts.len()).any(|i| texts[i] == texts[i - 1]);
+    if alike { of.iter().map(|x| x.to_string().replace('-', "−")).collect() } else { texts }
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@ mod figures;
 mod source;
 mod words;
 
-pub use figures::family_of as of;
 pub use source::{Part, Source, shown};
 pub use words::{angle, grouped, short};
 
@@ -159,7 +158,7 @@ fn check_letters(texts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()>
         if let Some(letter) = plot::missing_letter(text.as_ref()) {
             let what =
                 format!("the font has no letter `{letter}`, which stands in {:?}; write it in others", text.as_ref());
-            return Err(Error::Domain(what));
+            return Err(Error::invalid(what));
         }
     }
     Ok(())
@@ -176,7 +175,7 @@ fn check_size(look: &Look, usual: (u32, u32), fits: impl Fn(Sheet) -> Result<()>
     let enough = (11..200).map(larger).find(|look| fits(sheet(look, usual)).is_ok());
     Err(match (error, enough.and_then(|look| look.size)) {
         (Error::Domain(what), Some((width, height))) => {
-            Error::Domain(format!("{what}, such as `size = [{width}, {height}]`"))
+            Error::invalid(format!("{what}, such as `size = [{width}, {height}]`"))
         }
         (error, _) => error,
     })

@@ -64,7 +64,7 @@ impl<'a> Part<'a> {
         match lengths.into_iter().find(|(_, length)| *length as u64 != count) {
             None => Ok(Part { outline, nodes, flags, scalars }),
             Some((name, length)) => {
-                Err(Error::Domain(format!("`{name}` has {length} values; the chosen nodes are {count}")))
+                Err(Error::invalid(format!("`{name}` has {length} values; the chosen nodes are {count}")))
             }
         }
     }

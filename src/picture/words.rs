@@ -29,9 +29,9 @@ pub fn angle(x: f64) -> String {
 }
 
 /// Several angles in one unit: in degrees when all of them were written so, else in radians.
-pub fn angles(all: &[f64]) -> Vec<String> {
-    let told: Vec<String> = all.iter().map(|x| angle(*x)).collect();
-    if told.iter().all(|text| text.ends_with('°')) { told } else { all.iter().map(|x| short(*x)).collect() }
+pub(super) fn angles(all: &[f64]) -> Vec<String> {
+    let texts: Vec<String> = all.iter().map(|x| angle(*x)).collect();
+    if texts.iter().all(|text| text.ends_with('°')) { texts } else { all.iter().map(|x| short(*x)).collect() }
 }
 
 #[cfg(test)]

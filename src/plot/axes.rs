@@ -15,12 +15,12 @@ pub(super) struct Style {
 
 impl Style {
     /// Whole pixels for so many em.
-    pub fn px(&self, ems: f64) -> i32 {
+    pub(super) fn px(&self, ems: f64) -> i32 {
         (self.em * ems).round() as i32
     }
 
     /// Height of the ticks and numbers below a rectangle.
-    pub fn below(&self) -> i32 {
+    pub(super) fn below(&self) -> i32 {
         self.px(1.95)
     }
 

@@ -25,18 +25,18 @@ pub(super) struct Rect {
 }
 
 impl Rect {
-    pub fn width(&self) -> i32 {
+    pub(super) fn width(&self) -> i32 {
         self.right - self.left
     }
-    pub fn height(&self) -> i32 {
+    pub(super) fn height(&self) -> i32 {
         self.bottom - self.top
     }
     /// Moved out on all sides; in, for a negative amount.
-    pub fn grown(&self, by: i32) -> Rect {
+    pub(super) fn grown(&self, by: i32) -> Rect {
         Rect { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
     }
     /// The common part; empty (not positive in width or height) when there is none.
-    pub fn meet(&self, other: &Rect) -> Rect {
+    pub(super) fn meet(&self, other: &Rect) -> Rect {
         Rect {
             left: self.left.max(other.left),
             top: self.top.max(other.top),
@@ -45,7 +45,7 @@ impl Rect {
         }
     }
     /// The point at these fractions of width and height, the second upwards.
-    pub fn at(&self, x: f64, y: f64) -> Point {
+    pub(super) fn at(&self, x: f64, y: f64) -> Point {
         [f64::from(self.left) + x * f64::from(self.width()), f64::from(self.bottom) - y * f64::from(self.height())]
     }
 }
@@ -79,7 +79,7 @@ pub(super) struct Pen {
 }
 
 impl Pen {
-    pub fn new(em: f64, anchor: f64) -> Pen {
+    pub(super) fn new(em: f64, anchor: f64) -> Pen {
         Pen { em, color: INK, anchor, up: false }
     }
 }
@@ -98,33 +98,33 @@ pub fn missing_letter(text: &str) -> Option<char> {
 }
 
 impl Canvas {
-    pub fn new(sheet: impl Into<Sheet>) -> Result<Canvas> {
+    pub(super) fn new(sheet: impl Into<Sheet>) -> Result<Canvas> {
         let mut canvas = Canvas::measuring(sheet)?;
         canvas.pixels = vec![255; canvas.size.0 as usize * canvas.size.1 as usize * 3];
         Ok(canvas)
     }
 
     /// One to measure texts by, that nothing can be drawn on.
-    pub fn measuring(sheet: impl Into<Sheet>) -> Result<Canvas> {
+    pub(super) fn measuring(sheet: impl Into<Sheet>) -> Result<Canvas> {
         let Sheet { size, dpi } = sheet.into();
         let (width, height) = size;
         let count = u64::from(width) * u64::from(height);
         if count == 0 || count > MAX_PIXELS {
             let limit = format!("both sides must be above 0, and the product at most {MAX_PIXELS}");
-            return Err(Error::Domain(format!("a picture of {width} x {height} pixels; {limit}")));
+            return Err(Error::invalid(format!("a picture of {width} x {height} pixels; {limit}")));
         }
-        let font = FontRef::try_from_slice(FONT).map_err(|e| Error::Domain(format!("the built-in font: {e}")))?;
+        let font = FontRef::try_from_slice(FONT).map_err(|e| Error::invalid(format!("the built-in font: {e}")))?;
         Ok(Canvas { size, dpi, pixels: Vec::new(), font })
     }
 
     /// The whole sheet.
-    pub fn rect(&self) -> Rect {
+    pub(super) fn rect(&self) -> Rect {
         Rect { left: 0, top: 0, right: self.size.0 as i32, bottom: self.size.1 as i32 }
     }
 
     /// The picture as a PNG file.
-    pub fn into_png(self) -> Result<Vec<u8>> {
-        self.encoded().map_err(|e| Error::Domain(format!("PNG of {} x {} pixels: {e}", self.size.0, self.size.1)))
+    pub(super) fn into_png(self) -> Result<Vec<u8>> {
+        self.encoded().map_err(|e| Error::invalid(format!("PNG of {} x {} pixels: {e}", self.size.0, self.size.1)))
     }
 
     fn encoded(&self) -> std::result::Result<Vec<u8>, EncodingError> {
@@ -145,7 +145,7 @@ impl Canvas {
     }
 
     /// Copies another sheet onto this one, its corner at a place; what lies beyond is cut off.
-    pub fn paste(&mut self, other: &Canvas, (left, top): (u32, u32)) {
+    pub(super) fn paste(&mut self, other: &Canvas, (left, top): (u32, u32)) {
         let width = other.size.0.min(self.size.0.saturating_sub(left)) as usize * 3;
         for row in 0..other.size.1.min(self.size.1.saturating_sub(top)) {
             let from = row as usize * other.size.0 as usize * 3;
@@ -155,7 +155,7 @@ impl Canvas {
     }
 
     /// Mixes a colour into a pixel; pixels beyond the sheet are ignored.
-    pub fn blend(&mut self, x: i32, y: i32, color: Color, cover: f64) {
+    pub(super) fn blend(&mut self, x: i32, y: i32, color: Color, cover: f64) {
         let inside = |v: i32, n: u32| u32::try_from(v).is_ok_and(|v| v < n);
         if !(inside(x, self.size.0) && inside(y, self.size.1)) {
             return;
@@ -170,7 +170,7 @@ impl Canvas {
         }
     }
 
-    pub fn fill(&mut self, rect: Rect, color: Color) {
+    pub(super) fn fill(&mut self, rect: Rect, color: Color) {
         let rect = rect.meet(&self.rect());
         for y in rect.top..rect.bottom {
             for x in rect.left..rect.right {
@@ -180,7 +180,7 @@ impl Canvas {
     }
 
     /// A frame of one pixel just outside `rect`.
-    pub fn frame(&mut self, rect: Rect, color: Color) {
+    pub(super) fn frame(&mut self, rect: Rect, color: Color) {
         let outer = rect.grown(1);
         for side in [
             Rect { bottom: rect.top, ..outer },
@@ -193,7 +193,7 @@ impl Canvas {
     }
 
     /// A line with a white casing on both sides, so that it stands out from whatever it crosses.
-    pub fn cased(&mut self, points: &[Point], width: f64, color: Color, clip: Rect) {
+    pub(super) fn cased(&mut self, points: &[Point], width: f64, color: Color, clip: Rect) {
         let casing = (width / 2.0).clamp(1.0, 3.0);
         self.line(points, width + 2.0 * casing, WHITE, clip);
         self.line(points, width, color, clip);
@@ -201,7 +201,7 @@ impl Canvas {
 
     /// A line through points, with round ends and joints, in the part of the sheet within `clip`. Parts with a point
     /// that is not finite are left out.
-    pub fn line(&mut self, points: &[Point], width: f64, color: Color, clip: Rect) {
+    pub(super) fn line(&mut self, points: &[Point], width: f64, color: Color, clip: Rect) {
         let clip = clip.meet(&self.rect()).meet(&hull(points, width / 2.0 + 1.0));
         if clip.width() <= 0 || clip.height() <= 0 {
             return;
@@ -225,7 +225,7 @@ impl Canvas {
     }
 
     /// A filled polygon; for small shapes.
-    pub fn polygon(&mut self, corners: &[Point], color: Color) {
+    pub(super) fn polygon(&mut self, corners: &[Point], color: Color) {
         let touched = hull(corners, 1.0).meet(&self.rect());
         for y in touched.top..touched.bottom {
             for x in touched.left..touched.right {
@@ -237,12 +237,12 @@ impl Canvas {
     }
 
     /// Width of a text in pixels.
-    pub fn text_width(&self, em: f64, text: &str) -> f64 {
+    pub(super) fn text_width(&self, em: f64, text: &str) -> f64 {
         self.glyphs(em, text).1
     }
 
     /// The text, or as much of it as fits in `width`, with an ellipsis.
-    pub fn fit(&self, em: f64, text: &str, width: f64) -> String {
+    pub(super) fn fit(&self, em: f64, text: &str, width: f64) -> String {
         let (glyphs, whole) = self.glyphs(em, text);
         if whole <= width {
             return text.to_owned();
@@ -258,7 +258,7 @@ impl Canvas {
     }
 
     /// The text in lines of at most `width`, broken at spaces.
-    pub fn wrap(&self, em: f64, text: &str, width: f64) -> Vec<String> {
+    pub(super) fn wrap(&self, em: f64, text: &str, width: f64) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         for word in text.split_whitespace() {
             match lines.last_mut() {
@@ -273,7 +273,7 @@ impl Canvas {
     }
 
     /// Writes a text with the middle of its capitals level with `at`.
-    pub fn text(&mut self, at: Point, pen: Pen, text: &str) {
+    pub(super) fn text(&mut self, at: Point, pen: Pen, text: &str) {
         let (glyphs, width) = self.glyphs(pen.em, text);
         // Along the text and across it, from the start of its base line; whole pixels keep letters crisp.
         let along = if pen.up { at[1] + width * pen.anchor } else { at[0] - width * pen.anchor }.round() as i32;

@@ -93,7 +93,7 @@ pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
 }
 
 fn check(figure: &CurveFigure) -> Result<()> {
-    let fail = |what: String| Err(Error::Domain(format!("curve figure: {what}")));
+    let fail = |what: String| Err(Error::invalid(format!("curve figure: {what}")));
     let finite = |points: &[Point]| points.iter().flatten().all(|v| v.is_finite());
     let lists = [
         ("curve", &figure.curve),
@@ -122,7 +122,8 @@ fn check(figure: &CurveFigure) -> Result<()> {
         if !(finite(&[circle.at]) && circle.curvature.is_finite() && length.is_finite() && length > 0.0) {
             let (label, at, direction, curvature) = (&circle.label, circle.at, circle.direction, circle.curvature);
             return fail(format!(
-                "circle `{label}` at {at:?} has direction {direction:?} and curvature {curvature}; all must be finite, the direction not 0"
+                "circle `{label}` at {at:?} has direction {direction:?} and curvature {curvature}; all must be finite, \
+                 the direction not 0"
             ));
         }
     }

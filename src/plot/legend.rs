@@ -36,7 +36,7 @@ pub(super) struct Legend<'a> {
 
 impl Legend<'_> {
     /// As many columns as fit in `width`, evenly filled.
-    pub fn new<'a>(canvas: &Canvas, entries: &'a [Entry], style: Style, width: i32) -> Legend<'a> {
+    pub(super) fn new<'a>(canvas: &Canvas, entries: &'a [Entry], style: Style, width: i32) -> Legend<'a> {
         let widest = entries.iter().map(|e| canvas.text_width(style.em, &e.text)).fold(0.0, f64::max);
         let needed = widest + style.em * (KEY + 1.5);
         let most = (f64::from(width) / needed).floor().max(1.0) as usize;
@@ -49,12 +49,12 @@ impl Legend<'_> {
         self.entries.len().div_ceil(self.columns)
     }
 
-    pub fn height(&self, style: Style) -> i32 {
+    pub(super) fn height(&self, style: Style) -> i32 {
         style.px(ROW * self.rows() as f64)
     }
 
     /// Draws it with its top left corner at `corner`.
-    pub fn draw(&self, canvas: &mut Canvas, style: Style, corner: (i32, i32)) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, style: Style, corner: (i32, i32)) {
         for (i, entry) in self.entries.iter().enumerate() {
             let (column, row) = (i / self.rows(), i % self.rows());
             let x = f64::from(corner.0) + column as f64 * self.column_width;
@@ -104,7 +104,7 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    pub fn of(index: usize) -> Outline {
+    pub(super) fn of(index: usize) -> Outline {
         Outline { color: OUTLINES[index % OUTLINES.len()], rising: index / OUTLINES.len() % 2 == 1 }
     }
 }
@@ -122,7 +122,7 @@ pub(super) struct Hatch {
 }
 
 impl Hatch {
-    pub fn new(style: Style) -> Hatch {
+    pub(super) fn new(style: Style) -> Hatch {
         let line = style.px(0.13).max(1);
         Hatch {
             line,
@@ -134,13 +134,13 @@ impl Hatch {
     }
 
     /// Width of the casing on either side of the line.
-    pub fn rim(&self) -> i32 {
+    pub(super) fn rim(&self) -> i32 {
         (self.line / 2).max(1)
     }
 
     /// Draws as much of the stripes and their casing as lies on this pixel; of the casing alone where the stripes have
     /// ended.
-    pub fn draw(&self, canvas: &mut Canvas, (x, y): (i32, i32), outline: Outline, stripes: bool) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, (x, y): (i32, i32), outline: Outline, stripes: bool) {
         // Distance from the nearest of the lines x - y, or x + y, = multiple of the period.
         let off = f64::from(if outline.rising { x + y } else { x - y }).rem_euclid(self.period);
         let distance = off.min(self.period - off) / std::f64::consts::SQRT_2;
@@ -174,17 +174,17 @@ pub(super) struct Heading<'a> {
 }
 
 impl Heading<'_> {
-    pub fn new<'a>(canvas: &Canvas, title: &'a str, note: &str, style: Style, width: i32) -> Heading<'a> {
+    pub(super) fn new<'a>(canvas: &Canvas, title: &'a str, note: &str, style: Style, width: i32) -> Heading<'a> {
         Heading { title, note: canvas.wrap(style.em * 0.95, note, width.into()) }
     }
 
-    pub fn height(&self, style: Style) -> i32 {
+    pub(super) fn height(&self, style: Style) -> i32 {
         let title = if self.title.is_empty() { 0.0 } else { 1.8 };
         style.px(title + 1.35 * self.note.len() as f64)
     }
 
     /// Draws it into the top of `rect`.
-    pub fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect) {
         let (x, mut y) = (f64::from(rect.left), f64::from(rect.top));
         if !self.title.is_empty() {
             let em = style.em * 1.25;

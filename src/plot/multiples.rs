@@ -84,15 +84,16 @@ pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<
 fn check(figure: &Multiples) -> Result<()> {
     let ([rows, columns], count) = (figure.shape, figure.panels.len());
     if count == 0 || rows.checked_mul(columns) != Some(count) {
-        return Err(Error::Domain(format!(
-            "{count} panels for {rows} rows and {columns} columns of small multiples; it must be rows times columns, at least 1"
+        return Err(Error::invalid(format!(
+            "{count} panels for {rows} rows and {columns} columns of small multiples; it must be rows times columns, at \
+             least 1"
         )));
     }
     for (captions, count, what) in [(&figure.rows, rows, "rows"), (&figure.columns, columns, "columns")] {
         let of = |caption: &Caption| caption.values.iter().map(|(_, count)| count).sum::<usize>();
         if let Some(caption) = captions.iter().find(|caption| of(caption) != count) {
             let (name, of) = (&caption.name, of(caption));
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the caption `{name}` is about {of} of {count} {what} of small multiples"
             )));
         }
@@ -102,7 +103,7 @@ fn check(figure: &Multiples) -> Result<()> {
     };
     let first = labels(&figure.panels[0]);
     match figure.panels.iter().position(|panel| labels(panel) != first) {
-        Some(i) => Err(Error::Domain(format!(
+        Some(i) => Err(Error::invalid(format!(
             "panel {i} has the regions {:?}, panel 0 has {first:?}; one legend needs the same for all",
             labels(&figure.panels[i])
         ))),

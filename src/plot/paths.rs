@@ -59,11 +59,11 @@ pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     let finite = |lines: &[Vec<Point>]| lines.iter().flatten().flatten().all(|v| v.is_finite());
     let behind = figure.backdrop.iter().flat_map(|b| b.obstacles.iter().chain([&b.polyline]));
     if !behind.flatten().flatten().all(|v| v.is_finite()) {
-        return Err(Error::Domain("paths figure: the backdrop must have points that are finite".into()));
+        return Err(Error::invalid("paths figure: the backdrop must have points that are finite"));
     }
     for (name, lines) in [("paths", &figure.paths), ("graphs", &figure.graph.lines)] {
         if lines.iter().all(Vec::is_empty) || !finite(lines) {
-            return Err(Error::Domain(format!("paths figure: the {name} must have points, all finite")));
+            return Err(Error::invalid(format!("paths figure: the {name} must have points, all finite")));
         }
     }
     let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 64.0).max(10.0);

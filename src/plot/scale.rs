@@ -35,7 +35,7 @@ pub(super) struct Room<'a> {
 
 impl Scale {
     /// A scale from `lo` to `hi`, given as values.
-    pub fn new(name: &str, lo: f64, hi: f64, log: bool) -> Result<Scale> {
+    pub(super) fn new(name: &str, lo: f64, hi: f64, log: bool) -> Result<Scale> {
         let scale = if log { Scale { lo: lo.ln(), hi: hi.ln(), log } } else { Scale { lo, hi, log } };
         scale.checked(name)
     }
@@ -45,7 +45,7 @@ impl Scale {
         if span.is_finite() && span > 0.0 && self.lo.is_finite() {
             return Ok(self);
         }
-        Err(Error::Domain(format!(
+        Err(Error::invalid(format!(
             "axis `{name}` of the picture runs from {} to {}; it must be finite and increase{}",
             self.value(0.0),
             self.value(1.0),
@@ -54,7 +54,7 @@ impl Scale {
     }
 
     /// Where a value lies: 0 at the low end, 1 at the high end. Not finite for what a logarithmic axis cannot show.
-    pub fn fraction(&self, value: f64) -> f64 {
+    pub(super) fn fraction(&self, value: f64) -> f64 {
         let u = if self.log { value.ln() } else { value };
         (u - self.lo) / (self.hi - self.lo)
     }
@@ -65,14 +65,14 @@ impl Scale {
     }
 
     /// The densest ticks whose labels fit; none when not even two do.
-    pub fn ticks(&self, room: &Room) -> Vec<Tick> {
+    pub(super) fn ticks(&self, room: &Room) -> Vec<Tick> {
         let mut sets = if self.log { self.log_sets() } else { Vec::new() };
         sets.extend(self.linear_sets());
         sets.iter().map(|set| self.label(set, room)).find(|ticks| fits(ticks, room)).unwrap_or_default()
     }
 
     /// Fractions of the unlabelled ticks: on a logarithmic axis of few decades, the digits 1 to 9 of each.
-    pub fn minor_ticks(&self) -> Vec<f64> {
+    pub(super) fn minor_ticks(&self) -> Vec<f64> {
         let (first, last) = self.decades();
         if !self.log || last - first > 9 {
             return Vec::new();
@@ -207,9 +207,9 @@ pub(super) struct Cells {
 
 impl Cells {
     /// The cells of an axis; the first and the last are as wide outwards as inwards.
-    pub fn new(axis: &AxisView) -> Result<Cells> {
+    pub(super) fn new(axis: &AxisView) -> Result<Cells> {
         let (name, values) = (&axis.name, &axis.values);
-        let fail = |what: String| Err(Error::Domain(format!("axis `{name}` of the picture {what}")));
+        let fail = |what: String| Err(Error::invalid(format!("axis `{name}` of the picture {what}")));
         if values.is_empty() {
             return fail("has no values; it must have at least one".into());
         }
@@ -234,7 +234,7 @@ impl Cells {
     }
 
     /// The cell that each of `count` pixels shows at its centre, from the low end up.
-    pub fn of_pixels(&self, count: usize) -> Vec<usize> {
+    pub(super) fn of_pixels(&self, count: usize) -> Vec<usize> {
         let centre = |pixel: usize| (pixel as f64 + 0.5) / count as f64;
         (0..count).map(|pixel| self.inner.partition_point(|edge| *edge <= centre(pixel))).collect()
     }

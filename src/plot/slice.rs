@@ -28,7 +28,7 @@ pub fn slice_png(slice: &Slice, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
 pub fn montage_png(title: &str, slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
     if columns == 0 || slices.is_empty() {
         let (slices, columns) = (slices.len(), columns);
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "a montage of {slices} slices in {columns} columns; it needs at least 1 of each"
         )));
     }
@@ -130,9 +130,9 @@ pub(super) fn check_room(canvas: &Canvas, rect: Rect) -> Result<()> {
         return Ok(());
     }
     let (w, h) = (rect.width().max(0), rect.height().max(0));
-    Err(Error::Domain(format!(
-        "a picture of {} x {} pixels leaves {w} x {h} for a plot beside its labels; it needs {LEAST_SIDE} x {LEAST_SIDE}: \
-         ask for a larger picture",
+    Err(Error::invalid(format!(
+        "a picture of {} x {} pixels leaves {w} x {h} for a plot beside its labels; it needs {LEAST_SIDE} x \
+         {LEAST_SIDE}: ask for a larger picture",
         sheet.width(),
         sheet.height()
     )))
@@ -147,17 +147,17 @@ pub(super) struct Panel<'a> {
 
 impl Panel<'_> {
     /// One whose axes alone are checked, to lay it out.
-    pub fn of_axes(slice: &Slice) -> Result<Panel<'_>> {
+    pub(super) fn of_axes(slice: &Slice) -> Result<Panel<'_>> {
         Ok(Panel { slice, x: Cells::new(&slice.x)?, y: Cells::new(&slice.y)? })
     }
 
-    pub fn new(slice: &Slice) -> Result<Panel<'_>> {
+    pub(super) fn new(slice: &Slice) -> Result<Panel<'_>> {
         let panel = Panel::of_axes(slice)?;
         let (columns, rows) = (slice.x.values.len(), slice.y.values.len());
         for region in slice.regions.iter().chain(&slice.outlines) {
             // As u128, because a product of lengths of two slices fits.
             if region.mask.len() as u128 != columns as u128 * rows as u128 {
-                return Err(Error::Domain(format!(
+                return Err(Error::invalid(format!(
                     "region `{}` has {} nodes; the axes `{}` and `{}` have {columns} x {rows}",
                     region.label,
                     region.mask.len(),
@@ -168,13 +168,13 @@ impl Panel<'_> {
         }
         if let Some(mark) = slice.marks.iter().find(|m| !(m.x.is_finite() && m.y.is_finite())) {
             let (label, x, y) = (&mark.label, mark.x, mark.y);
-            return Err(Error::Domain(format!("mark `{label}` is at ({x}, {y}); both must be finite")));
+            return Err(Error::invalid(format!("mark `{label}` is at ({x}, {y}); both must be finite")));
         }
         Ok(panel)
     }
 
     /// Draws all but axes; labels of marks only where asked.
-    pub fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect, mark_labels: bool) {
+    pub(super) fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect, mark_labels: bool) {
         let pixels = Pixels::new(self, rect);
         self.draw_regions(canvas, style, &pixels);
         // Lines around the whole plot would hide each other: each runs inside the one before.

@@ -106,13 +106,12 @@ impl<'p> Slice<'p> {
         cells: usize,
     ) -> Result<Slice<'p>> {
         if !(cells.is_power_of_two() && (2..=MOST_CELLS).contains(&cells)) {
-            return Err(Error::Domain(format!(
-                "there are {cells} cells a side; it must be a power of two from 2 to {MOST_CELLS}"
-            )));
+            let limit = format!("a power of two from 2 to {MOST_CELLS}");
+            return Err(Error::domain("the number of cells a side", cells as f64, limit));
         }
         let mut point = point.to_vec();
         if axes[0] == axes[1] || axes.iter().any(|axis| *axis >= point.len()) {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the coordinates are numbers {} and {}; they must be two of {}",
                 axes[0],
                 axes[1],
@@ -123,8 +122,9 @@ impl<'p> Slice<'p> {
             point[axis] = low;
             let step = (high - low) / cells as f64;
             if !(low < high && step.is_normal() && step > high.abs().max(low.abs()) * 4.0 * f64::EPSILON) {
-                return Err(Error::Domain(format!(
-                    "{} goes from {low:?} to {high:?}; it must have two finite, increasing ends and room for {cells} cells",
+                return Err(Error::invalid(format!(
+                    "{} goes from {low:?} to {high:?}; it must have two finite, increasing ends and room for {cells} \
+                     cells",
                     property.axes()[axis]
                 )));
             }

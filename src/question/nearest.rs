@@ -207,17 +207,16 @@ impl Search<'_> {
 fn searched(property: &Property, point: &[f64], weights: &[f64]) -> Result<Cell> {
     let mut whole = property.point(point)?;
     if weights.len() != point.len() {
-        return Err(Error::Domain(format!("there are {} weights; there must be {}", weights.len(), point.len())));
+        return Err(Error::invalid(format!("there are {} weights; there must be {}", weights.len(), point.len())));
     }
     for (i, (weight, axis)) in weights.iter().zip(property.axes()).enumerate() {
         if !(1e-50..=1e50).contains(weight) && *weight != f64::INFINITY {
-            return Err(Error::Domain(format!(
-                "the weight of {axis} is {weight}; it must be 1e-50 to 1e50 (infinity keeps {axis})"
-            )));
+            let weight = Error::domain(format!("the weight of {axis}"), *weight, "1e-50 to 1e50");
+            return Err(weight.or(format!("infinity keeps {axis}")));
         }
         // So no distance leaves the range of doubles.
         if weight.is_finite() && point[i].abs() > 1e50 {
-            return Err(Error::Domain(format!("{axis} is {:?}; it must be at most 1e50 in size", point[i])));
+            return Err(Error::domain(*axis, point[i], "at most 1e50 in size"));
         }
         if weight.is_finite() {
             (whole.low[i], whole.high[i]) = (point[i].min(-FAR), point[i].max(FAR));

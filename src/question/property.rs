@@ -1,6 +1,6 @@
 //! A condition of a family, at points and over boxes.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, finite};
 use crate::family::{self, Facts, Family, MOST_SIDES, Region};
 use crate::num::Verdict;
 
@@ -14,32 +14,29 @@ pub struct Property {
 }
 
 impl Property {
-    /// The flag of this name, of a family in the chart with these axes.
+    /// The flag of this name, of a family in the chart with these axes; without a name the one that says that what the
+    /// family looks for exists, where it has one such flag.
     ///
     /// # Errors
     /// [`Error::Domain`], naming what there is, for an unknown family, chart or flag, and for a family without proofs
     /// over boxes.
-    pub fn new(family: &str, axes: &[&str], flag: &str) -> Result<Property> {
-        let names = |all: Vec<&str>| all.join(", ");
-        let found = family::by_name(family).ok_or_else(|| {
-            let all = family::all().iter().map(|f| f.about().name).collect();
-            Error::Domain(format!("the family is `{family}`; it must be one of {}", names(all)))
-        })?;
-        let region = found.region().ok_or_else(|| {
-            let all = family::all().iter().filter(|f| f.region().is_some()).map(|f| f.about().name).collect();
-            Error::Domain(format!("`{family}` has no proofs over boxes; families that have: {}", names(all)))
-        })?;
-        let about = found.about();
-        let chart = about.charts.iter().position(|c| c.axes == axes && region.covers(c.name)).ok_or_else(|| {
-            let all: Vec<String> =
-                about.charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(" ")).collect();
-            Error::Domain(format!("the axes are {}; of `{family}` they must be {}", axes.join(" "), all.join(", or ")))
-        })?;
+    pub fn new<'n>(family: &str, axes: &[&str], flag: impl Into<Option<&'n str>>) -> Result<Property> {
+        let family = family::by_name(family)?;
+        let (region, chart) = family::proofs(family, axes)?;
+        let about = family.about();
+        let flag = match (flag.into(), about.yes) {
+            (Some(flag), _) => flag,
+            (None, [only]) => only,
+            (None, several) => {
+                return Err(Error::invalid(format!("name the property, such as {}", several.join(" or "))));
+            }
+        };
         let bit = about.bit(flag).ok_or_else(|| {
-            let all = about.flags.iter().map(|f| f.name).collect();
-            Error::Domain(format!("the property is `{flag}`; of `{family}` it must be one of {}", names(all)))
+            let all: Vec<&str> = about.flags.iter().map(|f| f.name).collect();
+            let all = all.join(", ");
+            Error::invalid(format!("the property is `{flag}`; of `{}` it must be one of {all}", about.name))
         })?;
-        Ok(Property { family: found, region, chart, flag: 1 << bit })
+        Ok(Property { family, region, chart, flag: 1 << bit })
     }
 
     /// The names of its coordinates.
@@ -95,7 +92,7 @@ impl Property {
     pub(super) fn point(&self, point: &[f64]) -> Result<Cell> {
         let axes = self.axes();
         if point.len() != axes.len() {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the datum has {} coordinates; it must have {}: {}",
                 point.len(),
                 axes.len(),
@@ -104,9 +101,7 @@ impl Property {
         }
         let mut cell = Cell::default();
         for (i, (x, axis)) in point.iter().zip(axes).enumerate() {
-            if !x.is_finite() {
-                return Err(Error::Domain(format!("{axis} is {x}; it must be finite")));
-            }
+            finite(*axis, *x)?;
             (cell.low[i], cell.high[i]) = (*x, *x);
         }
         Ok(cell)
@@ -129,7 +124,7 @@ pub(super) struct Cell {
 impl Cell {
     /// Where to divide a side: at 0 between opposite signs, at the geometric mean where the ends differ by more than a
     /// factor of 4, else at the arithmetic mean. None where no double lies between the ends.
-    pub fn middle(&self, side: usize) -> Option<f64> {
+    pub(super) fn middle(&self, side: usize) -> Option<f64> {
         let (low, high) = (self.low[side], self.high[side]);
         let middle = if low < 0.0 && high > 0.0 {
             0.0
@@ -149,7 +144,7 @@ impl Cell {
     }
 
     /// The two parts of the box, divided at `at` along this side.
-    pub fn parts(&self, side: usize, at: f64) -> [Cell; 2] {
+    pub(super) fn parts(&self, side: usize, at: f64) -> [Cell; 2] {
         let (mut first, mut second) = (*self, *self);
         (first.high[side], second.low[side]) = (at, at);
         [first, second]

@@ -51,13 +51,13 @@ pub struct Ranges {
 pub fn ranges(property: &Property, point: &[f64], axis: usize, within: [f64; 2]) -> Result<Ranges> {
     let mut point = point.to_vec();
     let Some(slot) = point.get_mut(axis) else {
-        return Err(Error::Domain(format!("the coordinate is number {axis}; there are {}", point.len())));
+        return Err(Error::invalid(format!("the coordinate is number {axis}; there are {}", point.len())));
     };
     *slot = within[0];
     let mut whole = property.point(&point)?;
     let [low, high] = within;
     if !(low < high && high.is_finite()) {
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "the interval is {low:?} to {high:?}; it must have two finite, increasing ends"
         )));
     }

@@ -48,11 +48,11 @@ fn size((width, height): (u32, u32)) -> String {
 
 /// The keys `title`, `size` and `dpi`.
 fn look(title: &str, usual: &str, whose: &str) -> [Key; 3] {
-    let [least, most] = RESOLUTIONS;
+    let ([least, most], twice) = (RESOLUTIONS, 2 * DPI);
     let of_size = "two whole numbers of pixels such as `[800, 600]`";
     let meaning = format!(
-        "Width and height of {whose} at {DPI} dpi. The picture may have at most {MAX_PIXELS} pixels; one without room for a plot beside its \
-         labels is refused before any work, with a size that would do."
+        "Width and height of {whose} at {DPI} dpi. The picture may have at most {MAX_PIXELS} pixels; one without room \
+         for a plot beside its labels is refused before any work, with a size that would do."
     );
     [
         optional("title", "a text in quotation marks", title, &format!("The heading of {whose}.")),
@@ -62,9 +62,8 @@ fn look(title: &str, usual: &str, whose: &str) -> [Key; 3] {
             &format!("a whole number from {least} to {most}"),
             &format!("`{DPI}`"),
             &format!(
-                "Pixels per inch. At {} dpi the same picture has twice as many pixels each way. \
-                 The PNG file tells the number, so that {whose} prints at the same size.",
-                2 * DPI
+                "Pixels per inch. At {twice} dpi the same picture has twice as many pixels each way. The PNG file \
+                 tells the number, so that {whose} prints at the same size."
             ),
         ),
     ]
@@ -86,8 +85,8 @@ fn recipe() -> Table {
             "fields",
             "a list of names of fields such as `[\"margin\"]`",
             "`[]`",
-            "What to store of each node. `flags` and `solutions` are always stored and may be named here. The scalars of the \
-             family are stored where they are named.",
+            "What to store of each node. `flags` and `solutions` are always stored and may be named here. The scalars \
+             of the family are stored where they are named.",
         ),
     ];
     let each = format!("{} for each slice", size(PANEL_SIZE));
@@ -97,8 +96,9 @@ fn recipe() -> Table {
         "a section `[[atlas]]`, in double brackets; at least one",
         "The atlases, each with a file of its own.",
     ));
-    let about = "At the top of the file. Where several atlases begin with a slice or a comparison, these are also drawn side by side, \
-                 in a picture with the recipe's name; `title`, `size` and `dpi` here are about that picture.";
+    let about = "At the top of the file. Where several atlases begin with a slice or a comparison, these are also drawn \
+                 side by side, in a picture with the recipe's name; `title`, `size` and `dpi` here are about that \
+                 picture.";
     Table { heading: "The recipe", about: about.into(), keys }
 }
 
@@ -126,7 +126,8 @@ fn atlas() -> Table {
             "budget",
             "a size in quotation marks such as `\"32 MiB\"`, in KiB, MiB or GiB",
             "needed for cells",
-            "Most bytes of the file. Where it does not suffice for the resolution, cells stay coarser, those of other flags than the family's answer first.",
+            "Most bytes of the file. Where it does not suffice for the resolution, cells stay coarser, those of other \
+             flags than the family's answer first.",
         ),
         needed(
             "axes",
@@ -172,8 +173,8 @@ fn axis() -> Table {
         ),
     ];
     let about = format!(
-        "Each line of `[atlas.axes]` is the name of an axis, `=`, and {AXIS}. A grid has up to {MAX_AXES} axes, \
-         in the order of the family's chart, however the recipe orders them. An angle may be written as a text: `\"40deg\"`, \
+        "Each line of `[atlas.axes]` is the name of an axis, `=`, and {AXIS}. A grid has up to {MAX_AXES} axes, in the \
+         order of the family's chart, however the recipe orders them. An angle may be written as a text: `\"40deg\"`, \
          `\"0.7rad\"`; a plain number is in radians."
     );
     Table { heading: "An axis of `[atlas.axes]`", about, keys }
@@ -182,7 +183,8 @@ fn axis() -> Table {
 fn picture() -> Table {
     let kinds = format!("one of `\"{}\"`", KINDS.join("\"`, `\""));
     let at = format!(
-        "slices: needed for each axis of several values; unions: all nodes; multiples: up to {PANELS} nodes of each axis, evenly"
+        "slices: needed for each axis of several values; unions: all nodes; multiples: up to {PANELS} nodes of each \
+         axis, evenly"
     );
     let mut keys = vec![
         needed("kind", &kinds, "What the picture shows; see above."),
@@ -198,8 +200,8 @@ fn picture() -> Table {
             "at",
             "a table such as `{ phi0 = 0.7 }`, with a number or a list of numbers for each axis",
             &at,
-            "Which nodes of the axes that are not drawn. A number stands for the nearest node and must lie within the axis; \
-             the numbers of a list must increase. A slice takes one number for each axis.",
+            "Which nodes of the axes that are not drawn. A number stands for the nearest node and must lie within the \
+             axis; the numbers of a list must increase. A slice takes one number for each axis.",
         ),
         optional(
             "regions",
@@ -211,8 +213,8 @@ fn picture() -> Table {
             "outlines",
             "a list of flags such as `[\"SPIRAL\"]`",
             "none, beside `regions`",
-            "Which flags to draw as a line with stripes on its inner side, which hides nothing. The line of one that holds all \
-             over a plot runs around the plot. It goes with `regions`.",
+            "Which flags to draw as a line with stripes on its inner side, which hides nothing. The line of one that \
+             holds all over a plot runs around the plot. It goes with `regions`.",
         ),
         optional(
             "field",
@@ -239,8 +241,9 @@ fn picture() -> Table {
         "A picture shows two axes of the grid. What it does with the others is its kind:\n\n\
          - `slice`: each other axis is fixed at one node.\n\
          - `union`: what is true at any of the chosen nodes of the other axes.\n\
-         - `multiples`: one panel for each combination of the chosen nodes of the other axes, at most {MOST_PANELS}. Axes of one \
-           chosen node stand in the heading. Of the rest the slower ones make the rows, upwards, and the faster ones the columns.\n\
+         - `multiples`: one panel for each combination of the chosen nodes of the other axes, at most {MOST_PANELS}. \
+         Axes of one chosen node stand in the heading. Of the rest the slower ones make the rows, upwards, and the \
+         faster ones the columns.\n\
          - `compare`: a slice that shows where only this family has a spiral, only the family `with`, or both."
     );
     Table { heading: "`[[atlas.picture]]`", about, keys }
@@ -252,8 +255,8 @@ fn mark() -> Table {
         needed("the name of `y`", "a number", "Where it is along the axis upwards, within the axis."),
         needed("label", "a text in quotation marks", "A few words beside the star."),
     ];
-    let about = "For example `mark = [{ kappa0 = 0.4, kappa1 = 4, label = \"example 1\" }]` on a picture with `x = \"kappa0\"` and \
-                 `y = \"kappa1\"`.";
+    let about = "For example `mark = [{ kappa0 = 0.4, kappa1 = 4, label = \"example 1\" }]` on a picture with `x \
+                 = \"kappa0\"` and `y = \"kappa1\"`.";
     Table { heading: "A mark", about: about.into(), keys }
 }
 

@@ -179,7 +179,7 @@ fn resolve(text: &str) -> Result<Recipe, Fault> {
 
 fn family_of(name: &Spanned<String>) -> Result<&'static dyn Family, Fault> {
     let names: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-    family::by_name(name.get_ref()).ok_or_else(|| Fault::new(name.span(), unknown("family", name.get_ref(), &names)))
+    family::by_name(name.get_ref()).map_err(|_| Fault::new(name.span(), unknown("family", name.get_ref(), &names)))
 }
 
 fn scalars(family: &dyn Family, fields: &[Spanned<String>]) -> Result<Vec<usize>, Fault> {

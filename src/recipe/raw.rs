@@ -15,12 +15,12 @@ pub(super) struct Fault {
 }
 
 impl Fault {
-    pub fn new(at: Range<usize>, what: impl ToString) -> Fault {
+    pub(super) fn new(at: Range<usize>, what: impl ToString) -> Fault {
         Fault { at, what: what.to_string() }
     }
 
     /// An error of the recipe, with line and column.
-    pub fn within(self, text: &str) -> Error {
+    pub(super) fn within(self, text: &str) -> Error {
         let before = text.get(..self.at.start).unwrap_or(text);
         let (line, column) = plain::place(before);
         Error::Recipe(format!("line {line}, column {column}: {}", self.what))
@@ -92,7 +92,7 @@ pub(super) enum Pixels {
 }
 
 impl Pixels {
-    pub fn count(self) -> u32 {
+    pub(super) fn count(self) -> u32 {
         let Pixels::Whole(count) = self;
         count
     }
@@ -116,7 +116,7 @@ pub(super) enum Numbers {
 
 impl Number {
     /// Its value on an axis. Texts are angles, and only axes of angles take them.
-    pub fn on(&self, axis: &str) -> Result<f64, String> {
+    pub(super) fn on(&self, axis: &str) -> Result<f64, String> {
         match self {
             Number::Plain(value) => Ok(*value),
             Number::Text(text) if is_angle(axis) => parse_angle(text).map_err(|e| format!("`{axis}`: {e}")),
@@ -153,9 +153,9 @@ pub fn is_angle(axis: &str) -> bool {
 /// [`Error::Domain`], naming the axis and the text.
 pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
     if is_angle(axis) {
-        return parse_angle(text).map_err(|e| Error::Domain(format!("{axis}: {e}")));
+        return parse_angle(text).map_err(|e| e.at(axis));
     }
-    text.trim().parse().map_err(|_| Error::Domain(format!("{axis}: {text:?} is no number")))
+    text.trim().parse().map_err(|_| Error::invalid(format!("{axis}: {text:?} is no number")))
 }
 
 /// Reads an angle: `40deg` or `40°`, `0.7rad`, or radians alone, `0.7`. Beyond a full turn the unit must be named.
@@ -186,11 +186,11 @@ pub fn parse_angle(text: &str) -> Result<f64> {
     };
     let unit = number.len() < trimmed.len();
     match number.trim_end().parse::<f64>() {
-        Ok(value) if value.is_finite() && !unit && value.abs() > TAU => Err(Error::Domain(format!(
+        Ok(value) if value.is_finite() && !unit && value.abs() > TAU => Err(Error::invalid(format!(
             "{text:?} is more than a full turn in radians; say which unit is meant: `{trimmed}deg` or `{trimmed}rad`"
         ))),
         Ok(value) if value.is_finite() => Ok(if degrees { value / 180.0 * PI } else { value }),
-        _ => Err(Error::Domain(format!(
+        _ => Err(Error::invalid(format!(
             "{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`"
         ))),
     }

@@ -7,8 +7,8 @@ use std::fmt::Write;
 /// Recipes that together have every key.
 pub(super) const EXAMPLES: [(&str, &str); 3] = [
     (
-        "Two atlases of one family. Each has a slice, so these are also drawn side by side. The first has small multiples over both \
-         angles as well, and a slice of a scalar.",
+        "Two atlases of one family. Each has a slice, so these are also drawn side by side. The first has small \
+         multiples over both angles as well, and a slice of a scalar.",
         r#"family = "cubic"
 fields = ["flags", "solutions", "margin"]
 title = "Two pairs of angles"
@@ -119,8 +119,10 @@ regions = ["SPIRAL"]
 /// The reference of recipes in Markdown, with examples: all keys and, of each family, its axes, flags and scalars.
 pub fn reference() -> String {
     let mut page = String::from(
-        "# Recipes\n\nThis page is made from the code of the reader: a test compares the two, so what stands here is what the program does.\n\n\
-         A recipe is a [TOML](https://toml.io) file. It says which atlases to make and which pictures to draw of them:\n\n\
+        "# Recipes\n\nThis page is made from the code of the reader: a test compares the two, so what stands here is \
+         what the program does.\n\n\
+         A recipe is a [TOML](https://toml.io) file. It says which atlases to make and which pictures to draw of \
+         them:\n\n\
          ```sh\nspiral-atlas generate recipe.toml\n```\n\n\
          A mistake in a recipe is told with its line and column, and the exit status is 2.\n",
     );

@@ -132,7 +132,7 @@ pub(super) fn exists(ends: &Ends) -> bool {
 
 fn index(roots: &[Root], chosen: &Root) -> Result<usize> {
     roots.iter().position(|root| root == chosen).ok_or_else(|| {
-        Error::Domain(format!(
+        Error::invalid(format!(
             "the chosen root ({:?}, {:?}) is not among the {} roots",
             chosen.f0,
             chosen.f1,
@@ -162,7 +162,7 @@ impl Solution {
         ));
         let mut all = control_points.p.iter().chain(&local_control_points.p).chain(&legs);
         if !all.all(|p| p[0].is_finite() && p[1].is_finite()) {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the cubic of the root ({f0:?}, {f1:?}) leaves the range of doubles; change the unit of length"
             )));
         }

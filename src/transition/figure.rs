@@ -4,7 +4,7 @@
 use super::Solution;
 use super::placement::Ends;
 use crate::curve::vector::add;
-use crate::error::{Error, Result};
+use crate::error::{Result, samples};
 use serde::Serialize;
 
 /// Circle of curvature at an end.
@@ -85,11 +85,9 @@ impl Figure {
     /// Arc lengths 1e-14 relative; curvatures as [`crate::curve::Jet::curvature`].
     ///
     /// # Errors
-    /// [`Error::Domain`] for fewer than 2 samples.
+    /// [`crate::Error::Domain`] for fewer than 2 samples.
     pub fn new(ends: &Ends, solution: &Solution, count: usize) -> Result<Figure> {
-        if count < 2 {
-            return Err(Error::Domain(format!("a figure of {count} samples; it needs at least 2, the ends")));
-        }
+        samples(count)?;
         let local = &solution.local_control_points;
         let step = |i: usize| i as f64 / (count - 1) as f64;
         let mut s = 0.0;

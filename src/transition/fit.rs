@@ -1,7 +1,7 @@
 //! One question for all families: the spiral between two ends in the user's units, or why there is none.
 
 use super::{Ends, InvoluteBetween, Kind, Piece, involute_between, ph_spiral, spiral, why_no_spiral};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, above_zero};
 
 /// What [`fit`] found.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,9 +33,7 @@ impl Fit {
 /// [`Error::Domain`] for another kind, a limit that is not above 0, and what [`spiral`], [`ph_spiral`] and
 /// [`involute_between`] refuse; [`Error::Undecided`] at the precision cap. That there is no spiral is no error.
 pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
-    if longest.is_nan() || longest <= 0.0 {
-        return Err(Error::Domain(format!("the greatest length is {longest:?}; it must be above 0")));
-    }
+    above_zero("the greatest length", longest)?;
     match kind {
         Kind::Cubic => {
             let answer = spiral(ends)?.no_longer_than(longest);
@@ -65,7 +63,7 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
             };
             Ok(Fit { spirals: vec![true; solutions.len()], solutions, outcome })
         }
-        _ => Err(Error::Domain(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
+        _ => Err(Error::invalid(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
     }
 }
 

@@ -16,9 +16,8 @@ pub fn involute_between(ends: &Ends, turns: [u32; 2]) -> Result<(Spiral, Frame)>
     let (chord, half_chord) = ends.chord()?;
     for (which, k) in [("start", chord.k1), ("end", chord.k2)] {
         if k.abs() > GREATEST {
-            return Err(Error::Domain(format!(
-                "the {which} curvature times half the chord is {k:?}; for an involute it must be at most {GREATEST:?} in magnitude"
-            )));
+            let what = format!("the {which} curvature times half the chord");
+            return Err(Error::domain(what, k, format!("at most {GREATEST:?} in magnitude for an involute")));
         }
     }
     Ok((involute(&chord, turns)?, Frame { start: ends.start, end: ends.end, half_chord }))

@@ -48,7 +48,7 @@ pub fn nearest(ends: &Ends, kind: Kind) -> Result<Option<Ends>> {
         Kind::PhQuintic => ph_quintic::exists,
         Kind::Involute => any,
         _ => {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the kind is `{}`; it must be cubic, ph-quintic or involute",
                 kind.name()
             )));

@@ -175,19 +175,19 @@ impl Bound {
 
 impl Need {
     /// As a sentence without an end.
-    fn told(&self) -> String {
+    fn sentence(&self) -> String {
         let Need { which, curvature, bound } = self;
-        let (verb, told) = match bound {
+        let (verb, limit) = match bound {
             Bound::Above(x) => ("be above", above(*x)),
             Bound::Below(x) => ("be below", below(*x)),
         };
-        format!("the {which} curvature {curvature:?} must {verb} {told}{}", radius(*bound))
+        format!("the {which} curvature {curvature:?} must {verb} {limit}{}", radius(*bound))
     }
 }
 
 /// The bound as one of the radius, in brackets.
 fn radius(bound: Bound) -> String {
-    let (arm, told) = match bound {
+    let (arm, words) = match bound {
         Bound::Above(x) => (
             1.0 / x,
             if x > 0.0 { "turning left with a radius of at most" } else { "or, turning right, a radius of at least" },
@@ -200,8 +200,8 @@ fn radius(bound: Bound) -> String {
     if !arm.is_finite() {
         return String::new();
     }
-    let most = told.ends_with("most");
-    format!(" ({told} {})", if most { below(arm.abs()) } else { above(arm.abs()) })
+    let most = words.ends_with("most");
+    format!(" ({words} {})", if most { below(arm.abs()) } else { above(arm.abs()) })
 }
 
 impl fmt::Display for NoSpiral {
@@ -231,11 +231,11 @@ impl fmt::Display for NoSpiral {
             }
             NoSpiral::CirclesCross { needs, alone } => {
                 f.write_str("the circles of curvature at the ends cross or touch, and those of a spiral do not")?;
-                let told: Vec<String> = needs.iter().map(Need::told).collect();
-                match (told.as_slice(), alone) {
+                let words: Vec<String> = needs.iter().map(Need::sentence).collect();
+                match (words.as_slice(), alone) {
                     ([], _) => Ok(()),
-                    (told, true) => write!(f, ": {}", told.join(", or ")),
-                    (told, false) => write!(f, ": {}, each by more than a little", told.join(" and ")),
+                    (words, true) => write!(f, ": {}", words.join(", or ")),
+                    (words, false) => write!(f, ": {}, each by more than a little", words.join(" and ")),
                 }
             }
         }

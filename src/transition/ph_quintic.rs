@@ -119,7 +119,7 @@ impl PhSolution {
         let control_points = curve.control_points();
         let (user, local) = (placement.to_user(&control_points), placement.to_user_local(&control_points));
         if !user.iter().chain(&local).flatten().all(|x| x.is_finite()) {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the solution with A = {a:?}, B = {b:?} leaves the range of doubles; change the unit of length"
             )));
         }

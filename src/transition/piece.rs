@@ -126,7 +126,7 @@ impl InvoluteBetween {
         let (found, frame) = involute_between(ends, turns)?;
         match found.outcome {
             Ok(Image { curve, .. }) => Ok(InvoluteBetween { ends: *ends, turns, curve, frame }),
-            Err(why) => Err(Error::Domain(format!("no involute has these ends: {why}"))),
+            Err(why) => Err(Error::invalid(format!("no involute has these ends: {why}"))),
         }
     }
 

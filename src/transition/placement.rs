@@ -3,9 +3,9 @@
 use super::turn::Turn;
 use crate::curve::CubicBezier;
 use crate::curve::PhQuintic;
-use crate::curve::quintic::complex;
+use crate::curve::hodograph::complex;
 use crate::curve::vector::{Vector, add, length, scale, sub, turn};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, finite};
 use crate::family::any_spiral;
 use crate::family::cubic::Datum;
 use num_complex::Complex64;
@@ -44,7 +44,7 @@ pub struct Ends {
 pub fn direction_of(vector: [f64; 2]) -> Result<f64> {
     let [x, y] = vector;
     if !(x.is_finite() && y.is_finite()) || (x == 0.0 && y == 0.0) {
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "direction vector ({x:?}, {y:?}) has no direction; it must be finite and not zero (or give an angle)"
         )));
     }
@@ -63,10 +63,7 @@ impl Ends {
             ("start curvature", self.start_curvature),
             ("end curvature", self.end_curvature),
         ];
-        match values.iter().find(|(_, value)| !value.is_finite()) {
-            Some((name, value)) => Err(Error::Domain(format!("{name} is {value}; it must be finite"))),
-            None => Ok(()),
-        }
+        values.into_iter().try_for_each(|(name, value)| finite(name, value).map(drop))
     }
 
     /// The ends seen from their chord, and half the chord as a vector. A half turn is [`PI`], and stands for both
@@ -85,7 +82,7 @@ impl Ends {
     fn half_chord(&self) -> Result<(Vector, f64)> {
         let ([ax, ay], [bx, by]) = (self.start, self.end);
         if self.start == self.end {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "start and end are both ({ax:?}, {ay:?}); a transition needs two different points"
             )));
         }
@@ -93,9 +90,8 @@ impl Ends {
         let half = scale(sub(self.end, self.start), 0.5);
         let size = length(half);
         if !size.is_normal() {
-            return Err(Error::Domain(format!(
-                "half the chord from ({ax:?}, {ay:?}) to ({bx:?}, {by:?}) is {size:?} long; it must be 2.3e-308 to 1.7e308 (change the unit of length)"
-            )));
+            let what = format!("the length of half the chord from ({ax:?}, {ay:?}) to ({bx:?}, {by:?})");
+            return Err(Error::domain(what, size, "2.3e-308 to 1.7e308").or("change the unit of length"));
         }
         Ok((half, size))
     }
@@ -307,9 +303,8 @@ fn half_turns_to_their_side(alpha: f64, beta: f64, left: bool) -> (f64, f64) {
 fn by_chord(name: &str, curvature: f64, half_chord: f64) -> Result<f64> {
     let product = curvature * half_chord;
     if curvature != 0.0 && !product.is_normal() {
-        return Err(Error::Domain(format!(
-            "{name} curvature {curvature:?} times half the chord, {half_chord:?}, is {product:?}; it must be 0 or 2.3e-308 to 1.7e308 in magnitude"
-        )));
+        let what = format!("{name} curvature {curvature:?} times half the chord, {half_chord:?},");
+        return Err(Error::domain(what, product, "0 or 2.3e-308 to 1.7e308 in magnitude"));
     }
     Ok(product)
 }

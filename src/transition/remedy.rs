@@ -70,7 +70,7 @@ impl Remedy {
 }
 
 /// What would help, as the end of a sentence.
-pub(super) fn told(remedies: &[Remedy]) -> String {
+pub(super) fn advice(remedies: &[Remedy]) -> String {
     let one = |r: &Remedy| format!("{} in place of the {} curvature {:?}", short(r.instead), r.which, r.curvature);
     match remedies {
         [] => String::new(),

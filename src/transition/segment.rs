@@ -6,9 +6,8 @@ use super::placement::{Ends, Placement};
 use super::words::degrees;
 use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, finite, positive, written};
 use crate::family::reach::{Datum, Kind, Level, legs, level_of_shape, preimage, solve};
-use crate::num::told;
 use serde::Serialize;
 
 /// What the segment is added to.
@@ -133,9 +132,8 @@ fn level_name<S: serde::Serializer>(level: &Level, serializer: S) -> Result<S::O
 /// Habib & Sakai (CGIV 2004), cases 1 and 2, (4), (12), (17).
 pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<Added, String>> {
     let Request { start, direction, radius, theta, target, .. } = *request;
-    let finite = [("start x", start[0]), ("start y", start[1]), ("direction", direction)];
-    if let Some((name, value)) = finite.iter().find(|(_, value)| !value.is_finite()) {
-        return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
+    for (name, value) in [("start x", start[0]), ("start y", start[1]), ("direction", direction)] {
+        finite(name, value)?;
     }
     positive("radius", radius)?;
     let frame = Frame {
@@ -178,12 +176,12 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
         let what = format!(
             "the segment from {start:?} with the radius {radius:?} leaves the range of doubles; change the unit of length"
         );
-        return Err(Error::Domain(what));
+        return Err(Error::invalid(what));
     }
     let piece = piece(kind, &frame, preimage(case, theta, m, q), &control_points, &legs);
     let length = piece.length();
     if !length.is_finite() {
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "the segment's length is {length:?}, outside the range of doubles (change the unit of length)"
         )));
     }
@@ -204,23 +202,16 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
     }))
 }
 
-fn positive(name: &str, value: f64) -> Result<()> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    Err(Error::Domain(format!("{name} is {value:?}; it must be finite and above 0")))
-}
-
 /// Why there is no segment: one of the two legs would have to run backwards.
 fn why(case: u8, theta: f64, point: Vector, [xi, eta]: Vector) -> String {
     let (s, c) = theta.sin_cos();
     let (round, name) = if case == 1 { (eta, "eta") } else { (xi * s - eta * c, "xi sin(theta) - eta cos(theta)") };
     let what = if round <= 0.0 {
-        format!("has {name} = {}, which must be above 0: it lies behind the tangent of the flat end", told(round))
+        format!("has {name} = {}, which must be above 0: it lies behind the tangent of the flat end", written(round))
     } else {
         "needs m <= 0: it lies too near, so that the flat end's tangent would run backwards".into()
     };
-    let ([x, y], [xi, eta], theta) = (point.map(told), [xi, eta].map(told), degrees(theta));
+    let ([x, y], [xi, eta], theta) = (point.map(written), [xi, eta].map(written), degrees(theta));
     format!(
         "the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, {what}"
     )
@@ -252,7 +243,7 @@ impl Frame {
             return Ok(local);
         }
         let ([x, y], r) = (point, self.radius);
-        Err(Error::Domain(format!("the end point ({x:?}, {y:?}) is out of range in units of the radius {r:?}")))
+        Err(Error::invalid(format!("the end point ({x:?}, {y:?}) is out of range in units of the radius {r:?}")))
     }
 }
 

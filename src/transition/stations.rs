@@ -1,12 +1,9 @@
 //! Points at equal arc lengths along a path of pieces.
 
 use super::piece::Piece;
-use crate::curve::arc_length;
-use crate::error::{Error, Result};
+use crate::curve::{arc_length, parameter_of};
+use crate::error::{Error, Result, samples};
 use serde::Serialize;
-
-/// Steps of Newton's method or of bisection, at most. Bisection alone needs 53 to exhaust a double.
-const STEPS: u32 = 60;
 
 /// A point of a path and what is known there, in the user's units. As JSON, heading and curvature are null where the
 /// path stands still.
@@ -50,9 +47,7 @@ impl Station {
 /// # Errors
 /// [`Error::Domain`] for fewer than two points, or where a number leaves the range of doubles.
 pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
-    if count < 2 {
-        return Err(Error::Domain(format!("{count} samples of a curve; it needs at least 2, the ends")));
-    }
+    samples(count)?;
     let lengths: Vec<f64> = pieces.iter().map(Piece::length).collect();
     let whole: f64 = lengths.iter().sum();
     let mut all = Vec::with_capacity(count);
@@ -71,7 +66,7 @@ pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
             let found = Station { station: wanted(n), x: at.point[0], y: at.point[1], heading: at.heading, curvature };
             let Station { station, x, y, heading, .. } = found;
             if ![station, x, y].iter().all(|x| x.is_finite()) || (!heading.is_nan() && !curvature.is_finite()) {
-                return Err(Error::Domain(format!(
+                return Err(Error::invalid(format!(
                     "the sample {n} of the curve is out of the range of doubles: {found:?} (change the unit of length)"
                 )));
             }
@@ -95,33 +90,15 @@ fn parameters(piece: &Piece, length: f64, wanted: &[f64]) -> Vec<f64> {
             Piece::Line(_) | Piece::Arc(_) => wanted / length,
             Piece::Involute(between) => between.parameter_at(wanted / length),
             Piece::Cubic(_) | Piece::TrigQuintic(_) => {
-                (t, s) = advance(|t| piece.at(t).speed, [t, to], s, wanted, length);
+                let (from, known, speed) = (t, s, |t: f64| piece.at(t).speed);
+                let at = |t: f64| {
+                    s = known + arc_length(speed, from, t);
+                    [s - wanted, speed(t)]
+                };
+                t = parameter_of(at, [from, to], from + (wanted - known) / speed(from), 4.0 * f64::EPSILON * length);
                 t
             }
         }
     };
     wanted.iter().map(|s| next(*s)).collect()
-}
-
-/// From a parameter whose length is known to the one, not beyond the end, where it is `wanted`: that parameter, and the
-/// length there.
-fn advance(speed: impl Fn(f64) -> f64, [from, to]: [f64; 2], known: f64, wanted: f64, whole: f64) -> (f64, f64) {
-    let (mut low, mut high, mut t) = (from, to, from + (wanted - known) / speed(from));
-    let mut s = known;
-    for _ in 0..STEPS {
-        if !(t > low && t < high) {
-            t = 0.5 * (low + high);
-        }
-        s = known + arc_length(&speed, from, t);
-        if (s - wanted).abs() <= 4.0 * f64::EPSILON * whole || low >= high {
-            break;
-        }
-        if s < wanted {
-            low = t;
-        } else {
-            high = t;
-        }
-        t -= (s - wanted) / speed(t);
-    }
-    (t, s)
 }

@@ -5,11 +5,10 @@ use super::{EndCircle, Sample, Turn};
 use crate::curve::Jet;
 use crate::curve::TrigBezier;
 use crate::curve::vector::{add, turn};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, finite, positive, samples, written};
 use crate::family::trig_quintic::Scaling;
 use crate::family::trig_quintic::{SPIRAL, Shape, flags, least_ratio};
 use crate::num::roots::find;
-use crate::num::told;
 use serde::Serialize;
 
 /// One spiral of a template: its shape and the radius of its circle.
@@ -102,31 +101,16 @@ pub struct Path {
     pub circles: Vec<EndCircle>,
 }
 
-/// A path of proved spirals, or not.
+/// A path whose parts are not all spirals that meet their circles.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Outcome {
-    /// Every part is a spiral and meets its circles.
-    Spirals(Path),
-    /// What the request describes is none.
-    NoSpirals {
-        /// The path all the same.
-        path: Path,
-        /// Which condition fails, with its numbers.
-        why: String,
-    },
+pub struct NoSpirals {
+    /// What the request describes all the same.
+    pub path: Path,
+    /// Which condition fails, with its numbers.
+    pub why: String,
 }
 
-impl Outcome {
-    /// The path, whatever it is.
-    pub fn path(&self) -> &Path {
-        match self {
-            Outcome::Spirals(path) | Outcome::NoSpirals { path, .. } => path,
-        }
-    }
-}
-
-/// Builds a template.
+/// Builds a template: a path each part of which is a spiral and meets its circles, or why there is none.
 ///
 /// # Accuracy
 /// That parts are spirals is proved for the shapes as given. Places, directions and curvatures at the ends and between
@@ -139,12 +123,10 @@ impl Outcome {
 /// # Source
 /// Misro, Ramli and Ali, sections III to VII, with (9) scaled as [`Scaling`] says and, for circles in circles, the
 /// start moved to where the curvature is that of the outer circle.
-pub fn path(request: &Request) -> Result<Outcome> {
+pub fn path(request: &Request) -> Result<std::result::Result<Path, NoSpirals>> {
     let Request { template, at, direction, turn: side, scaling } = *request;
-    if let Some((name, value)) =
-        [("x", at[0]), ("y", at[1]), ("direction", direction)].iter().find(|(_, v)| !v.is_finite())
-    {
-        return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
+    for (name, value) in [("x", at[0]), ("y", at[1]), ("direction", direction)] {
+        finite(name, value)?;
     }
     let (local, round) = local(&template, scaling)?;
     let along = [direction.cos(), direction.sin()];
@@ -153,14 +135,14 @@ pub fn path(request: &Request) -> Result<Outcome> {
     let parts: Vec<Part> = local.iter().map(place).collect();
     if !parts.iter().flat_map(|part| part.curve.points()).flatten().all(|x| x.is_finite()) {
         let what = format!("the curve through {at:?} leaves the range of doubles; change the unit of length");
-        return Err(Error::Domain(what));
+        return Err(Error::invalid(what));
     }
     let hand = if side == Turn::Right { -1.0 } else { 1.0 };
     let circles = circles(&parts, &round.map(|k| hand * k));
     let path = Path { parts, circles };
     Ok(match why_not(&template, scaling)? {
-        None => Outcome::Spirals(path),
-        Some(why) => Outcome::NoSpirals { path, why },
+        None => Ok(path),
+        Some(why) => Err(NoSpirals { path, why }),
     })
 }
 
@@ -187,7 +169,7 @@ fn local(template: &Template, scaling: Scaling) -> Result<(Vec<Part>, [f64; 3])>
         Template::LineLine { first, second } => {
             if first.radius != second.radius {
                 let (one, two) = (first.radius, second.radius);
-                return Err(Error::Domain(format!(
+                return Err(Error::invalid(format!(
                     "the radii are {one:?} and {two:?}; between two lines they must be equal"
                 )));
             }
@@ -211,7 +193,7 @@ fn local(template: &Template, scaling: Scaling) -> Result<(Vec<Part>, [f64; 3])>
             positive("outer", *outer)?;
             if *outer <= inner.radius {
                 let radius = inner.radius;
-                return Err(Error::Domain(format!(
+                return Err(Error::invalid(format!(
                     "the outer radius is {outer:?}; it must be above that of the inner circle, {radius:?}"
                 )));
             }
@@ -235,13 +217,6 @@ fn flipped(curve: &TrigBezier, [x, y]: [f64; 2]) -> TrigBezier {
     curve.mapped(curve.start, |z| [x * z[0], y * z[1]])
 }
 
-fn positive(name: &str, value: f64) -> Result<()> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    Err(Error::Domain(format!("{name} is {value:?}; it must be finite and above 0")))
-}
-
 /// The first condition that fails, if any.
 fn why_not(template: &Template, scaling: Scaling) -> Result<Option<String>> {
     let segments = match template {
@@ -260,18 +235,18 @@ fn why_not(template: &Template, scaling: Scaling) -> Result<Option<String>> {
             };
             return Ok(Some(format!(
                 "{printed}not a spiral: the ratio {} gives none for the angle {}, m = {}, p = {}, q = {}; {hint}",
-                told(ratio),
+                written(ratio),
                 degrees(theta),
-                told(m),
-                told(p),
-                told(q)
+                written(m),
+                written(p),
+                written(q)
             )));
         }
         if scaling == Scaling::AsPrinted {
             let end = 15.0 / (4.0 + q).powi(2);
             return Ok(Some(format!(
                 "as printed: the end curvature is {end} / r, r = {}, and not 1 / r",
-                told(*radius)
+                written(*radius)
             )));
         }
     }
@@ -285,9 +260,7 @@ impl Path {
     /// # Errors
     /// [`Error::Domain`] for fewer than 2 samples a part.
     pub fn samples(&self, count: usize) -> Result<Vec<Vec<Sample>>> {
-        if count < 2 {
-            return Err(Error::Domain(format!("{count} samples of a curve; it needs at least 2, the ends")));
-        }
+        samples(count)?;
         let mut s = 0.0;
         let part = |part: &Part| {
             let t = |i: usize| {

@@ -2,7 +2,7 @@
 
 use super::none::NoSpiral;
 use super::placement::{Ends, Placement};
-use super::remedy::{Remedy, told};
+use super::remedy::{Remedy, advice};
 use super::turn::{Turn, Which};
 use super::words::degrees;
 use crate::error::Result;
@@ -47,7 +47,7 @@ pub enum Why {
     NoRoot {
         /// `κ0 d0² / (4 sin φ0)` of the normalised datum.
         a: f64,
-        /// `κ1 d1² / (4 sin φ1)`; (A.9) asks `k > 1/3`.
+        /// `κ1 d1² / (4 sin φ1)`; Habib & Sakai's (A.9) asks `k > 1/3`.
         k: f64,
         /// The discriminant `768a²k² - 256ak(a+k) + 96ak - 1` over `max(1,a)² max(1,k)²`: D of (A.4) but for a positive
         /// factor, to double precision. (A.9) asks that it is not negative.
@@ -199,13 +199,13 @@ impl fmt::Display for Why {
                 if *curvature > 0.0 { "below" } else { "above" },
             ),
             Why::NoRoot { a, k, discriminant, remedies } => {
-                write!(f, "no cubic without inflection has these ends and curvatures{}", told(remedies))?;
+                write!(f, "no cubic without inflection has these ends and curvatures{}", advice(remedies))?;
                 write!(f, " (no root of 3 - f1 = a f0^2, 3 - f0 = k f1^2 with 0 < f0, f1 < 3, a = {a:?}, k = {k:?}: ")?;
                 write!(f, "the discriminant is {discriminant:?})")
             }
             Why::NotMonotone { roots, remedies } => {
                 let how = if let [_] = roots.as_slice() { "the only cubic that has" } else { "every cubic that has" };
-                write!(f, "the curvature of {how} these ends is not monotone{} (", told(remedies))?;
+                write!(f, "the curvature of {how} these ends is not monotone{} (", advice(remedies))?;
                 for (i, root) in roots.iter().enumerate() {
                     f.write_str(if i == 0 { "" } else { "; " })?;
                     root.fmt(f)?;
@@ -213,13 +213,13 @@ impl fmt::Display for Why {
                 f.write_str(")")
             }
             Why::NoPhQuintic { remedies } => {
-                write!(f, "no PH quintic with A, B > 0 has these ends and curvatures{}", told(remedies))
+                write!(f, "no PH quintic with A, B > 0 has these ends and curvatures{}", advice(remedies))
             }
             Why::NoPhSpiral { margins, remedies } => {
                 write!(
                     f,
                     "the curvature of no PH quintic with these ends is monotone{} (margins {margins:?})",
-                    told(remedies)
+                    advice(remedies)
                 )
             }
             Why::TooLong { length, longest } => {

@@ -1,13 +1,13 @@
 //! Numbers in sentences: few digits, and a bound rounded so that whoever types it in keeps on the safe side.
 
-use crate::num::told;
+use crate::error::written;
 
 /// Digits that a bound is told with.
 const DIGITS: i32 = 6;
 
 /// Six digits, or fewer where they say the same.
 pub(super) fn short(x: f64) -> String {
-    told(rounded(x))
+    written(rounded(x))
 }
 
 /// Six digits of a number above `x`.

@@ -4,7 +4,7 @@ use spiral_atlas::eval::gpu::adapters;
 
 /// The labels of all adapters that can compute, or of those that `SPIRAL_ATLAS_TEST_ADAPTER` is part of, so that a job
 /// meant for one adapter cannot pass on another. There must be one: a GPU test that is skipped proves nothing.
-pub fn labels() -> Vec<String> {
+pub(crate) fn labels() -> Vec<String> {
     let part = std::env::var("SPIRAL_ATLAS_TEST_ADAPTER").unwrap_or_default();
     let all = adapters();
     let usable = all.iter().filter(|a| a.unusable.is_none()).map(|a| a.label());

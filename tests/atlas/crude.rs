@@ -64,7 +64,7 @@ fn flags(p0: f64, p1: f64, k0: f64, k1: f64) -> [bool; 5] {
 const LABELS: [&str; 5] =
     ["any spiral at all", "exact cubic spiral", "Theorem 3.1, any root", "Theorem 3.1", "solvable (A.9)"];
 
-pub fn cubic_slice(p0: f64, p1: f64, x: AxisView, y: AxisView) -> Slice {
+pub(crate) fn cubic_slice(p0: f64, p1: f64, x: AxisView, y: AxisView) -> Slice {
     let nodes = y.values.iter().flat_map(|k1| x.values.iter().map(|k0| flags(p0, p1, *k0, *k1)));
     let nodes: Vec<[bool; 5]> = nodes.collect();
     let region = |i: usize| Region { label: LABELS[i].into(), mask: nodes.iter().map(|f| f[i]).collect() };
@@ -80,11 +80,11 @@ pub fn cubic_slice(p0: f64, p1: f64, x: AxisView, y: AxisView) -> Slice {
     }
 }
 
-pub fn spaced(lo: f64, hi: f64, count: usize) -> Vec<f64> {
+pub(crate) fn spaced(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     (0..count).map(|i| lo + (hi - lo) * i as f64 / (count - 1) as f64).collect()
 }
 
-pub fn curve_figure(p0: f64, p1: f64, k: (f64, f64), f: (f64, f64)) -> CurveFigure {
+pub(crate) fn curve_figure(p0: f64, p1: f64, k: (f64, f64), f: (f64, f64)) -> CurveFigure {
     let s = (p0 + p1).sin();
     let (l0, l1) = (2.0 * p1.sin() / s * f.0 / 3.0, 2.0 * p0.sin() / s * f.1 / 3.0);
     let control =

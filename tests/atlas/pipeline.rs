@@ -38,7 +38,7 @@ fn a_panicking_sink_gets_through() {
 
 #[test]
 fn an_error_of_the_sink_ends_the_run() {
-    let error = within_a_minute(|| run(|_| Err(Error::Domain("on purpose".into()))).unwrap_err());
+    let error = within_a_minute(|| run(|_| Err(Error::invalid("on purpose"))).unwrap_err());
     assert_eq!(error.to_string(), "on purpose");
 }
 

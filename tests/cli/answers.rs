@@ -301,11 +301,24 @@ fn a_reader_that_leaves_ends_the_stream_quietly() {
     assert_eq!((said.code, &said.err[..]), (Some(0), ""));
 }
 
+/// The commands, or those of a command, that the help lists.
+fn commands(of: &[&str]) -> Vec<String> {
+    let help = fine(of.iter().copied().chain(["--help"])).out;
+    let Some((_, list)) = help.split_once("\nCommands:\n") else { return Vec::new() };
+    let names = list.lines().take_while(|line| !line.is_empty());
+    let names = names.filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    names.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help").map(str::to_owned).collect()
+}
+
 #[test]
 fn every_command_has_an_example_in_its_help() {
-    for command in ["generate", "verify", "render", "info", "adapters", "query", "curve", "completions"] {
-        let help = fine([command, "--help"]).out;
-        assert!(help.contains("Example") && help.contains(&format!("spiral-atlas {command}")), "{help}");
+    let commands = commands(&[]);
+    assert!(commands.len() > 8, "{commands:?}");
+    for command in commands {
+        let (help, inner) = (fine([&command, "--help"]).out, self::commands(&[&command]));
+        let own = |help: &str, name: &str| help.contains("Example") && help.contains(&format!("spiral-atlas {name}"));
+        let each = |inner: &String| own(&fine([&command, inner, "--help"]).out, &format!("{command} {inner}"));
+        assert!(own(&help, &command) || !inner.is_empty() && inner.iter().all(each), "{command}: {help}");
     }
     assert!(fine(["completions", "bash"]).out.contains("generate"));
     assert!(fine(["adapters", "--json"]).json().is_array());

@@ -37,7 +37,7 @@ fn what_no_road_can_be_is_refused_and_leaves_no_file() {
         (curve("involute"), &[], &["pieces[0]", "`involute`", "ph-quintic"]),
         (curve("ph-quintic"), &["--tolerance", "1e-300"], &["tolerance", "2000"]),
         (ROAD.into(), &["--lane-width", "NaN"], &["lane width", "NaN"]),
-        (ROAD.into(), &["--tolerance", "0"], &["tolerance", "0.0"]),
+        (ROAD.into(), &["--tolerance", "0"], &["tolerance is 0;"]),
         (none, &[], &["no path"]),
         (still, &[], &["pieces[0]", "direction"]),
     ];

@@ -164,12 +164,12 @@ fn mistakes_are_told() {
         (vec!["--from-circle", "0,0,1,up", "--to-line", "1,0,0"], "is no circle"),
         (
             vec!["--from-circle", "0,0,-1,left", "--to-line", "1,0,0"],
-            "the start radius is -1.0; it must be finite and above 0",
+            "the start radius is -1; it must be finite and above 0",
         ),
         (vec!["--from", "0,0,0", "--to-line", "1,0,0"], "one end is a state and the other is not"),
         (vec!["--from", "0,0,0", "--from-line", "0,0,0", "--to-line", "1,0,0"], "cannot be used with"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--most-pieces", "0"], "the most pieces are 0"),
-        (vec!["--from", "0,0,0", "--to", "1,0,0", "--longest=-1"], "the longest length is -1.0"),
+        (vec!["--from", "0,0,0", "--to", "1,0,0", "--longest=-1"], "the longest length is -1;"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "would be a PNG picture"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--csv"], "--samples"),
         (
@@ -184,7 +184,7 @@ fn mistakes_are_told() {
     }
     let limit = |limit: &str| join(&["--from", "0,0,0", "--to", "1,0,0", &format!("--greatest-curvature={limit}")]);
     for (given, what) in
-        [("0", "is 0.0; it must"), ("-1", "is -1.0"), ("nan", "is NaN"), ("1e200", "change the unit of length")]
+        [("0", "is 0; it must"), ("-1", "is -1;"), ("nan", "is NaN"), ("1e200", "change the unit of length")]
     {
         let said = limit(given);
         assert!(said.code == Some(2) && said.err.contains(what), "{}", said.err);

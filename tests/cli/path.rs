@@ -283,7 +283,7 @@ fn a_curve_that_stands_still_has_no_greatest_curvature() {
     assert_eq!(told, [(json!(false), false), (json!(false), false), (json!(true), true), (json!(true), true)]);
 }
 
-pub fn run_or_pipe(args: &[&str], input: &str) -> Said {
+pub(crate) fn run_or_pipe(args: &[&str], input: &str) -> Said {
     if input.is_empty() { run(["path"].iter().chain(args)) } else { piped(args, input) }
 }
 

@@ -7,7 +7,7 @@ use spiral_atlas::family::{Code, Facts, Family, verdict};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 
 /// A family in one of its charts, with boxes of all kinds, by a running number.
-pub struct Subject<const N: usize> {
+pub(crate) struct Subject<const N: usize> {
     pub family: &'static dyn Family,
     pub chart: usize,
     pub draw: fn(&mut Random, u64) -> [[f64; 2]; N],
@@ -24,7 +24,7 @@ fn places(r: &mut Random, [low, high]: [f64; 2], between: usize) -> Vec<f64> {
 }
 
 /// A point of a box: each coordinate is an end or anywhere.
-pub fn place<const N: usize>(r: &mut Random, sides: &[[f64; 2]; N]) -> [f64; N] {
+pub(crate) fn place<const N: usize>(r: &mut Random, sides: &[[f64; 2]; N]) -> [f64; N] {
     sides.map(|side| match r.below(4) {
         0 => side[0],
         1 => side[1],
@@ -33,7 +33,7 @@ pub fn place<const N: usize>(r: &mut Random, sides: &[[f64; 2]; N]) -> [f64; N] 
 }
 
 impl<const N: usize> Subject<N> {
-    pub fn facts(&self, sides: &[[f64; 2]; N]) -> Facts {
+    pub(crate) fn facts(&self, sides: &[[f64; 2]; N]) -> Facts {
         let [low, high] = [0, 1].map(|end| sides.map(|side| side[end]));
         self.family.region().unwrap().facts(self.chart, &low, &high, u8::MAX)
     }
@@ -61,7 +61,7 @@ impl<const N: usize> Subject<N> {
 
     /// Draws boxes and compares what is said of them with the flags at their corners, on their faces, beside both and
     /// inside. So many points must have been met at least, and each flag so often INSIDE and OUTSIDE.
-    pub fn attack(&self, seed: u64, boxes: u64, between: usize, least: usize, each: u64) {
+    pub(crate) fn attack(&self, seed: u64, boxes: u64, between: usize, least: usize, each: u64) {
         let mut r = Random(seed);
         let count = self.family.about().flags.len();
         let (mut points, mut inside, mut outside) = (0, vec![0u64; count], vec![0u64; count]);

@@ -10,7 +10,7 @@ const SUBJECT: Subject<4> = Subject { family: &Cubic, chart: 0, draw };
 const NORMALISED: Subject<4> = Subject { family: &Cubic, chart: 1, draw: draw_normalised };
 
 /// A box of random size somewhere: ordinary ones, and those that touch or cross where the flags have an end.
-pub fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
+pub(crate) fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
     let scale = 10f64.powf(-r.uniform(0.3, 4.0));
     let mut side = |low: f64, high: f64| {
         let middle = r.uniform(low, high);

@@ -303,12 +303,12 @@ fn what_lies_outside_is_named() {
         let error = family.answer(0, datum).unwrap_err().to_string();
         assert!(parts.iter().all(|p| error.contains(p)), "{error}");
     };
-    says(LENGTH, &[0.3, 0.4, 1.0], &["S is 1.0", "above 1"]);
+    says(LENGTH, &[0.3, 0.4, 1.0], &["S is 1;", "above 1"]);
     says(LENGTH, &[0.3, 0.4, 0.5], &["S is 0.5"]);
     says(SPEEDS, &[1e-10, 0.4, 0.5, 1.0], &["theta0 is 1e-10", "0, or 1e-9"]);
     says(LENGTH, &[0.3, 3.2, 1.5], &["theta1 is 3.2", "to pi"]);
-    says(SPEEDS, &[0.3, 0.4, 1.0, 0.0], &["l1 is 0.0", "1e-6"]);
-    says(SPEEDS, &[0.3, 0.4, -1.0, 1.0], &["l0 is -1.0"]);
+    says(SPEEDS, &[0.3, 0.4, 1.0, 0.0], &["l1 is 0;", "1e-6"]);
+    says(SPEEDS, &[0.3, 0.4, -1.0, 1.0], &["l0 is -1;"]);
     says(SPEEDS, &[0.3, 0.4, 1.0], &["no chart", "theta0, theta1, l0, l1"]);
     assert!(LENGTH.answer(0, &[0.3, 0.4, f64::NAN]).is_err());
 }

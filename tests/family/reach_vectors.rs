@@ -233,7 +233,7 @@ fn bad_input_is_named() {
     let complaint = |kind, theta, xi, eta| solve(kind, &Datum { theta, xi, eta }).unwrap_err().to_string();
     assert!(
         complaint(Kind::Cubic, 1.6, 1.0, 1.0)
-            .contains("theta is 1.6 (91.673247 degrees); for `reach-cubic` it must be above 0 and below pi/2")
+            .contains("theta is 1.6 (91.673247 degrees); it must be above 0 and below pi/2 for `reach-cubic`")
     );
     assert!(complaint(Kind::Ph, 3.15, 1.0, 1.0).contains("below pi "));
     assert!(complaint(Kind::Ph, -0.1, 1.0, 1.0).contains("theta is -0.1"));

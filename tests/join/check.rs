@@ -8,7 +8,7 @@ use spiral_atlas::transition::join::{End, Join, Request, State};
 const TOLERANCE: f64 = 1e-12;
 
 #[derive(Debug)]
-pub struct Checked {
+pub(crate) struct Checked {
     /// The sum of lengths, each found anew.
     pub length: f64,
 }
@@ -29,7 +29,7 @@ struct Seen {
     length: f64,
 }
 
-pub fn check(request: &Request, join: &Join) -> Result<Checked, String> {
+pub(crate) fn check(request: &Request, join: &Join) -> Result<Checked, String> {
     let told = serde_json::to_value(join).unwrap();
     let limit = request.greatest_curvature;
     let pieces: Vec<Seen> = told["pieces"].as_array().unwrap().iter().map(seen).collect();

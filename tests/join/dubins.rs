@@ -5,7 +5,7 @@ use spiral_atlas::transition::join::State;
 use std::f64::consts::TAU;
 
 /// Its length.
-pub fn length(from: &State, to: &State, limit: f64) -> f64 {
+pub(crate) fn length(from: &State, to: &State, limit: f64) -> f64 {
     let [x, y] = [0, 1].map(|i| (to.point[i] - from.point[i]) * limit);
     let (d, theta) = (x.hypot(y), y.atan2(x));
     let (a, b) = (from.direction - theta, to.direction - theta);

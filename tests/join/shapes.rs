@@ -4,7 +4,7 @@ use super::check::check;
 use super::{FAMILIES, Random};
 use spiral_atlas::family::trig_quintic::{Scaling, Shape};
 use spiral_atlas::transition::Turn;
-use spiral_atlas::transition::join::{End, Family, Join, Objective, Outcome, Request, join};
+use spiral_atlas::transition::join::{End, Family, Join, Objective, Request, join};
 use spiral_atlas::transition::templates::{self, Segment, Template};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -23,11 +23,11 @@ fn kinds(join: &Join) -> Vec<&'static str> {
 /// Found and right.
 fn found(request: &Request) -> Join {
     match join(request).unwrap() {
-        Outcome::Join(join) => {
+        Ok(join) => {
             check(request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
             join
         }
-        Outcome::None(why) => panic!("{request:?}: {why}"),
+        Err(why) => panic!("{request:?}: {why}"),
     }
 }
 
@@ -53,11 +53,11 @@ fn random_lines_and_circles_are_joined() {
             let objective = [Objective::Length, Objective::GreatestRate][i / 3 % 2];
             let request = Request { family, objective, ..Request::new(from, to, 1.0) };
             match join(&request).unwrap() {
-                Outcome::Join(join) => {
+                Ok(join) => {
                     joined += 1;
                     check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
                 }
-                Outcome::None(why) => println!("{request:?}: {why}"),
+                Err(why) => println!("{request:?}: {why}"),
             }
         }
         println!("{family:?}: {joined} of {count}");
@@ -80,7 +80,7 @@ fn j() {
                 }
                 let back = Request { family, most_pieces: 1, ..Request::new(given[1], line(3.0, 4.0, PI), 0.05) };
                 // Back along the line it turns to the other side.
-                assert!(join(&back).unwrap().join().is_none(), "{gap}");
+                assert!(join(&back).unwrap().is_err(), "{gap}");
                 let other =
                     circle(70.0, 4.0 + side * 20.0 * gap, 20.0, if side > 0.0 { Turn::Right } else { Turn::Left });
                 found(&Request { from: other, ..back });
@@ -192,12 +192,12 @@ fn nearly_degenerate_shapes_of_all_sizes() {
             };
             let request = Request { family, ..Request::new(shape(), shape(), limit) };
             match join(&request).unwrap() {
-                Outcome::Join(join) => {
+                Ok(join) => {
                     joined += 1;
                     check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
                 }
-                Outcome::None(why) if why.contains("nothing to join") || why.contains("beyond") => joined += 1,
-                Outcome::None(why) => println!("{request:?}: {why}"),
+                Err(why) if why.contains("nothing to join") || why.contains("beyond") => joined += 1,
+                Err(why) => println!("{request:?}: {why}"),
             }
         }
         println!("{family:?}: {joined} of {count}");
@@ -221,8 +221,8 @@ fn templates_are_special_joins() {
         let at = ([10.0, 5.0], 0.5, Turn::Left);
         let request =
             templates::Request { template, at: at.0, direction: at.1, turn: at.2, scaling: Scaling::Corrected };
-        let made = templates::path(&request).unwrap();
-        let ends = [made.path().parts[0].ends()[0], made.path().parts[made.path().parts.len() - 1].ends()[1]];
+        let made = templates::path(&request).unwrap().expect("spirals");
+        let ends = [made.parts[0].ends()[0], made.parts[made.parts.len() - 1].ends()[1]];
         let end = |jet: &spiral_atlas::curve::Jet| {
             let (direction, curvature) = (jet.direction(), jet.curvature());
             if curvature.abs() < 1e-9 {
@@ -231,14 +231,14 @@ fn templates_are_special_joins() {
             let (x, y) = (jet.point[0] - direction.sin() / curvature, jet.point[1] + direction.cos() / curvature);
             circle(x, y, 1.0 / curvature.abs(), if curvature > 0.0 { Turn::Left } else { Turn::Right })
         };
-        let count = made.path().parts.len();
+        let count = made.parts.len();
         // Between two lines the limit is the curvature in the middle.
         let limit = if matches!(template, Template::LineLine { .. }) { 1.0 / 20.0 } else { 1.0 / 15.0 };
         let request = Request::new(end(&ends[0]), end(&ends[1]), limit);
         let request = Request { family: Family::TrigQuintic, most_pieces: count, ..request };
         let join = found(&request);
         assert_eq!(join.pieces.len(), count);
-        for (piece, part) in join.pieces.iter().zip(&made.path().parts) {
+        for (piece, part) in join.pieces.iter().zip(&made.parts) {
             for (a, b) in piece.control_points().unwrap().iter().zip(part.curve.points()) {
                 assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 1e-11, "{template:?}: {a:?} {b:?}");
             }
@@ -249,8 +249,8 @@ fn templates_are_special_joins() {
 #[test]
 fn what_is_no_join() {
     let says = |from: End, to: End, limit: f64, what: &str| match join(&Request::new(from, to, limit)) {
-        Ok(Outcome::None(why)) => assert!(why.contains(what), "{why}"),
-        Ok(Outcome::Join(join)) => panic!("{join:?}"),
+        Ok(Err(why)) => assert!(why.contains(what), "{why}"),
+        Ok(Ok(join)) => panic!("{join:?}"),
         Err(e) => assert!(e.to_string().contains(what), "{e}"),
     };
     let ahead = line(0.0, 0.0, 0.0);
@@ -259,7 +259,7 @@ fn what_is_no_join() {
     says(round, round, 1.0, "the two circles are one");
     says(ahead, round, 0.25, "the end circle has the radius 3.0");
     says(ahead, circle(f64::NAN, 0.0, 1.0, Turn::Left), 1.0, "end x is NaN");
-    says(ahead, circle(0.0, 0.0, -1.0, Turn::Left), 1.0, "the end radius is -1.0");
+    says(ahead, circle(0.0, 0.0, -1.0, Turn::Left), 1.0, "the end radius is -1;");
     says(line(0.0, 0.0, f64::INFINITY), round, 1.0, "start direction is inf");
     says(ahead, super::state(0.0, 0.0, 0.0, 0.0).into(), 1.0, "one end is a state");
     says(ahead, circle(1e200, 0.0, 1.0, Turn::Left), 1.0, "least radii apart");
@@ -269,7 +269,7 @@ fn what_is_no_join() {
         for to in [circle(x, 0.0, radius, Turn::Left), line(x, x, 1e-300), line(x, x, 1.0)] {
             // An answer or an error, and no panic.
             let request = Request::new(circle(0.0, x, radius, Turn::Right), to, limit);
-            if let Ok(Outcome::Join(join)) = join(&request) {
+            if let Ok(Ok(join)) = join(&request) {
                 check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}"));
             }
         }

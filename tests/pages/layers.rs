@@ -2,7 +2,7 @@
 //! circle.
 //!
 //! An import is what a `use` line names, or a path that begins with `crate::`, followed through re-exports to the file
-//! that defines the name. A re-export itself is none, and neither is what tests inside a file use.
+//! that defines the name. A re-export itself is none, and neither is what tests use.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -130,8 +130,9 @@ fn absolute(path: &str, module: &[String]) -> Option<Vec<String>> {
 fn read(path: &Path) -> Source {
     let module = module_of(path.strip_prefix("src").unwrap());
     let text = fs::read_to_string(path).unwrap();
-    // Tests stand last.
-    let code = text.split("#[cfg(test)]\nmod ").next().unwrap();
+    // Tests stand last, or in a file of their own.
+    let all_tests = path.ends_with("tests.rs");
+    let code = if all_tests { "" } else { text.split("#[cfg(test)]\nmod ").next().unwrap() };
     let code: Vec<&str> = code.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
     let code = code.join("\n");
     let (mut imports, mut exports) = (Vec::new(), BTreeMap::new());
@@ -202,6 +203,43 @@ fn graph() -> (Vec<Source>, Vec<BTreeSet<usize>>) {
     });
     let edges = edges.collect();
     (sources, edges)
+}
+
+/// The rooms of ARCHITECTURE.md's table of layers, with those that each may import.
+fn table() -> BTreeMap<String, Vec<String>> {
+    let text = fs::read_to_string("ARCHITECTURE.md").unwrap();
+    let (_, after) = text.split_once("| room | what is in it | imports |").unwrap();
+    let rows = after.lines().skip(2).take_while(|line| line.starts_with('|'));
+    let cells = rows.map(|row| row.trim_matches('|').split(" | ").map(str::trim).collect::<Vec<_>>());
+    let names = |cell: &str| cell.split(", ").map(|name| name.trim_matches(['`', '/', ' ']).to_owned()).collect();
+    let mut all = BTreeMap::new();
+    for row in cells {
+        let (rooms, imports): (Vec<String>, Vec<String>) = (names(row[0]), names(row[row.len() - 1]));
+        all.extend(rooms.into_iter().map(|room| (room, imports.clone())));
+    }
+    all
+}
+
+/// Every room has its row, which names rooms that it does import, and through these leads to all others that it may.
+#[test]
+fn the_page_has_the_same_layers() {
+    let table = table();
+    let helpers = ["error", "files", "plain", "queue", "steps"];
+    for (room, allowed) in ROOMS.into_iter().filter(|(room, _)| !helpers.contains(room)) {
+        let row = table.get(room).unwrap_or_else(|| panic!("ARCHITECTURE.md has no row of `{room}`"));
+        let (mut reached, mut waiting) = (BTreeSet::new(), row.clone());
+        while let Some(name) = waiting.pop() {
+            if reached.insert(name.clone()) {
+                waiting.extend(table.get(&name).into_iter().flatten().cloned());
+            }
+        }
+        for name in row.iter().filter(|name| *name != "all" && *name != room) {
+            assert!(allowed.contains(&&name[..]), "ARCHITECTURE.md lets `{room}` import `{name}`; ROOMS does not");
+        }
+        for name in allowed.iter().filter(|name| !helpers.contains(name) && row[0] != "all") {
+            assert!(reached.contains(*name), "ROOMS lets `{room}` import `{name}`; ARCHITECTURE.md does not");
+        }
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use spiral_atlas::path::{Plan, Scene};
 
 /// All numbers from the first to the second.
 #[derive(Clone, Copy)]
-pub struct Range(f64, f64);
+pub(crate) struct Range(f64, f64);
 
 impl Range {
     fn point(x: f64) -> Range {
@@ -86,7 +86,7 @@ fn at(coefficients: &[Pair], t: Range) -> Pair {
 }
 
 /// Distance of a point from a segment, by the nearest of the ends and the foot.
-pub fn apart_from_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(crate) fn apart_from_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (along, length) = ([b[0] - a[0], b[1] - a[1]], (b[0] - a[0]).hypot(b[1] - a[1]));
     let foot = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / length;
     let ends = (p[0] - a[0]).hypot(p[1] - a[1]).min((p[0] - b[0]).hypot(p[1] - b[1]));
@@ -94,13 +94,13 @@ pub fn apart_from_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     if foot > 0.0 && foot < length { across.min(ends) } else { ends }
 }
 
-pub fn apart_from_all(p: [f64; 2], obstacles: &[Vec<[f64; 2]>]) -> f64 {
+pub(crate) fn apart_from_all(p: [f64; 2], obstacles: &[Vec<[f64; 2]>]) -> f64 {
     let sides = obstacles.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
     sides.filter(|(a, b)| a != b).map(|(a, b)| apart_from_segment(p, *a, *b)).fold(f64::INFINITY, f64::min)
 }
 
 /// Whether a point is inside, by the winding angle.
-pub fn inside(p: [f64; 2], ring: &[[f64; 2]]) -> bool {
+pub(crate) fn inside(p: [f64; 2], ring: &[[f64; 2]]) -> bool {
     let angle = |q: &[f64; 2]| (q[1] - p[1]).atan2(q[0] - p[0]);
     let steps = ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| {
         let step = angle(b) - angle(a);
@@ -134,7 +134,7 @@ fn kept(powers: &Powers, from: f64, step: f64, depth: u32, scene: &Scene) -> boo
 }
 
 /// What is wrong with a path, if anything is.
-pub fn audit(scene: &Scene, spans: &[PhQuintic]) -> Result<(), String> {
+pub(crate) fn audit(scene: &Scene, spans: &[PhQuintic]) -> Result<(), String> {
     let check = |fine: bool, what: String| if fine { Ok(()) } else { Err(what) };
     check(spans[0].start == scene.start && spans[spans.len() - 1].end == scene.goal, "ends".into())?;
     for (i, w) in spans.windows(2).enumerate() {
@@ -163,7 +163,7 @@ pub fn audit(scene: &Scene, spans: &[PhQuintic]) -> Result<(), String> {
 }
 
 /// [`audit`] of a plan, and of what it says of itself.
-pub fn audit_plan(scene: &Scene, plan: &Plan) -> Result<(), String> {
+pub(crate) fn audit_plan(scene: &Scene, plan: &Plan) -> Result<(), String> {
     audit(scene, &plan.spans)?;
     let check = |fine: bool, what: &str| if fine { Ok(()) } else { Err(format!("{what}: {plan:?}")) };
     let sum = |lengths: &mut dyn Iterator<Item = f64>| lengths.sum::<f64>();

@@ -114,7 +114,7 @@ fn turns_that_are_none() {
         let error = straight.corner(at, reach).unwrap_err().to_string();
         assert!(error.contains(part), "{error}");
     };
-    says(0.0, [0.0, 0.0], "reach is 0.0");
+    says(0.0, [0.0, 0.0], "reach is 0;");
     says(f64::NAN, [0.0, 0.0], "NaN");
     says(1.0, [f64::INFINITY, 0.0], "`at`");
     says(1e308, [1e308, 0.0], "range of doubles");

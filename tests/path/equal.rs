@@ -141,8 +141,8 @@ fn what_has_no_solution_is_named() {
         let error = equal_length(&ends).unwrap_err().to_string();
         assert!(parts.iter().all(|p| error.contains(p)), "{error}");
     };
-    says(EqualLength { length: 5.0, ..fine }, &["`length` is 5.0", "must exceed the distance 5.0"]);
-    says(EqualLength { length: -6.0, ..fine }, &["`length` is -6.0"]);
+    says(EqualLength { length: 5.0, ..fine }, &["`length` is 5;", "above the distance 5 of the ends"]);
+    says(EqualLength { length: -6.0, ..fine }, &["`length` is -6;"]);
     says(EqualLength { end: [0.0, 0.0], ..fine }, &["`start` and `end` are both"]);
     says(EqualLength { end_direction: f64::NAN, ..fine }, &["`end_direction`", "NaN"]);
     says(EqualLength { length: f64::INFINITY, ..fine }, &["`length`", "inf"]);

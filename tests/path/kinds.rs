@@ -17,7 +17,7 @@ fn trig(points: [[f64; 2]; 6], [p, q]: [f64; 2], [from, to]: [f64; 2]) -> Piece 
 }
 
 /// One of each kind of which separation is proved, in a unit.
-pub fn each(unit: f64) -> Vec<Piece> {
+pub(crate) fn each(unit: f64) -> Vec<Piece> {
     let all = |points: [[f64; 2]; 6]| points.map(|p| p.map(|x| unit * x));
     let [a, b, c, d, ..] = all([[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [3.0, 1.0], [0.0; 2], [0.0; 2]]);
     let six = all([[0.0, 0.0], [0.2, 0.0], [0.5, 0.1], [0.9, 0.2], [1.3, 0.6], [1.4, 1.1]]);

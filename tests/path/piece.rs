@@ -5,7 +5,7 @@ use spiral_atlas::curve::{CubicBezier, PhQuintic, TrigBezier};
 use spiral_atlas::transition::{Arc, Cubic, Ends, InvoluteBetween, Line, Piece, TrigPart};
 
 /// One of each kind, all of them far from the origin in units of their size.
-pub fn all() -> Vec<Piece> {
+pub(crate) fn all() -> Vec<Piece> {
     let start = [300.1, -200.3];
     let points = CubicBezier { p: [start, [300.4, -200.25], [300.8, -200.0], [301.0, -199.3]] };
     let legs =
@@ -81,7 +81,10 @@ fn what_is_wrong_with_a_piece_is_told() {
             "`from` is 1.0 and `to` is 1.0",
         ),
         (r#"{"kind": "line", "start": [1, 1], "end": [1, 1]}"#, "`start` and `end` are both [1.0, 1.0]"),
-        (r#"{"kind": "arc", "start": [1, 1], "direction": 0, "curvature": 1, "length": -1}"#, "`length` is -1.0"),
+        (
+            r#"{"kind": "arc", "start": [1, 1], "direction": 0, "curvature": 1, "length": -1}"#,
+            "`length` of an arc is -1;",
+        ),
         (
             r#"{"kind": "arc", "start": [1, 1], "direction": 0, "curvature": 0, "length": 1, "end": [1, 2]}"#,
             "`end` is [1.0, 2.0], but the arc leads to [2.0, 1.0]",

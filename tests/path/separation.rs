@@ -54,7 +54,7 @@ fn published_closest_approaches() {
 }
 
 /// Where a curve is after a length, by a fine polygon.
-pub struct Polygon(Vec<(f64, [f64; 2])>);
+pub(crate) struct Polygon(Vec<(f64, [f64; 2])>);
 
 /// Points of a part of a path in between, both ends included.
 const FINE: i32 = 4000;
@@ -67,7 +67,7 @@ impl Polygon {
         )
     }
 
-    pub fn through(points: impl IntoIterator<Item = [f64; 2]>) -> Polygon {
+    pub(crate) fn through(points: impl IntoIterator<Item = [f64; 2]>) -> Polygon {
         let (mut all, mut length) = (vec![], 0.0);
         for p in points {
             let last = all.last().map_or(p, |(_, p): &(f64, [f64; 2])| *p);
@@ -86,7 +86,7 @@ impl Polygon {
 }
 
 /// The closest approach, which samples confirm; one starts at time 0.
-pub fn sampled([a, b]: [&Motion; 2], [p, q]: [&Polygon; 2], [v1, v2, t2]: [f64; 3]) -> Closest {
+pub(crate) fn sampled([a, b]: [&Motion; 2], [p, q]: [&Polygon; 2], [v1, v2, t2]: [f64; 3]) -> Closest {
     // Before its start and after its arrival a polygon stays at its ends.
     let events = [a.times(), b.times()].concat();
     let (from, to) = (events[0].min(events[2]), events[1].max(events[3]));
@@ -231,8 +231,8 @@ fn motions_that_make_no_sense_are_named() {
         assert!(parts.iter().all(|p| error.contains(p)), "{error}");
     };
     let fine = || line([0.0, 0.0], [1.0, 0.0]);
-    says(fine(), 0.0, 0.0, &["`speed` is 0.0"]);
-    says(fine(), -1.0, 0.0, &["`speed` is -1.0"]);
+    says(fine(), 0.0, 0.0, &["`speed` is 0;"]);
+    says(fine(), -1.0, 0.0, &["`speed` is -1;"]);
     says(fine(), f64::NAN, 0.0, &["`speed`", "NaN"]);
     says(fine(), 1.0, f64::INFINITY, &["`start_time`", "inf"]);
     says(vec![], 1.0, 0.0, &["`pieces` is empty"]);
@@ -248,7 +248,7 @@ fn motions_that_make_no_sense_are_named() {
     says(fine(), 1e-200, 0.0, &["to 1e200", "`speed` 1e-200"]);
     says(fine(), 1e-320, 0.0, &["to inf"]);
     let a = Motion::new(fine(), 1.0, 0.0).unwrap();
-    assert!(separation(&a, &a, -1.0).unwrap_err().to_string().contains("`minimum` is -1.0"));
+    assert!(separation(&a, &a, -1.0).unwrap_err().to_string().contains("`minimum` is -1;"));
     assert!(separation(&a, &a, f64::NAN).is_err());
     assert_eq!(
         separations(&[a.clone(), a.clone(), a], 0.0).unwrap().iter().map(|p| (p.0, p.1)).collect::<Vec<_>>(),

@@ -15,10 +15,7 @@ pub struct SpiralAnswer(Answer);
 unsafe fn known(family: *const c_char, chart: *const c_char) -> Result<(&'static dyn Family, usize)> {
     // SAFETY: the caller's promise.
     let name = unsafe { text(family, "family")? };
-    let family = family::by_name(name).ok_or_else(|| {
-        let all: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-        Fault::domain(format!("no family is named `{name}`; there are: {}", all.join(", ")))
-    })?;
+    let family = family::by_name(name)?;
     if chart.is_null() {
         return Ok((family, 0));
     }

@@ -3,7 +3,7 @@
 use crate::atlas::c_text;
 use crate::{Fault, Result, SpiralStatus, given, place, results, status::guard, text};
 use spiral_atlas::Error;
-use spiral_atlas::transition::join::{Family, Outcome, Request, State, join};
+use spiral_atlas::transition::join::{Family, Request, State, join};
 use spiral_atlas::transition::{Ends, Kind, Piece, fit, stations};
 use std::ffi::{CString, c_char};
 
@@ -143,8 +143,8 @@ pub unsafe extern "C" fn spiral_join(
         let state = |e: &SpiralEnd| State { point: [e.x, e.y], direction: e.direction, curvature: e.curvature };
         let request = Request { family, longest, ..Request::new(state(start), state(end), greatest_curvature) };
         match join(&request)? {
-            Outcome::Join(found) => *slot = Box::into_raw(Box::new(SpiralCurve::new(found.pieces)?)),
-            Outcome::None(why) => return Err(Fault(SpiralStatus::SPIRAL_NONE, why)),
+            Ok(found) => *slot = Box::into_raw(Box::new(SpiralCurve::new(found.pieces)?)),
+            Err(why) => return Err(Fault(SpiralStatus::SPIRAL_NONE, why)),
         }
         Ok(())
     })

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::path::Course;
-use spiral_atlas::transition::join::{self, Outcome as Joined, join};
+use spiral_atlas::transition::join::{self, join};
 use spiral_atlas::transition::{
     self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, involute_between, nearest,
     ph_spiral, polyline, spiral, why_no_spiral,
@@ -38,14 +38,14 @@ impl From<Ends> for transition::Ends {
 
 /// The curves of some kinds between two ends.
 #[derive(Deserialize)]
-pub struct Curves {
+pub(crate) struct Curves {
     ends: Ends,
     kinds: Vec<Kind>,
 }
 
 /// What would help where there is none.
 #[derive(Deserialize)]
-pub struct Advice {
+pub(crate) struct Advice {
     ends: Ends,
     kind: Kind,
 }
@@ -71,7 +71,7 @@ impl From<End> for join::End {
 
 /// A path between two states, or two lines and circles.
 #[derive(Deserialize)]
-pub struct Join {
+pub(crate) struct Join {
     from: End,
     to: End,
     greatest_curvature: f64,
@@ -82,7 +82,7 @@ pub struct Join {
 
 /// Pieces as a road.
 #[derive(Deserialize)]
-pub struct Road {
+pub(crate) struct Road {
     pieces: Vec<Piece>,
 }
 
@@ -90,7 +90,7 @@ pub struct Road {
 type Samples = Vec<[f64; 5]>;
 
 impl Curves {
-    pub fn answer(self) -> Result<Value> {
+    pub(crate) fn answer(self) -> Result<Value> {
         let ends = self.ends.into();
         let (datum, placement) = Placement::normalise(&ends)?;
         let mut curves = serde_json::Map::new();
@@ -148,7 +148,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let facts = json!({ "theta": curve.theta(), "t0": curve.t0(), "turns": curve.turns() });
             drawn(&Piece::Involute(between), &facts, &points)
         }
-        _ => Err(Error::Domain(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
+        _ => Err(Error::invalid(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
     }
 }
 
@@ -183,7 +183,7 @@ fn samples(piece: &Piece, steps: usize, before: f64) -> Samples {
 }
 
 impl Advice {
-    pub fn answer(self) -> Result<Value> {
+    pub(crate) fn answer(self) -> Result<Value> {
         let ends = self.ends.into();
         let why = match self.kind {
             Kind::Cubic => spiral(&ends)?.with_remedies()?.outcome.err().map(|why| ("cubic spiral", why)),
@@ -196,7 +196,7 @@ impl Advice {
 }
 
 impl Join {
-    pub fn answer(self) -> Result<Value> {
+    pub(crate) fn answer(self) -> Result<Value> {
         let request = join::Request {
             family: self.family,
             objective: self.objective,
@@ -212,8 +212,8 @@ impl Join {
         };
         let circles = [circle(&request.from), circle(&request.to)];
         Ok(match join(&request)? {
-            Joined::None(reason) => json!({ "circles": circles, "reason": reason }),
-            Joined::Join(found) => {
+            Err(reason) => json!({ "circles": circles, "reason": reason }),
+            Ok(found) => {
                 let mut before = 0.0;
                 let mut parts = Vec::with_capacity(found.pieces.len());
                 for piece in &found.pieces {
@@ -227,7 +227,7 @@ impl Join {
 }
 
 impl Road {
-    pub fn answer(self) -> Result<Value> {
+    pub(crate) fn answer(self) -> Result<Value> {
         let (text, fit) = opendrive(&[Course::new(self.pieces)?], &OpenDrive { lane_width: 3.5, tolerance: 0.001 })?;
         Ok(json!({ "text": text, "off": fit.error }))
     }

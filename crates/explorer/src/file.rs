@@ -9,14 +9,14 @@ use spiral_atlas::grid::{Axis, Grid, Spacing};
 use spiral_atlas::{Error, Result};
 
 /// An atlas file that is open.
-pub enum File {
+pub(crate) enum File {
     Nodes(Atlas),
     Cells(Cells),
 }
 
 /// A plane that is asked for.
 #[derive(Deserialize)]
-pub struct Plane {
+pub(crate) struct Plane {
     /// The axes that are drawn.
     x: usize,
     y: usize,
@@ -29,7 +29,7 @@ impl File {
     ///
     /// # Errors
     /// [`Error::Atlas`] where it is no valid atlas.
-    pub fn open(bytes: &[u8]) -> Result<File> {
+    pub(crate) fn open(bytes: &[u8]) -> Result<File> {
         match kind_of(bytes)? {
             Kind::Nodes => {
                 let atlas = Atlas::from_bytes(bytes)?;
@@ -52,7 +52,7 @@ impl File {
     }
 
     /// What it says of itself.
-    pub fn about(&self) -> Value {
+    pub(crate) fn about(&self) -> Value {
         let (about, kind): (&About, _) = match self {
             File::Nodes(atlas) => (atlas.about(), "nodes"),
             File::Cells(cells) => (cells.about(), "cells"),
@@ -61,7 +61,7 @@ impl File {
             let log = matches!(axis.spacing(), Spacing::Log { .. });
             json!({ "name": axis.name(), "values": axis.values(), "log": log })
         };
-        let known = family::by_name(&about.family);
+        let known = family::by_name(&about.family).ok();
         let label = |name: &str| {
             known.and_then(|f| f.about().flags.iter().find(|flag| flag.name == name)).map(|flag| flag.label)
         };
@@ -84,14 +84,14 @@ impl File {
     ///
     /// # Errors
     /// [`Error::Domain`] for axes and places that the file does not have.
-    pub fn plane(&self, plane: &Plane) -> Result<Value> {
+    pub(crate) fn plane(&self, plane: &Plane) -> Result<Value> {
         let axes = self.grid().axes();
         let cells = usize::from(matches!(self, File::Cells(_)));
         let count = |axis: usize| axes.get(axis).map_or(0, |axis| axis.values().len() - cells);
         let Plane { x, y, at } = plane;
         let fits = x != y && *x < axes.len() && *y < axes.len() && at.len() == axes.len();
         if !fits || at.iter().enumerate().any(|(axis, i)| axis != *x && axis != *y && *i >= count(axis)) {
-            return Err(Error::Domain(format!("the file has no plane of the axes {x} and {y} at {at:?}")));
+            return Err(Error::invalid(format!("the file has no plane of the axes {x} and {y} at {at:?}")));
         }
         let mut at = at.clone();
         let (mut inside, mut outside) = (Vec::new(), Vec::new());

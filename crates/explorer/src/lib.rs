@@ -113,7 +113,7 @@ pub extern "C" fn proved() -> usize {
 impl State {
     fn answer(&mut self) -> Result<Value> {
         let question: Question = serde_json::from_slice(&self.input)
-            .map_err(|e| Error::Domain(format!("the question cannot be read: {e}")))?;
+            .map_err(|e| Error::invalid(format!("the question cannot be read: {e}")))?;
         match question {
             Question::Curves(curves) => curves.answer(),
             Question::Advice(advice) => advice.answer(),
@@ -124,7 +124,7 @@ impl State {
                 Ok(self.slice.insert(Slice::new(wanted)?).about())
             }
             Question::Plane(plane) => {
-                let file = self.file.as_ref().ok_or_else(|| Error::Domain("no file is open".into()))?;
+                let file = self.file.as_ref().ok_or_else(|| Error::invalid("no file is open"))?;
                 file.plane(&plane)
             }
         }

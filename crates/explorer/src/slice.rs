@@ -19,7 +19,7 @@ const AXES: [&str; 4] = ["phi0", "phi1", "kappa0", "kappa1"];
 
 /// What is asked for.
 #[derive(Deserialize)]
-pub struct Wanted {
+pub(crate) struct Wanted {
     family: String,
     phi0: f64,
     phi1: f64,
@@ -40,7 +40,7 @@ struct Tile {
 }
 
 /// A slice in the making. Pixels are stored column by column, since κ1 is the grid's fastest axis.
-pub struct Slice {
+pub(crate) struct Slice {
     family: &'static dyn Family,
     chart: usize,
     angles: [f64; 2],
@@ -59,14 +59,14 @@ pub struct Slice {
 impl Slice {
     /// # Errors
     /// [`Error::Domain`] for an unknown family, ranges that are none, or angles outside the family's domain.
-    pub fn new(wanted: Wanted) -> Result<Slice> {
+    pub(crate) fn new(wanted: Wanted) -> Result<Slice> {
         let Wanted { family, phi0, phi1, at, ranges, width, height } = wanted;
-        let family = family::by_name(&family).ok_or_else(|| Error::Domain(format!("no family is named `{family}`")))?;
+        let family = family::by_name(&family)?;
         let chart = family.about().charts.iter().position(|chart: &Chart| chart.axes == AXES);
         let chart =
-            chart.ok_or_else(|| Error::Domain(format!("`{}` has no axes kappa0 and kappa1", family.about().name)))?;
+            chart.ok_or_else(|| Error::invalid(format!("`{}` has no axes kappa0 and kappa1", family.about().name)))?;
         if ![width, height].iter().all(|n| (2..=MOST).contains(n)) {
-            return Err(Error::Domain(format!(
+            return Err(Error::invalid(format!(
                 "the slice is {width} x {height} pixels; each side must be 2 to {MOST}"
             )));
         }
@@ -108,7 +108,7 @@ impl Slice {
     }
 
     /// The names and the order of what is drawn.
-    pub fn about(&self) -> Value {
+    pub(crate) fn about(&self) -> Value {
         let bit = |name: &&str| self.family.about().bit(name);
         let flags: Vec<Value> = self
             .family
@@ -122,22 +122,22 @@ impl Slice {
     }
 
     /// The flags of each pixel, column by column, from below.
-    pub fn flags(&self) -> &[u8] {
+    pub(crate) fn flags(&self) -> &[u8] {
         &self.flags
     }
 
     /// Pixels all of whose points are proved.
-    pub fn proved(&self) -> usize {
+    pub(crate) fn proved(&self) -> usize {
         self.proved
     }
 
     /// Whether every pixel is known.
-    pub fn drawn(&self) -> bool {
+    pub(crate) fn drawn(&self) -> bool {
         self.tiles.is_empty()
     }
 
     /// Works on so many tiles, and returns how many wait. First all pixels become known, then boxes are proved.
-    pub fn refine(&mut self, tiles: usize) -> usize {
+    pub(crate) fn refine(&mut self, tiles: usize) -> usize {
         let grid = self.grid.clone();
         // The angles were checked before.
         let Ok(table) = self.family.table(&grid) else { return 0 };

@@ -23,7 +23,7 @@ pub struct Atlas(pub spiral_atlas::atlas::Atlas);
 ///     OSError: the file cannot be opened.
 ///     AtlasError: it is not a valid atlas.
 #[pyfunction]
-pub fn open(path: PathBuf) -> PyResult<Atlas> {
+pub(crate) fn open(path: PathBuf) -> PyResult<Atlas> {
     spiral_atlas::atlas::Atlas::open(path).map(Atlas).map_err(raise)
 }
 
@@ -38,7 +38,7 @@ fn view<'py, T: Element>(owner: &Bound<'py, Atlas>, shape: &[usize], values: &[T
 }
 
 /// The number of axes of a grid, which is that of columns.
-pub fn columns(points: &ArrayView2<'_, f64>, grid: &Grid, whose: &str) -> PyResult<usize> {
+pub(crate) fn columns(points: &ArrayView2<'_, f64>, grid: &Grid, whose: &str) -> PyResult<usize> {
     let axes = grid.axes().len();
     if points.ncols() == axes {
         return Ok(axes);
@@ -47,7 +47,7 @@ pub fn columns(points: &ArrayView2<'_, f64>, grid: &Grid, whose: &str) -> PyResu
 }
 
 /// Rows as slices, of an array as it lies in memory (`as_standard_layout` copies one that has strides).
-pub fn rows<'a>(points: &'a CowArray<'_, f64, Ix2>, axes: usize) -> impl Iterator<Item = &'a [f64]> {
+pub(crate) fn rows<'a>(points: &'a CowArray<'_, f64, Ix2>, axes: usize) -> impl Iterator<Item = &'a [f64]> {
     points.as_slice().unwrap_or_default().chunks_exact(axes)
 }
 

@@ -20,7 +20,7 @@ pub struct Cells(pub spiral_atlas::cells::Cells);
 ///     OSError: the file cannot be opened.
 ///     AtlasError: it is not a valid file of cells.
 #[pyfunction]
-pub fn open_cells(path: PathBuf) -> PyResult<Cells> {
+pub(crate) fn open_cells(path: PathBuf) -> PyResult<Cells> {
     spiral_atlas::cells::Cells::open(path).map(Cells).map_err(raise)
 }
 

@@ -203,7 +203,7 @@ impl Fit {
 
 /// A direction: an angle in radians or a vector.
 #[derive(FromPyObject)]
-pub enum Direction {
+pub(crate) enum Direction {
     /// Radians from the x axis.
     Angle(f64),
     /// Of any length but 0.
@@ -237,7 +237,7 @@ impl Direction {
 #[pyfunction]
 #[pyo3(signature = (start, end, start_direction, end_direction, start_curvature, end_curvature, *, family = "cubic", longest = None))]
 #[expect(clippy::too_many_arguments, reason = "two ends have six values; in Python all of them have names")]
-pub fn fit(
+pub(crate) fn fit(
     py: Python<'_>,
     start: [f64; 2],
     end: [f64; 2],

@@ -20,7 +20,7 @@ create_exception!(
 );
 
 /// Puts the exceptions into the module.
-pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("AtlasError", py.get_type::<AtlasError>())?;
     module.add("UndecidedError", py.get_type::<UndecidedError>())?;
@@ -29,7 +29,7 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
 
 /// The exception of an error. A value outside its domain and a recipe that is wrong are `ValueError`. What the system
 /// refuses is `OSError` with its number, so that Python makes a `FileNotFoundError` or the like of it.
-pub fn raise(error: Error) -> PyErr {
+pub(crate) fn raise(error: Error) -> PyErr {
     let text = error.to_string();
     match error {
         Error::Io { path, source } => match source.raw_os_error() {
@@ -45,7 +45,7 @@ pub fn raise(error: Error) -> PyErr {
 }
 
 /// [`raise`] for one row of an array.
-pub fn raise_row(py: Python<'_>, row: usize, error: Error) -> PyErr {
+pub(crate) fn raise_row(py: Python<'_>, row: usize, error: Error) -> PyErr {
     let raised = raise(error);
     PyErr::from_type(raised.get_type(py), format!("row {row}: {}", raised.value(py)))
 }

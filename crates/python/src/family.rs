@@ -48,7 +48,7 @@ struct Packed {
 /// A chart is a set of coordinates that the family accepts, with its units. Bit `i` of a `flags` byte is `flags[i]`; a
 /// count is `solutions >> shift & (2**bits - 1)`.
 #[pyfunction]
-pub fn families(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+pub(crate) fn families(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     let all: Vec<About> = family::all().iter().map(|family| about(*family)).collect();
     Ok(pythonize::pythonize(py, &all)?)
 }
@@ -84,7 +84,7 @@ fn about(family: &dyn Family) -> About {
 ///     UndecidedError: not proved at the precision cap.
 #[pyfunction]
 #[pyo3(signature = (family, **coordinates))]
-pub fn solve<'py>(
+pub(crate) fn solve<'py>(
     py: Python<'py>,
     family: &str,
     coordinates: Option<&Bound<'py, PyDict>>,
@@ -131,10 +131,7 @@ fn values<'py>(py: Python<'py>, all: &[(&'static str, Value)]) -> PyResult<Bound
 
 /// The family of a name.
 pub(crate) fn known(name: &str) -> PyResult<&'static dyn Family> {
-    family::by_name(name).ok_or_else(|| {
-        let names: Vec<&str> = family::all().iter().map(|f| f.about().name).collect();
-        PyValueError::new_err(format!("`{name}` is no family; there are {}", names.join(", ")))
-    })
+    family::by_name(name).map_err(raise)
 }
 
 /// Chart and coordinates of a datum that was given by name.
@@ -180,7 +177,7 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 ///     UndecidedError: naming the row.
 #[pyfunction]
 #[pyo3(signature = (family, data, *, chart = None, threads = None))]
-pub fn solve_batch<'py>(
+pub(crate) fn solve_batch<'py>(
     py: Python<'py>,
     family: &str,
     data: PyArrayLike2<'py, f64, AllowTypeChange>,

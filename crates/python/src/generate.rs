@@ -22,7 +22,7 @@ const TICK: Duration = Duration::from_millis(50);
 
 /// What a recipe's plan makes.
 #[derive(IntoPyObject)]
-pub enum Made {
+pub(crate) enum Made {
     Nodes(Atlas),
     Cells(Cells),
 }
@@ -48,7 +48,7 @@ pub enum Made {
 ///     KeyboardInterrupt: Ctrl-C. No half-written file is left, as after any exception.
 #[pyfunction]
 #[pyo3(signature = (recipe, folder = None, *, threads = None, progress = None))]
-pub fn generate(
+pub(crate) fn generate(
     py: Python<'_>,
     recipe: &Bound<'_, PyAny>,
     folder: Option<PathBuf>,
@@ -122,7 +122,7 @@ impl Work<'_> {
 }
 
 /// A recipe from a dictionary or the path of a TOML file.
-pub fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
+pub(crate) fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
     if let Ok(dict) = recipe.cast::<PyDict>() {
         let wrong = |e: &dyn std::fmt::Display| PyValueError::new_err(format!("the recipe: {e}"));
         let table: toml::Table = pythonize::depythonize(dict).map_err(|e| wrong(&e))?;
@@ -135,7 +135,7 @@ pub fn read(recipe: &Bound<'_, PyAny>) -> PyResult<Recipe> {
 }
 
 /// Works in another thread, so that this one hears Ctrl-C and reports the progress.
-pub fn watched<T: Send>(
+pub(crate) fn watched<T: Send>(
     py: Python<'_>,
     report: impl Fn(u64) -> PyResult<()>,
     work: impl FnOnce(&AtomicBool, &Sender<u64>) -> Result<T> + Send,

@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
-use spiral_atlas::transition::join::{self as joins, End, Outcome, Request, State};
+use spiral_atlas::transition::join::{self as joins, End, Request, State};
 
 /// What `join` found; it is true where there is a join.
 #[pyclass(frozen, get_all, module = "spiral_atlas")]
@@ -59,7 +59,7 @@ impl Join {
 #[pyfunction]
 #[pyo3(signature = (start, end, greatest_curvature, *, family = "cubic", objective = "length", longest = None, most_pieces = None))]
 #[expect(clippy::too_many_arguments, reason = "in Python the options have names")]
-pub fn join(
+pub(crate) fn join(
     py: Python<'_>,
     start: [f64; 4],
     end: [f64; 4],
@@ -79,7 +79,7 @@ pub fn join(
         ..plain
     };
     Ok(match py.detach(|| joins::join(&request)).map_err(raise)? {
-        Outcome::Join(found) => {
+        Ok(found) => {
             let m = found.measures;
             Join {
                 curve: Some(Py::new(py, Curve { pieces: found.pieces })?),
@@ -90,7 +90,7 @@ pub fn join(
                 reason: None,
             }
         }
-        Outcome::None(why) => Join {
+        Err(why) => Join {
             curve: None,
             length: f64::NAN,
             curvature_range: (f64::NAN, f64::NAN),

@@ -7,21 +7,21 @@ use spiral_atlas::grid::Grid;
 use spiral_atlas::recipe::is_angle;
 
 /// Names of the axes that are angles.
-pub fn angles(grid: &Grid) -> Vec<&str> {
+pub(crate) fn angles(grid: &Grid) -> Vec<&str> {
     grid.axes().iter().map(|axis| axis.name()).filter(|name| is_angle(name)).collect()
 }
 
 /// Names and meanings of the bits of `flags`, bit 0 first.
-pub fn flag_docs<'py>(py: Python<'py>, about: &About) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn flag_docs<'py>(py: Python<'py>, about: &About) -> PyResult<Bound<'py, PyDict>> {
     about.flags.iter().map(|flag| (&flag.name[..], &flag.doc[..])).into_py_dict(py)
 }
 
 /// Numbers in a `solutions` byte: name to (shift, bits).
-pub fn counts<'py>(py: Python<'py>, about: &About) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn counts<'py>(py: Python<'py>, about: &About) -> PyResult<Bound<'py, PyDict>> {
     about.counts.iter().map(|count| (&count.name[..], (count.shift, count.bits))).into_py_dict(py)
 }
 
 /// Names and meanings of the scalar fields.
-pub fn scalar_docs<'py>(py: Python<'py>, about: &About) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn scalar_docs<'py>(py: Python<'py>, about: &About) -> PyResult<Bound<'py, PyDict>> {
     about.scalars.iter().map(|scalar| (&scalar.name[..], &scalar.doc[..])).into_py_dict(py)
 }

@@ -203,7 +203,7 @@ impl Outline {
 }
 
 impl Outline {
-    fn compute(&self, nodes: &[Vec<usize>], threads: usize, stop: &AtomicBool) -> Result<(Chunk, Told)> {
+    fn compute(&self, nodes: &[Vec<usize>], threads: usize, stop: &AtomicBool) -> Result<(Chunk, Tally)> {
         let (family, scalars) = self.0.family()?;
         let (whole, grid) = (self.0.grid(), self.0.grid().pick(nodes)?);
         let mut all =
@@ -228,13 +228,13 @@ impl Outline {
             other => other,
         })?;
         let Report { nodes, yes, undecided_f64, most_bits, .. } = report;
-        Ok((all, Told { nodes, yes, undecided_f64, most_bits }))
+        Ok((all, Tally { nodes, yes, undecided_f64, most_bits }))
     }
 }
 
 /// What a block tells about its nodes.
 #[derive(Serialize)]
-struct Told {
+struct Tally {
     nodes: u64,
     yes: BTreeMap<&'static str, u64>,
     undecided_f64: u64,

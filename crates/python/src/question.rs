@@ -29,13 +29,6 @@ fn asked(
     given.extend(free.iter().map(|name| ((*name).to_owned(), PyFloat::new(py, 0.0).into_any())));
     let (chart, point) = datum(family, &given)?;
     let axes = about.charts[chart].axes;
-    let flag = match (flag, about.yes) {
-        (Some(flag), _) => flag,
-        (None, [only]) => only,
-        (None, several) => {
-            return Err(PyValueError::new_err(format!("name a flag, such as {}", several.join(" or "))));
-        }
-    };
     let property = Property::new(about.name, axes, flag).map_err(raise)?;
     let places = free.iter().filter_map(|name| axes.iter().position(|axis| axis == name)).collect();
     Ok((property, point, places))
@@ -61,7 +54,7 @@ fn asked(
 ///     UndecidedError: not proved at the precision cap.
 #[pyfunction]
 #[pyo3(signature = (family, axis, within, *, flag = None, **coordinates))]
-pub fn ranges<'py>(
+pub(crate) fn ranges<'py>(
     py: Python<'py>,
     family: &str,
     axis: &str,
@@ -89,7 +82,7 @@ pub fn ranges<'py>(
 ///     As `ranges`.
 #[pyfunction]
 #[pyo3(signature = (family, *, flag = None, weights = None, **coordinates))]
-pub fn nearest<'py>(
+pub(crate) fn nearest<'py>(
     py: Python<'py>,
     family: &str,
     flag: Option<&str>,
@@ -139,7 +132,7 @@ pub fn nearest<'py>(
 ///     As `ranges`.
 #[pyfunction]
 #[pyo3(signature = (family, axes, within, *, cells = 256, flag = None, **coordinates))]
-pub fn boundary<'py>(
+pub(crate) fn boundary<'py>(
     py: Python<'py>,
     family: &str,
     axes: [String; 2],

@@ -61,7 +61,7 @@ impl Writer {
 
 /// BLAKE3 of bytes (a uint8 array of one axis): 32 bytes.
 #[pyfunction]
-pub fn blake3(py: Python<'_>, bytes: PyReadonlyArray1<'_, u8>) -> PyResult<[u8; 32]> {
+pub(crate) fn blake3(py: Python<'_>, bytes: PyReadonlyArray1<'_, u8>) -> PyResult<[u8; 32]> {
     let bytes = bytes.as_slice().map_err(|e| PyValueError::new_err(e.to_string()))?;
     Ok(*py.detach(|| ::blake3::hash(bytes)).as_bytes())
 }

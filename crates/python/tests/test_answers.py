@@ -28,7 +28,7 @@ def test_angles_may_be_texts():
 @pytest.mark.parametrize(
     ("kind", "family", "change", "words"),
     [
-        (ValueError, "cubique", {}, "`cubique` is no family"),
+        (ValueError, "cubique", {}, "no family is named `cubique`"),
         (TypeError, "cubic", {"phi2": 1.0}, "given: phi0, phi1, kappa0, kappa1, phi2"),
         (TypeError, "cubic", {"phi0": [1.0]}, "phi0 is [1.0]; it must be a number"),
         (ValueError, "cubic", {"phi0": math.nan}, "phi0"),

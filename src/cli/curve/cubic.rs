@@ -1,11 +1,11 @@
 //! `curve --family cubic`: Habib & Sakai, section 3.2.
 
-use super::{Found, SAMPLES, end_circles};
+use super::{Reportable, SAMPLES, end_circles};
 use spiral_atlas::plot::{CurveFigure, Graph};
 use spiral_atlas::transition::{Answer, Ends, Figure, Piece};
 use spiral_atlas::{Error, Result};
 
-impl Found for Answer {
+impl Reportable for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
             Ok(i) => Ok(self.solutions.get(*i).map(|s| s.piece()).into_iter().collect()),
@@ -24,7 +24,7 @@ impl Found for Answer {
     /// The chosen spiral or, where there is none, the cubic that comes nearest to one.
     fn figure(&self) -> Result<CurveFigure> {
         let nearest = || self.solutions.iter().max_by(|a, b| a.margin.total_cmp(&b.margin));
-        let solution = self.chosen().or_else(nearest).ok_or_else(|| Error::Domain("no cubic has these ends".into()))?;
+        let solution = self.chosen().or_else(nearest).ok_or_else(|| Error::invalid("no cubic has these ends"))?;
         let figure = Figure::new(&self.ends, solution, SAMPLES)?;
         let kind = if solution.spiral { "cubic spiral" } else { "cubic, no spiral" };
         let points: Vec<String> = solution.control_points.p.iter().map(|[x, y]| format!("({x:.6}, {y:.6})")).collect();

@@ -1,6 +1,6 @@
 //! `curve --family involute`: the spiral that exists whenever any does (Kurnosenko).
 
-use super::{Found, end_circles};
+use super::{Reportable, end_circles};
 use serde::Serialize;
 use spiral_atlas::family::any_spiral::{Image, Involute, InvolutePoint, Spiral, Split};
 use spiral_atlas::plot::{CurveFigure, Graph};
@@ -9,7 +9,7 @@ use spiral_atlas::{Error, Result};
 
 /// What is known of two ends, and the curve in the user's units.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(super) struct Answer {
     ends: Ends,
     #[serde(flatten)]
     spiral: Spiral,
@@ -27,7 +27,7 @@ struct Drawn {
     curvature: f64,
 }
 
-pub fn find(ends: &Ends, turns: [u32; 2]) -> Result<Answer> {
+pub(super) fn find(ends: &Ends, turns: [u32; 2]) -> Result<Answer> {
     let (spiral, frame) = involute_between(ends, turns)?;
     let mut answer = Answer { ends: *ends, spiral, length: None, frame };
     answer.length = answer.spiral.curve().map(|curve| curve.length() * frame.unit());
@@ -47,7 +47,7 @@ impl Answer {
     }
 }
 
-impl Found for Answer {
+impl Reportable for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         if let Some(between) = InvoluteBetween::of(&self.ends, &self.spiral, &self.frame) {
             return Ok(vec![Piece::Involute(between)]);
@@ -95,7 +95,7 @@ impl Found for Answer {
     }
 
     fn figure(&self) -> Result<CurveFigure> {
-        let curve = self.spiral.curve().ok_or_else(|| Error::Domain("no spiral of any kind has these ends".into()))?;
+        let curve = self.spiral.curve().ok_or_else(|| Error::invalid("no spiral of any kind has these ends"))?;
         let (samples, q) = (self.drawn(curve), self.spiral.q);
         let slope = |w: &[Drawn]| [0.5 * (w[0].s + w[1].s), (w[1].curvature - w[0].curvature) / (w[1].s - w[0].s)];
         Ok(CurveFigure {

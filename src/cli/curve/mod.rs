@@ -53,7 +53,7 @@ const SAMPLES: usize = 801;
                         spiral-atlas curve --family trig-quintic --template line-circle --from 10,5 --start-direction 30deg \\\n      \
                         --turn left --radius 20 --angle 42deg --m 1"
 )]
-pub struct Args {
+pub(super) struct Args {
     // First, since each field takes its own from what was given.
     #[command(flatten)]
     given: options::Given,
@@ -161,8 +161,8 @@ impl Family {
     }
 }
 
-/// What a family found; told as JSON too.
-trait Found: Serialize {
+/// What a family found, as it is reported; as JSON too.
+trait Reportable: Serialize {
     /// The spirals that were asked for, in the direction of travel, or why there are none.
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String>;
     /// The ends that were to be joined, where any family between two ends could do it.
@@ -179,7 +179,7 @@ trait Found: Serialize {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     output::check_figure(args.figure.as_deref())?;
     if let Some(path) = &args.points {
         if !matches!(args.family, Family::Cubic | Family::PhQuintic | Family::Involute) {
@@ -201,7 +201,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 
 impl Args {
     /// Prints what was found, and draws it where that is asked for.
-    fn report(&self, found: &impl Found) -> Result<Outcome> {
+    fn report(&self, found: &impl Reportable) -> Result<Outcome> {
         let report = Report::new(found, self.wish())?;
         match (self.json, self.csv) {
             (true, _) => output::print_json(&report)?,
@@ -286,5 +286,5 @@ fn parse_second(text: &str) -> std::result::Result<[f64; 6], String> {
 
 /// An angle, or a vector.
 fn parse_direction(text: &str) -> Result<f64> {
-    if text.contains(',') { direction_of(parse_point(text).map_err(Error::Domain)?) } else { parse_angle(text) }
+    if text.contains(',') { direction_of(parse_point(text).map_err(Error::invalid)?) } else { parse_angle(text) }
 }

@@ -22,7 +22,7 @@ const ALL: [&str; 7] = ["family", "points", "longest", "samples", "csv", "figure
 
 /// The options that were given, by name, without those of [`ALL`].
 #[derive(Debug)]
-pub struct Given(Vec<String>);
+pub(super) struct Given(Vec<String>);
 
 impl clap::FromArgMatches for Given {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Given, clap::Error> {
@@ -50,7 +50,7 @@ impl clap::Args for Given {
 
 impl Args {
     /// Ends the program unless all of `needed` are given and nothing but them and `allowed`.
-    pub fn check(&self, needed: &[&str], allowed: &[&str]) {
+    pub(crate) fn check(&self, needed: &[&str], allowed: &[&str]) {
         let given = |name: &str| self.given.0.iter().any(|given| given == name);
         let list = |names: Vec<&str>| names.iter().map(|n| format!("`--{n}`")).collect::<Vec<_>>().join(", ");
         let missing: Vec<&str> = needed.iter().copied().filter(|name| !given(name)).collect();
@@ -91,7 +91,7 @@ impl Args {
     }
 
     /// The two ends, of a family that knows also the options `more`.
-    pub fn ends(&self, more: &[&str]) -> Ends {
+    pub(crate) fn ends(&self, more: &[&str]) -> Ends {
         self.check(&ENDS, more);
         Ends {
             start: self.from.unwrap_or_default(),
@@ -104,7 +104,7 @@ impl Args {
     }
 
     /// The segment to add.
-    pub fn segment(&self) -> reach::Request {
+    pub(crate) fn segment(&self) -> reach::Request {
         let needed = ["from", "start-direction", "base", "turn", "radius", "angle"];
         let target = match (self.to, self.m, self.q) {
             (Some(point), None, None) => Target::Point(point),
@@ -124,7 +124,7 @@ impl Args {
     }
 
     /// The template and where it lies.
-    pub fn template(&self) -> trig::Request {
+    pub(crate) fn template(&self) -> trig::Request {
         let name = self.template.as_deref().unwrap_or_default();
         let mut needed = vec!["template", "from", "start-direction", "turn", "radius", "angle", "m"];
         let mut allowed = vec!["ratio", "p", "q", "as-printed"];

@@ -1,11 +1,11 @@
 //! `curve --family ph-quintic`: the Pythagorean-hodograph quintic spiral of least bending energy.
 
-use super::{Found, drawn, end_circles};
+use super::{Reportable, drawn, end_circles};
 use spiral_atlas::plot::CurveFigure;
 use spiral_atlas::transition::{Ends, PhAnswer, Piece};
 use spiral_atlas::{Error, Result};
 
-impl Found for PhAnswer {
+impl Reportable for PhAnswer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
             Ok(i) => Ok(self.solutions.get(*i).map(|s| Piece::PhQuintic(s.curve)).into_iter().collect()),
@@ -25,7 +25,7 @@ impl Found for PhAnswer {
     fn figure(&self) -> Result<CurveFigure> {
         let nearest = || self.solutions.iter().max_by(|a, b| a.margin.total_cmp(&b.margin));
         let solution = self.chosen().or_else(nearest);
-        let solution = solution.ok_or_else(|| Error::Domain("no PH quintic has these ends".into()))?;
+        let solution = solution.ok_or_else(|| Error::invalid("no PH quintic has these ends"))?;
         let (curve, curvature, derivative) = drawn(self.ends.start, &solution.local_control_points);
         let kind = if solution.spiral { "PH quintic spiral" } else { "PH quintic, no spiral" };
         Ok(CurveFigure {

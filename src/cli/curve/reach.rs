@@ -1,18 +1,18 @@
 //! `curve --family reach-cubic|reach-ph`: a segment added to the end of a line or of an arc (Habib & Sakai, CGIV 2004).
 
 use super::super::output;
-use super::{Found, circle, drawn};
+use super::{Reportable, circle, drawn};
 use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::{Kind, Level};
 use spiral_atlas::plot::CurveFigure;
-pub use spiral_atlas::transition::segment::Request;
+pub(super) use spiral_atlas::transition::segment::Request;
 use spiral_atlas::transition::segment::{Added, Base, add_segment};
 use spiral_atlas::transition::{Piece, Turn};
 use spiral_atlas::{Error, Result};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(super) struct Answer {
     #[serde(skip)]
     kind: Kind,
     request: Request,
@@ -38,12 +38,12 @@ fn segment_or_none<S: Serializer>(
     .serialize(to)
 }
 
-pub fn find(kind: Kind, request: &Request) -> Result<Answer> {
+pub(super) fn find(kind: Kind, request: &Request) -> Result<Answer> {
     Ok(Answer { kind, request: *request, outcome: add_segment(kind, request)? })
 }
 
 /// What to type for a segment that ends at a point.
-pub fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
+pub(super) fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
     let Request { base, start, direction, turn, radius, theta, .. } = request;
     let base = if *base == Base::Line { "line" } else { "circle" };
     format!(
@@ -57,7 +57,7 @@ pub fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
     )
 }
 
-impl Found for Answer {
+impl Reportable for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
             Err(why) => Err(format!("no segment of `{}`: {why}", self.kind.name())),
@@ -87,7 +87,7 @@ impl Found for Answer {
     }
 
     fn figure(&self) -> Result<CurveFigure> {
-        let Ok(added) = &self.outcome else { return Err(Error::Domain("there is no segment".into())) };
+        let Ok(added) = &self.outcome else { return Err(Error::invalid("there is no segment")) };
         let request = &self.request;
         let (curve, curvature, derivative) = drawn(request.start, &added.local_control_points);
         let bent = if request.turn == Turn::Right { -1.0 } else { 1.0 } / request.radius;

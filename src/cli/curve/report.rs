@@ -1,7 +1,7 @@
 //! What every family of `curve` reports alike: paths, reasons, other families, samples.
 
 use super::super::{Outcome, output};
-use super::{Family, Found, reach};
+use super::{Family, Reportable, reach};
 use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::Kind;
 use spiral_atlas::path::{Course, Summary};
@@ -12,7 +12,7 @@ use std::io::Write;
 
 /// An answer as JSON.
 #[derive(Debug, Serialize)]
-pub struct Report<'f, F: Found> {
+pub(super) struct Report<'f, F: Reportable> {
     #[serde(flatten)]
     pub found: &'f F,
     /// The path that was asked for; none where there is none.
@@ -49,7 +49,7 @@ impl Path {
         if greatest_curvature.is_finite() && bending_energy.is_none_or(f64::is_finite) {
             return Ok(Path { summary, course });
         }
-        Err(Error::Domain(format!(
+        Err(Error::invalid(format!(
             "the curve leaves the range of doubles: its greatest curvature is {greatest_curvature:?}, its bending energy {} (change the unit \
              of length)",
             bending_energy.unwrap_or_default()
@@ -59,7 +59,7 @@ impl Path {
 
 /// What is asked of a curve whatever its family.
 #[derive(Debug, Clone, Copy)]
-pub struct Wish {
+pub(super) struct Wish {
     pub family: Family,
     pub longest: Option<f64>,
     pub samples: Option<u32>,
@@ -70,15 +70,15 @@ pub struct Wish {
 
 impl Wish {
     /// The greatest length that counts.
-    pub fn longest(self) -> f64 {
+    pub(super) fn longest(self) -> f64 {
         self.longest.unwrap_or(f64::INFINITY)
     }
 }
 
-impl<'f, F: Found> Report<'f, F> {
+impl<'f, F: Reportable> Report<'f, F> {
     /// # Errors
     /// [`Error::Domain`] where a number leaves the range of doubles.
-    pub fn new(found: &'f F, wish: Wish) -> Result<Report<'f, F>> {
+    pub(super) fn new(found: &'f F, wish: Wish) -> Result<Report<'f, F>> {
         let (paths, reason) = match found.spirals().map(Path::new) {
             Err(why) => (Vec::new(), Some(why)),
             Ok(path) => {
@@ -100,12 +100,12 @@ impl<'f, F: Found> Report<'f, F> {
         Ok(Report { found, paths, reason, others, samples: samples.transpose()? })
     }
 
-    pub fn outcome(&self) -> Outcome {
+    pub(super) fn outcome(&self) -> Outcome {
         if self.reason.is_some() { Outcome::Bad } else { Outcome::Fine }
     }
 
     /// Prints all of it in words.
-    pub fn text(&self) -> Result<()> {
+    pub(super) fn text(&self) -> Result<()> {
         let mut text = match &self.reason {
             Some(reason) if self.found.spirals().is_ok() => format!("{reason}\n"),
             _ => self.found.text(),
@@ -121,7 +121,7 @@ impl<'f, F: Found> Report<'f, F> {
     }
 
     /// The samples alone, as CSV; without any, the reason goes to standard error.
-    pub fn csv(&self) -> Result<()> {
+    pub(super) fn csv(&self) -> Result<()> {
         match &self.reason {
             Some(reason) => {
                 output::note(reason);

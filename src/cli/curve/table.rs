@@ -1,18 +1,15 @@
 //! `curve --points`: ends from a CSV file, one answer a line.
 
+use super::super::join::parse::{COLUMNS, states};
 use super::super::{Outcome, output, points};
 use super::report::{Report, Wish};
-use super::{Args, Family, Found, involute};
-use spiral_atlas::recipe::parse_angle;
+use super::{Args, Family, Reportable, involute};
+use spiral_atlas::Result;
 use spiral_atlas::transition::{Ends, ph_spiral, spiral};
-use spiral_atlas::{Error, Result};
 use std::path::Path;
 
-/// Columns, in the order of [`ends`].
-const COLUMNS: [&str; 8] = ["x0", "y0", "direction0", "curvature0", "x1", "y1", "direction1", "curvature1"];
-
 /// Answers for every row of a file, or of standard input for `-`.
-pub fn run(args: &Args, path: &Path) -> Result<Outcome> {
+pub(super) fn run(args: &Args, path: &Path) -> Result<Outcome> {
     let wish = args.wish();
     points::run(path, &[&COLUMNS], args.csv, |row| {
         let ends = ends(row.cells)?;
@@ -26,7 +23,7 @@ pub fn run(args: &Args, path: &Path) -> Result<Outcome> {
 
 impl Args {
     /// What is printed for a row.
-    fn row(&self, row: &points::Row, found: &impl Found, wish: Wish) -> Result<Vec<u8>> {
+    fn row(&self, row: &points::Row, found: &impl Reportable, wish: Wish) -> Result<Vec<u8>> {
         let report = Report::new(found, wish)?;
         if self.csv {
             return row.table(report.samples.as_deref().unwrap_or_default(), report.reason.as_deref());
@@ -37,17 +34,13 @@ impl Args {
 
 /// The ends of a row.
 fn ends(cells: &[&str]) -> Result<Ends> {
-    let number = |i: usize| {
-        let wrong = || Error::Domain(format!("{}: {:?} is no number", COLUMNS[i], cells[i]));
-        cells[i].parse::<f64>().map_err(|_| wrong())
-    };
-    let angle = |i: usize| parse_angle(cells[i]).map_err(|e| Error::Domain(format!("{}: {e}", COLUMNS[i])));
+    let [start, end] = states(cells)?;
     Ok(Ends {
-        start: [number(0)?, number(1)?],
-        start_direction: angle(2)?,
-        start_curvature: number(3)?,
-        end: [number(4)?, number(5)?],
-        end_direction: angle(6)?,
-        end_curvature: number(7)?,
+        start: start.point,
+        end: end.point,
+        start_direction: start.direction,
+        end_direction: end.direction,
+        start_curvature: start.curvature,
+        end_curvature: end.curvature,
     })
 }

@@ -1,26 +1,44 @@
 //! `curve --family trig-quintic`: the five templates of Misro, Ramli and Ali, with spirals that are some.
 
-use super::{Found, SAMPLES};
-use serde::Serialize;
+use super::{Reportable, SAMPLES};
+use serde::{Serialize, Serializer};
 use spiral_atlas::Result;
 use spiral_atlas::curve::Jet;
 use spiral_atlas::plot::{self, CurveFigure, Graph};
-pub use spiral_atlas::transition::templates::Request;
-use spiral_atlas::transition::templates::{Outcome, Path, Template, path};
+pub(super) use spiral_atlas::transition::templates::Request;
+use spiral_atlas::transition::templates::{NoSpirals, Path, Template, path};
 use spiral_atlas::transition::{EndCircle, Piece, Sample, TrigPart};
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(super) struct Answer {
     request: Request,
-    outcome: Outcome,
+    #[serde(serialize_with = "spirals_or_not")]
+    outcome: std::result::Result<Path, NoSpirals>,
 }
 
-pub fn find(request: &Request) -> Result<Answer> {
+fn spirals_or_not<S: Serializer>(
+    outcome: &std::result::Result<Path, NoSpirals>,
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    match outcome {
+        Ok(path) => serializer.serialize_newtype_variant("Outcome", 0, "spirals", path),
+        Err(none) => serializer.serialize_newtype_variant("Outcome", 1, "no-spirals", none),
+    }
+}
+
+pub(super) fn find(request: &Request) -> Result<Answer> {
     Ok(Answer { request: *request, outcome: path(request)? })
 }
 
 impl Answer {
+    /// The path, of spirals or not.
+    fn path(&self) -> &Path {
+        match &self.outcome {
+            Ok(path) | Err(NoSpirals { path, .. }) => path,
+        }
+    }
+
     fn title(&self) -> String {
         let name = match self.request.template {
             Template::LineCircle(_) => "line to circle",
@@ -30,9 +48,9 @@ impl Answer {
             Template::CircleInCircle { .. } => "circle in circle",
         };
         match &self.outcome {
-            Outcome::Spirals(path) if path.parts.len() == 1 => format!("{name}: a trigonometric spiral"),
-            Outcome::Spirals(_) => format!("{name}: two trigonometric spirals"),
-            Outcome::NoSpirals { why, .. } => {
+            Ok(path) if path.parts.len() == 1 => format!("{name}: a trigonometric spiral"),
+            Ok(_) => format!("{name}: two trigonometric spirals"),
+            Err(NoSpirals { why, .. }) => {
                 format!(
                     "{name}, {}",
                     if why.starts_with("as printed") { "as printed: not a spiral" } else { "not a spiral" }
@@ -42,23 +60,23 @@ impl Answer {
     }
 }
 
-impl Found for Answer {
+impl Reportable for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
         match &self.outcome {
-            Outcome::Spirals(path) => Ok(pieces(path)),
-            Outcome::NoSpirals { why, .. } => Err(why.clone()),
+            Ok(path) => Ok(pieces(path)),
+            Err(NoSpirals { why, .. }) => Err(why.clone()),
         }
     }
 
     fn text(&self) -> String {
         let mut text = match &self.outcome {
-            Outcome::Spirals(path) => {
+            Ok(path) => {
                 let length: f64 = pieces(path).iter().map(Piece::length).sum();
                 format!("{}, length {length:?}\n", self.title())
             }
-            Outcome::NoSpirals { why, .. } => format!("{why}\n"),
+            Err(NoSpirals { why, .. }) => format!("{why}\n"),
         };
-        for part in &self.outcome.path().parts {
+        for part in &self.path().parts {
             let (curve, [from, to]) = (part.curve, [part.from, part.to]);
             text += &format!("p = {:?}, q = {:?}, t from {from:?} to {to:?}; control points\n", curve.p, curve.q);
             for [x, y] in curve.points() {
@@ -69,14 +87,14 @@ impl Found for Answer {
     }
 
     fn figure(&self) -> Result<CurveFigure> {
-        let path = self.outcome.path();
+        let path = self.path();
         let parts = path.samples(SAMPLES)?;
         let joints = parts[1..].iter().map(|part| part[0].s).collect();
         let samples: Vec<Sample> = parts.into_iter().flatten().collect();
         let control = path.parts.iter().flat_map(|part| part.curve.points()).collect();
         let note = match &self.outcome {
-            Outcome::Spirals(_) => String::new(),
-            Outcome::NoSpirals { why, .. } => {
+            Ok(_) => String::new(),
+            Err(NoSpirals { why, .. }) => {
                 why.trim_start_matches("as printed: ").trim_start_matches("not a spiral: ").into()
             }
         };

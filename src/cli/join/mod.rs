@@ -1,6 +1,6 @@
 //! `join`: paths of spirals, arcs and lines between two states, or two lines and circles.
 
-mod parse;
+pub(super) mod parse;
 mod request;
 
 use super::path::figure::{SAMPLES, drawn};
@@ -36,7 +36,7 @@ use std::path::PathBuf;
                         spiral-atlas join --points states.csv --greatest-curvature 1 > joins.jsonl\n  \
                         spiral-atlas join request.toml"
 )]
-pub struct Args {
+pub(super) struct Args {
     /// All of the options below but those of output in one file: JSON, TOML if named .toml, `-` for JSON from standard
     /// input.
     #[arg(value_name = "FILE", conflicts_with_all = ["start", "goal", "points", "greatest_curvature", "family", "objective", "longest", "most_pieces"])]
@@ -95,7 +95,7 @@ const OBJECTIVES: [&str; 4] = ["length", "greatest-curvature", "greatest-rate", 
 
 /// What is printed of a single join.
 #[derive(serde::Serialize)]
-struct Told<'a> {
+struct JoinReport<'a> {
     paths: Vec<&'a Join>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'a str>,
@@ -107,26 +107,36 @@ struct Told<'a> {
 #[derive(serde::Serialize)]
 struct Line<'a> {
     #[serde(flatten)]
-    found: &'a join::Outcome,
+    join: Option<&'a Join>,
+    #[serde(flatten)]
+    none: Option<NoJoin<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<Vec<Station>>,
 }
 
+/// That there is none.
+#[derive(serde::Serialize)]
+struct NoJoin<'a> {
+    pieces: (),
+    reason: &'a str,
+}
+
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     output::check_figure(args.figure.as_deref())?;
     if let Some(path) = &args.points {
-        // A limit or a length that is none spoils every row alike: it is told once.
+        // A limit or a length that is none spoils every row alike: it is reported once.
         let nowhere = State { point: [0.0, 0.0], direction: 0.0, curvature: 0.0 };
-        join::join(&args.request(nowhere.into(), State { point: [1.0, 0.0], ..nowhere }.into()))?;
+        let _ = join::join(&args.request(nowhere.into(), State { point: [1.0, 0.0], ..nowhere }.into()))?;
         return points::run(path, &[&COLUMNS], args.csv, |row| {
-            let [from, to] = states(row.cells)?;
+            let [from, to] = states(row.cells)?.map(End::from);
             let found = join::join(&args.request(from, to))?;
             let samples = args.samples(&found)?;
             if args.csv {
                 return row.table(&samples.unwrap_or_default(), reason(&found));
             }
-            serde_json::to_vec(&Line { found: &found, samples }).map_err(output::json_error)
+            let none = reason(&found).map(|reason| NoJoin { pieces: (), reason });
+            serde_json::to_vec(&Line { join: found.as_ref().ok(), none, samples }).map_err(output::json_error)
         });
     }
     let request = match &args.request {
@@ -141,9 +151,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
     match (reason(&found), &samples) {
         (Some(reason), _) if args.csv => output::note(reason),
         (None, Some(samples)) if args.csv => output::stream(|out| output::table(out, samples, ","))?,
-        (reason, _) => output::print_json(&Told { paths: found.join().into_iter().collect(), reason, samples })?,
+        (reason, _) => output::print_json(&JoinReport { paths: found.iter().collect(), reason, samples })?,
     }
-    let Some(join) = found.join() else { return Ok(Outcome::Bad) };
+    let Ok(join) = &found else { return Ok(Outcome::Bad) };
     if let Some(path) = &args.figure {
         spiral_atlas::files::write_file(path, &figure(join)?)?;
     }
@@ -155,18 +165,18 @@ fn missing(end: &str) -> ! {
     super::refuse(&format!("one of `--{end}`, `--{end}-line` and `--{end}-circle` is needed, or `--points`, or a file"))
 }
 
+/// A join, or why there is none.
+type Found = std::result::Result<Join, String>;
+
 /// Why there is no join.
-fn reason(found: &join::Outcome) -> Option<&str> {
-    match found {
-        join::Outcome::Join(_) => None,
-        join::Outcome::None(reason) => Some(reason),
-    }
+fn reason(found: &Found) -> Option<&str> {
+    found.as_ref().err().map(String::as_str)
 }
 
 impl Args {
     /// The samples that are asked for, where there is a join.
-    fn samples(&self, found: &join::Outcome) -> Result<Option<Vec<Station>>> {
-        self.samples.zip(found.join()).map(|(n, join)| join.stations(n as usize)).transpose()
+    fn samples(&self, found: &Found) -> Result<Option<Vec<Station>>> {
+        self.samples.zip(found.as_ref().ok()).map(|(n, join)| join.stations(n as usize)).transpose()
     }
 
     fn request(&self, from: End, to: End) -> Request {

@@ -8,23 +8,23 @@ use spiral_atlas::transition::join::{End, State};
 use spiral_atlas::{Error, Result};
 
 /// Columns, in the order of [`states`].
-pub const COLUMNS: [&str; 8] = ["x0", "y0", "direction0", "curvature0", "x1", "y1", "direction1", "curvature1"];
+pub(crate) const COLUMNS: [&str; 8] = ["x0", "y0", "direction0", "curvature0", "x1", "y1", "direction1", "curvature1"];
 
 /// The states of a row.
-pub fn states(cells: &[&str]) -> Result<[End; 2]> {
+pub(crate) fn states(cells: &[&str]) -> Result<[State; 2]> {
     let number = |i: usize| {
-        let wrong = || Error::Domain(format!("{}: {:?} is no number", COLUMNS[i], cells[i]));
+        let wrong = || Error::invalid(format!("{}: {:?} is no number", COLUMNS[i], cells[i]));
         cells[i].parse::<f64>().map_err(|_| wrong())
     };
-    let angle = |i: usize| parse_angle(cells[i]).map_err(|e| Error::Domain(format!("{}: {e}", COLUMNS[i])));
-    let state = |i: usize| -> Result<End> {
-        Ok(State { point: [number(i)?, number(i + 1)?], direction: angle(i + 2)?, curvature: number(i + 3)? }.into())
+    let angle = |i: usize| parse_angle(cells[i]).map_err(|e| e.at(COLUMNS[i]));
+    let state = |i: usize| -> Result<State> {
+        Ok(State { point: [number(i)?, number(i + 1)?], direction: angle(i + 2)?, curvature: number(i + 3)? })
     };
     Ok([state(0)?, state(4)?])
 }
 
 /// One of the names that a type is read from.
-pub fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
+pub(crate) fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
     names: &[&'static str],
 ) -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(names.iter().copied()).try_map(|name| serde_json::from_value(name.into()))
@@ -45,7 +45,7 @@ fn angle(cell: &str) -> Parsed<f64> {
 }
 
 /// Point, direction and perhaps curvature.
-pub fn state(text: &str) -> Parsed<End> {
+pub(crate) fn state(text: &str) -> Parsed<End> {
     let wrong = || format!("{text:?} is no state `x,y,angle` or `x,y,angle,curvature` of finite numbers");
     let (x, y, direction, curvature) = match cells(text)[..] {
         [x, y, direction] => (x, y, direction, Some(0.0)),
@@ -57,7 +57,7 @@ pub fn state(text: &str) -> Parsed<End> {
 }
 
 /// Point and direction.
-pub fn line(text: &str) -> Parsed<End> {
+pub(crate) fn line(text: &str) -> Parsed<End> {
     let wrong = || format!("{text:?} is no line `x,y,angle` of finite numbers");
     let [x, y, direction] = cells(text)[..] else { return Err(wrong()) };
     let (Some(x), Some(y)) = (number(x), number(y)) else { return Err(wrong()) };
@@ -65,7 +65,7 @@ pub fn line(text: &str) -> Parsed<End> {
 }
 
 /// Centre, radius and side.
-pub fn circle(text: &str) -> Parsed<End> {
+pub(crate) fn circle(text: &str) -> Parsed<End> {
     let wrong = || format!("{text:?} is no circle `x,y,radius,left` or `x,y,radius,right` of finite numbers");
     let [x, y, radius, side] = cells(text)[..] else { return Err(wrong()) };
     let turn = match side {

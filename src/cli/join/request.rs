@@ -57,12 +57,12 @@ impl From<End> for join::End {
 }
 
 /// What stands in a JSON file, in a TOML file named `.toml`, or as JSON in standard input for `-`.
-pub fn read(path: &Path) -> Result<join::Request> {
+pub(super) fn read(path: &Path) -> Result<join::Request> {
     let text = spiral_atlas::files::read_text(path, MAX_INPUT)?;
     let toml = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     let name = if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
     let Request { from, to, greatest_curvature, family, objective, longest, most_pieces } =
-        input::parse(&text, toml).map_err(|e| Error::Domain(format!("{name}: {e}")))?;
+        input::parse(&text, toml).map_err(|e| Error::invalid(format!("{name}: {e}")))?;
     Ok(join::Request {
         family,
         objective,

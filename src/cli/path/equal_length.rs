@@ -1,7 +1,7 @@
 //! `path equal-length`.
 
 use super::input::{angle, objects};
-use super::{Files, Found, Outcome, Paths, figure};
+use super::{Files, Outcome, PathReport, Paths, figure};
 use serde::Deserialize;
 use spiral_atlas::curve::{EqualLength, equal_length};
 use spiral_atlas::{Error, Result};
@@ -15,7 +15,7 @@ use spiral_atlas::{Error, Result};
 /// its two.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png")]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
     /// Take the better of the paper's two solutions, not the best of four.
@@ -42,20 +42,21 @@ struct Ends {
     end_direction: f64,
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let input: Input = args.files.read()?;
     if input.paths.is_empty() {
-        return Err(args.files.blame(Error::Domain("`paths` is empty; give the ends of one at least".into())));
+        return Err(args.files.blame(Error::invalid("`paths` is empty; give the ends of one at least")));
     }
     let path = |(i, ends): (usize, &Ends)| {
         let Ends { start, end, start_direction, end_direction } = *ends;
         let choice = equal_length(&EqualLength { start, end, start_direction, end_direction, length: input.length })
-            .map_err(|e| args.files.blame(Error::Domain(format!("paths[{i}]: {e}"))))?;
+            .map_err(|e| args.files.blame(e.at(format!("paths[{i}]"))))?;
         let paper = EqualLength::paper(&choice);
-        Ok(Found::chosen(&choice, if args.paper { paper } else { choice.best }, Some(paper)))
+        Ok(PathReport::chosen(&choice, if args.paper { paper } else { choice.best }, Some(paper)))
     };
     let paths = input.paths.iter().enumerate().map(path).collect::<Result<Vec<_>>>()?;
     let paths = Paths { paths };
     let title = format!("Paths of length {}", input.length);
-    args.files.finish(&paths, || figure::curves(&paths.paths.iter().map(Found::curves).collect::<Vec<_>>(), &title))
+    args.files
+        .finish(&paths, || figure::curves(&paths.paths.iter().map(PathReport::curves).collect::<Vec<_>>(), &title))
 }

@@ -10,7 +10,7 @@ use spiral_atlas::{Error, Result};
 const SIZE: (u32, u32) = (1500, 900);
 const TALL: (u32, u32) = (1300, 1300);
 /// Samples of a path, about.
-pub const SAMPLES: usize = 2000;
+pub(crate) const SAMPLES: usize = 2000;
 
 type Line = Vec<[f64; 2]>;
 
@@ -44,12 +44,12 @@ fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2
 }
 
 /// Paths and their curvatures.
-pub fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
+pub(crate) fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
     beside_others(paths, vec![], title, "dots: starts")
 }
 
 /// Paths with their curvatures and offset curves.
-pub fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f64>) -> Result<Vec<u8>> {
+pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f64>) -> Result<Vec<u8>> {
     let courses: Vec<&Course> = courses.collect();
     let all = courses.iter().map(|course| course.stations(SAMPLES)).collect::<Result<Vec<_>>>()?;
     let each = |f: &dyn Fn(&Station) -> [f64; 2]| all.iter().map(|path| path.iter().map(f).collect()).collect();
@@ -65,7 +65,7 @@ pub fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f6
 }
 
 /// The curve taken, its curvature, and the others there are.
-pub fn choice(choice: &Choice) -> Result<Vec<u8>> {
+pub(crate) fn choice(choice: &Choice) -> Result<Vec<u8>> {
     let others = choice.candidates.iter().enumerate().filter(|(i, _)| *i != choice.best);
     let others = others.map(|(_, c)| points(&[c.curve])).collect();
     let title = format!("{} curves between two ends", choice.candidates.len());
@@ -80,9 +80,9 @@ fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &s
 }
 
 /// Points of paths, their curvatures over the length, and points of other curves.
-pub fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Vec<u8>> {
+pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Vec<u8>> {
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
-        return Err(Error::Domain("a path stands still somewhere, where it has no curvature".into()));
+        return Err(Error::invalid("a path stands still somewhere, where it has no curvature"));
     }
     let figure = PathsFigure {
         title: title.into(),
@@ -96,7 +96,7 @@ pub fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str,
 }
 
 /// A planned path among its obstacles, above its curvature.
-pub fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
+pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
     let (most, spans) = (scene.greatest_curvature, &plan.spans);
     let figure = PathsFigure {
         title: format!("{} corners, length {:.4}, saved {:.4}", plan.corners.len(), length(spans), plan.length_saved),
@@ -121,7 +121,7 @@ fn length(spans: &[PhQuintic]) -> f64 {
 }
 
 /// The paths of several motions and the separation of each pair over time.
-pub fn separations(motions: &[Motion], minimum: f64, title: String) -> Result<Vec<u8>> {
+pub(crate) fn separations(motions: &[Motion], minimum: f64, title: String) -> Result<Vec<u8>> {
     let mut lines = Vec::new();
     for (i, a) in motions.iter().enumerate() {
         for b in &motions[i + 1..] {

@@ -1,6 +1,6 @@
 //! `path hermite`.
 
-use super::{Files, Found, Outcome, Paths, figure};
+use super::{Files, Outcome, PathReport, Paths, figure};
 use spiral_atlas::Result;
 use spiral_atlas::curve::{Hermite, hermite};
 
@@ -12,14 +12,14 @@ use spiral_atlas::curve::{Hermite, hermite};
     after_help = "Example:\n  echo '{\"start\": [0, 0], \"end\": [1, 0], \"start_derivative\": [1, 1], \"end_derivative\": [1, -1]}' |\n      \
                         spiral-atlas path hermite - --figure hermite.png"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let ends: Hermite = args.files.read()?;
     let choice = hermite(&ends).map_err(|e| args.files.blame(e))?;
-    let paths = vec![Found::chosen(&choice, choice.best, None)];
+    let paths = vec![PathReport::chosen(&choice, choice.best, None)];
     args.files.finish(&Paths { paths }, || figure::choice(&choice))
 }

@@ -12,7 +12,7 @@ use std::marker::PhantomData;
 ///
 /// # Errors
 /// What is wrong, after the path of where: `paths[1].start: ...`.
-pub fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> std::result::Result<T, String> {
+pub(crate) fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> std::result::Result<T, String> {
     if toml {
         // As a table first: read from the text, `[0, 0, 1]` would be taken for a point.
         let table = toml::from_str::<toml::Table>(text).map_err(|e| plain::toml(text, e.span(), e.message()))?;
@@ -26,15 +26,17 @@ pub fn parse<T: DeserializeOwned>(text: &str, toml: bool) -> std::result::Result
 
 fn at_path<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     from: D,
-    told: impl Fn(&str, &D::Error) -> String,
+    blame: impl Fn(&str, &D::Error) -> String,
 ) -> std::result::Result<T, String> {
     let read: std::result::Result<Named<T>, _> = serde_path_to_error::deserialize(from);
     // A path ends with `?` where there is no key yet.
-    read.map(|named| named.0).map_err(|e| told(e.path().to_string().trim_end_matches(['.', '?']), e.inner()))
+    read.map(|named| named.0).map_err(|e| blame(e.path().to_string().trim_end_matches(['.', '?']), e.inner()))
 }
 
 /// Objects in a list: [`Named`], each.
-pub fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> std::result::Result<Vec<T>, D::Error> {
+pub(crate) fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    from: D,
+) -> std::result::Result<Vec<T>, D::Error> {
     Ok(Vec::deserialize(from)?.into_iter().map(|Named(object)| object).collect())
 }
 
@@ -89,7 +91,7 @@ impl<'de> Deserializer<'de> for Names {
 }
 
 /// An angle: a number, or text like `40deg`.
-pub fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
+pub(crate) fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
     struct Angle;
 
     impl Visitor<'_> for Angle {

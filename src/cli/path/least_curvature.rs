@@ -1,7 +1,7 @@
 //! `path least-curvature`.
 
 use super::input::angle;
-use super::{Files, Found, Outcome, figure, found};
+use super::{Files, Outcome, PathReport, figure, found};
 use serde::{Deserialize, Serialize};
 use spiral_atlas::path::{Directions, Free, least_curvature};
 use spiral_atlas::{Error, Result};
@@ -21,7 +21,7 @@ use spiral_atlas::{Error, Result};
 #[command(
     after_help = "Example:\n  spiral-atlas path least-curvature examples/least-curvature.json --figure least.png"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
 }
@@ -41,7 +41,7 @@ struct Input {
 
 #[derive(Serialize)]
 struct Output {
-    paths: Vec<Found>,
+    paths: Vec<PathReport>,
     /// Below which no searched path's greatest curvature lies.
     at_least: f64,
     derivatives: [f64; 2],
@@ -49,7 +49,7 @@ struct Output {
     searched: [f64; 2],
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let Input { start, end, start_direction, end_direction, free, greatest_length } = args.files.read()?;
     let distance = (end[0] - start[0]).hypot(end[1] - start[1]);
     // Curvatures would leave the range of doubles, and the length allowed would be no number that the user gave.
@@ -58,7 +58,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         let what = format!(
             "`start` {start:?} and `end` {end:?} are not between 1e-150 and 1e150 apart; change the unit of length"
         );
-        return Err(args.files.blame(Error::Domain(what)));
+        return Err(args.files.blame(Error::invalid(what)));
     }
     let greatest_length = greatest_length.unwrap_or(2.0 * distance);
     let ends = Directions { start, end, start_direction, end_direction, greatest_length, free };
@@ -66,7 +66,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
         Ok(found) => found,
         Err(none) => return Ok(none),
     };
-    let paths = vec![Found::new(&[found.curve])];
+    let paths = vec![PathReport::new(&[found.curve])];
     let title = format!("Greatest curvature {:.6}, length {:.6}", found.greatest_curvature, found.length);
     let output = Output { paths, at_least: found.at_least, derivatives: found.derivatives, searched: found.searched };
     args.files.finish(&output, || figure::curves(&[vec![found.curve]], &title))

@@ -24,7 +24,7 @@ use std::io::Write;
 #[command(
     after_help = "Example:\n  spiral-atlas path spline examples/lap.json | spiral-atlas path measure - --samples 101 --offset 0.2"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
     /// Tell so many points at equal steps of length, both ends included: station (length from the start), x, y, heading
@@ -65,12 +65,12 @@ fn measured(course: &Course, args: &Args) -> Result<Measured> {
     })
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     if let Some(d) = args.offset.filter(|d| !d.is_finite()) {
-        return Err(Error::Domain(format!("--offset is {d:?}; it must be a finite number")));
+        return Err(Error::domain("--offset", d, "finite"));
     }
     let courses = args.files.courses()?;
-    let blame = |place: &str, e: Error| args.files.blame(Error::Domain(format!("{place}: {e}")));
+    let blame = |place: &str, e: Error| args.files.blame(e.at(place));
     let figure = || figure::measured(courses.iter().map(|(_, course)| course), args.offset);
     if let Some(count) = args.samples.filter(|_| args.csv) {
         let samples =

@@ -31,7 +31,7 @@ use std::path::PathBuf;
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(subcommand)]
     tool: Tool,
 }
@@ -48,7 +48,7 @@ enum Tool {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     match &args.tool {
         Tool::Hermite(args) => hermite::run(args),
         Tool::EqualLength(args) => equal_length::run(args),
@@ -103,7 +103,7 @@ impl Files {
     /// Draws, if asked to.
     fn draw(&self, figure: impl FnOnce() -> Result<Vec<u8>>) -> Result<Outcome> {
         if let Some(path) = &self.figure {
-            let png = figure().map_err(|e| Error::Domain(format!("{} was not drawn: {e}", path.display())))?;
+            let png = figure().map_err(|e| Error::invalid(format!("{} was not drawn: {e}", path.display())))?;
             spiral_atlas::files::write_file(path, &png)?;
         }
         Ok(Outcome::Fine)
@@ -112,7 +112,7 @@ impl Files {
 
 /// A path as it is printed.
 #[derive(Serialize)]
-struct Found {
+struct PathReport {
     length: f64,
     /// Null where the path stands still.
     bending_energy: f64,
@@ -149,11 +149,11 @@ fn greatest_curvature(curve: &PhQuintic) -> f64 {
     if curve.is_regular() { curve.greatest_curvature().1 } else { f64::NAN }
 }
 
-impl Found {
-    fn new(pieces: &[PhQuintic]) -> Found {
+impl PathReport {
+    fn new(pieces: &[PhQuintic]) -> PathReport {
         let sum = |f: fn(&PhQuintic) -> f64| pieces.iter().map(f).sum();
         let most = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
-        Found {
+        PathReport {
             length: sum(PhQuintic::length),
             bending_energy: sum(PhQuintic::bending_energy),
             absolute_rotation: sum(PhQuintic::absolute_rotation),
@@ -164,7 +164,7 @@ impl Found {
     }
 
     /// One of several.
-    fn chosen(choice: &Choice, taken: usize, paper: Option<usize>) -> Found {
+    fn chosen(choice: &Choice, taken: usize, paper: Option<usize>) -> PathReport {
         let candidate = |c: &spiral_atlas::curve::Candidate| Candidate {
             absolute_rotation: c.absolute_rotation,
             regular: c.regular,
@@ -173,9 +173,9 @@ impl Found {
             preimage: c.curve.preimage,
         };
         let candidates = choice.candidates.iter().map(candidate).collect();
-        Found {
+        PathReport {
             choice: Some(Others { candidates, best: choice.best, paper }),
-            ..Found::new(&[choice.candidates[taken].curve])
+            ..PathReport::new(&[choice.candidates[taken].curve])
         }
     }
 
@@ -187,7 +187,7 @@ impl Found {
 /// The answer that there is no path.
 #[derive(Serialize)]
 struct NoPath {
-    paths: [Found; 0],
+    paths: [PathReport; 0],
     reason: String,
 }
 
@@ -203,5 +203,5 @@ fn found<T>(found: Result<T>, files: &Files) -> Result<std::result::Result<T, Ou
 /// Paths as they are printed.
 #[derive(Serialize)]
 struct Paths {
-    paths: Vec<Found>,
+    paths: Vec<PathReport>,
 }

@@ -1,6 +1,6 @@
 //! `path plan`.
 
-use super::{Files, Found, Outcome, figure, found};
+use super::{Files, Outcome, PathReport, figure, found};
 use serde::Serialize;
 use spiral_atlas::Result;
 use spiral_atlas::path::{Clearance, Corner, Scene, plan};
@@ -17,7 +17,7 @@ use spiral_atlas::path::{Clearance, Corner, Scene, plan};
 /// `reason` tells why.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path plan examples/obstacles.json --figure plan.png")]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
 }
@@ -25,7 +25,7 @@ pub struct Args {
 #[derive(Serialize)]
 struct Planned<'p> {
     #[serde(flatten)]
-    found: Found,
+    found: PathReport,
     length_saved: f64,
     curvature_at_most: f64,
     /// Null without obstacles.
@@ -39,14 +39,14 @@ struct Output<'p> {
     paths: [Planned<'p>; 1],
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let scene: Scene = args.files.read()?;
     let plan = match found(plan(&scene), &args.files)? {
         Ok(plan) => plan,
         Err(none) => return Ok(none),
     };
     let planned = Planned {
-        found: Found::new(&plan.spans),
+        found: PathReport::new(&plan.spans),
         length_saved: plan.length_saved,
         curvature_at_most: plan.proof.curvature_at_most,
         clearance: plan.proof.clearance,

@@ -21,7 +21,7 @@ use spiral_atlas::{Error, Result};
 #[command(
     after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
     /// The distance to keep.
@@ -63,13 +63,13 @@ fn motion(path: Path) -> Result<Motion> {
     Motion::new(path.pieces, path.speed, path.start_time)
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let paths: Vec<(String, Path)> = args.files.paths()?;
     let blame = |e| args.files.blame(e);
     if paths.len() < 2 {
-        return Err(blame(Error::Domain(format!("`paths` has {} paths; it takes two to be apart", paths.len()))));
+        return Err(blame(Error::invalid(format!("`paths` has {} paths; it takes two to be apart", paths.len()))));
     }
-    let named = |(place, path): (String, Path)| motion(path).map_err(|e| blame(Error::Domain(format!("{place}: {e}"))));
+    let named = |(place, path): (String, Path)| motion(path).map_err(|e| blame(e.at(place)));
     let motions = paths.into_iter().map(named).collect::<Result<Vec<_>>>()?;
     let found = separations(&motions, args.minimum)?;
     let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);

@@ -46,16 +46,16 @@ struct GivenPath {
 
 impl Source {
     /// What stands in the input.
-    pub fn read<T: DeserializeOwned>(&self) -> Result<T> {
+    pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T> {
         let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
-        input::parse(&text, self.is_toml()).map_err(|e| self.blame(Error::Domain(e)))
+        input::parse(&text, self.is_toml()).map_err(|e| self.blame(Error::invalid(e)))
     }
 
     /// The paths in the input, each with its place for messages. Of several lines that are objects each, which batches
     /// print, those without a path are left out and told on standard error.
-    pub fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
+    pub(crate) fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
         let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
-        let wrong = |place: &str, what: String| self.blame(Error::Domain(format!("{place}{what}")));
+        let wrong = |place: &str, what: String| self.blame(Error::invalid(format!("{place}{what}")));
         let lines: Vec<(usize, &str)> = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).collect();
         let whole = |line: &str| serde_json::from_str::<Shape>(line).is_ok();
         if self.is_toml() || lines.len() < 2 || !whole(lines[0].1) {
@@ -81,10 +81,10 @@ impl Source {
     }
 
     /// The paths in the input, each with its place for messages.
-    pub fn courses(&self) -> Result<Vec<(String, Course)>> {
+    pub(crate) fn courses(&self) -> Result<Vec<(String, Course)>> {
         let course = |(place, path): (String, GivenPath)| match Course::new(path.pieces) {
             Ok(course) => Ok((place, course)),
-            Err(e) => Err(self.blame(Error::Domain(format!("{place}: {e}")))),
+            Err(e) => Err(self.blame(e.at(place))),
         };
         self.paths()?.into_iter().map(course).collect()
     }
@@ -98,8 +98,8 @@ impl Source {
     }
 
     /// An error of what was read here.
-    pub fn blame(&self, error: Error) -> Error {
-        Error::Domain(format!("{}: {error}", self.name()))
+    pub(crate) fn blame(&self, error: Error) -> Error {
+        error.at(self.name())
     }
 }
 

@@ -1,6 +1,6 @@
 //! `path spline`.
 
-use super::{Files, Found, Outcome, Paths, figure};
+use super::{Files, Outcome, PathReport, Paths, figure};
 use serde::Deserialize;
 use spiral_atlas::Result;
 use spiral_atlas::path::spline;
@@ -12,7 +12,7 @@ use spiral_atlas::path::spline;
 #[command(
     after_help = "Example:\n  echo '{\"points\": [[0, 0], [1, 1], [2, 0], [3, 1]]}' | spiral-atlas path spline - --figure spline.png"
 )]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     files: Files,
 }
@@ -25,11 +25,11 @@ struct Input {
     closed: bool,
 }
 
-pub fn run(args: &Args) -> Result<Outcome> {
+pub(super) fn run(args: &Args) -> Result<Outcome> {
     let input: Input = args.files.read()?;
     let found = spline(&input.points, input.closed).map_err(|e| args.files.blame(e))?;
     let kind = if input.closed { "Closed" } else { "Open" };
     let title = format!("{kind} spline through {} points", input.points.len());
-    let paths = vec![Found::new(&found.spans)];
+    let paths = vec![PathReport::new(&found.spans)];
     args.files.finish(&Paths { paths }, || figure::curves(&[found.spans], &title))
 }

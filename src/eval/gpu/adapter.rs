@@ -51,8 +51,8 @@ impl AdapterFacts {
 }
 
 /// How to get an adapter where there is none.
-const HINT: &str = "a software Vulkan driver serves too (Debian, Ubuntu: \
-                    `apt-get install -y --no-install-recommends libvulkan1 mesa-vulkan-drivers`), when named with `--adapter llvmpipe`";
+const HINT: &str = "a software Vulkan driver serves too (Debian, Ubuntu: `apt-get install -y --no-install-recommends \
+                    libvulkan1 mesa-vulkan-drivers`), when named with `--adapter llvmpipe`";
 
 /// Every adapter of the native backends (Vulkan, Metal, DX12); of GL, where these have none.
 pub fn adapters() -> Vec<AdapterFacts> {

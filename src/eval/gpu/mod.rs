@@ -161,7 +161,7 @@ impl<'t> Engine<'t> {
     ) -> Result<RunStats> {
         if range.start > range.end || range.end > self.grid.len() {
             let what = format!("nodes {} to {} are not in a grid of {}", range.start, range.end, self.grid.len());
-            return Err(Error::Domain(what));
+            return Err(Error::invalid(what));
         }
         self.gpu.check()?;
         // Slots of chunks that an error leaves in flight are dropped with this queue; only landed ones are reused.
@@ -217,7 +217,8 @@ impl<'t> Engine<'t> {
                 _ if bytes <= most => return Ok((nodes as u32, inputs)),
                 0 | 1 => {
                     let what = format!(
-                        "the inputs of node {start} have {bytes} bytes and the adapter takes {most}; use the CPU (`--backend cpu`)"
+                        "the inputs of node {start} have {bytes} bytes and the adapter takes {most}; use the CPU \
+                         (`--backend cpu`)"
                     );
                     return Err(self.gpu.error(&what));
                 }

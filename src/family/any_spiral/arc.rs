@@ -1,4 +1,4 @@
-//! The arc of the involute with given Q and ω, in intervals.
+//! The arc of the involute with given Q and ω, in intervals (Kurnosenko, arXiv 2603.29596).
 //!
 //! The involute `z(t) = (1 + it) e^(-it)`, run from `t0 - θ` to `t0 + θ`, has `Q = (θ² - sin² θ)/(θ² - t0²)` (4) and
 //! half its chord is `X + iP = c e^(iω)` in a suitable frame, `X = t0 sin θ`, `P = sin θ - θ cos θ`; so θ is the root
@@ -85,7 +85,7 @@ impl Arc {
 
 impl Equation {
     /// For |Q|, positive, and `ω = rest + iπ` for i half turns, `|rest| < π`, positive in all.
-    pub fn new(q: Interval, rest: Interval, half_turns: u32) -> Equation {
+    pub(super) fn new(q: Interval, rest: Interval, half_turns: u32) -> Equation {
         let (sin, cos) = rest.sine_cosine();
         let odd = half_turns % 2 == 1;
         let [sin, cos] = [sin, cos].map(|x| if odd { -&x } else { x });
@@ -98,7 +98,7 @@ impl Equation {
     }
 
     /// The arc; `None` at too low a precision.
-    pub fn solve(&self) -> Option<Arc> {
+    pub(super) fn solve(&self) -> Option<Arc> {
         let bits = self.q.bits();
         // ⌊ω/π⌋ hangs on the sign of the rest, which near Q = 0 moves θ far: rounding may not decide.
         self.rest.sign().filter(|s| s.is_ge())?;
@@ -110,7 +110,7 @@ impl Equation {
     }
 
     /// How often F was evaluated.
-    pub fn evaluations(&self) -> usize {
+    pub(super) fn evaluations(&self) -> usize {
         self.evaluations.get()
     }
 }

@@ -29,7 +29,7 @@ fn series(x2: f64, ratios: &[f64]) -> f64 {
 impl Differences {
     /// All three divided by their first powers of x: `P/x³`, `(x² - sin² x)/x⁴` and `(x - sin x)/x³`. So nothing
     /// underflows, however small x >= 0 is.
-    pub fn by_powers(x: f64) -> Differences {
+    pub(super) fn by_powers(x: f64) -> Differences {
         let (sin, cos) = x.sin_cos();
         let x2 = x * x;
         if x >= 1.0 {
@@ -40,7 +40,7 @@ impl Differences {
     }
 
     /// From x and its sine and cosine.
-    pub fn new(x: f64, sin: f64, cos: f64) -> Differences {
+    pub(super) fn new(x: f64, sin: f64, cos: f64) -> Differences {
         if x >= 1.0 {
             return Differences { p: sin - x * cos, w: (x - sin) * (x + sin), rest: x - sin };
         }

@@ -25,13 +25,13 @@ pub(super) struct Fast {
 
 impl Fast {
     /// For curvatures times half the chord, and the constants of both angles.
-    pub fn new(k1: f64, k2: f64, pair: &Pair) -> Fast {
+    pub(super) fn new(k1: f64, k2: f64, pair: &Pair) -> Fast {
         let (q, error) = pair.q(k1, k2);
         Fast { q: (q - error, q + error), omega: pair.omega, arc: OnceCell::new() }
     }
 
     /// Scalar 0 (Q), 2 (θ) or 3 (t0), if doubles prove its nearest f32; the last two need Q < 0 and ω ≠ 0.
-    pub fn scalar(&self, which: usize) -> Option<f32> {
+    pub(super) fn scalar(&self, which: usize) -> Option<f32> {
         let (low, high) = match which {
             0 => self.q,
             2 | 3 => (*self.arc.get_or_init(|| self.arc()))?[which - 2],

@@ -52,7 +52,8 @@ const FLAGS: &[Flag] = &[
     Flag {
         name: "EXISTS",
         label: "some spiral",
-        doc: "some short spiral has these ends: Q < 0, and omega has the sign of k2 - k1, which is not 0; necessary and sufficient",
+        doc: "some short spiral has these ends: Q < 0, and omega has the sign of k2 - k1, which is not 0; necessary and \
+              sufficient",
     },
     Flag {
         name: "RISING",
@@ -69,12 +70,14 @@ const FLAGS: &[Flag] = &[
 const SCALARS: &[Scalar] = &[
     Scalar {
         name: "Q",
-        doc: "(k1 + sin alpha)(k2 - sin beta) + sin^2((alpha + beta)/2), no unit; at every node; beyond +-1e38 stored as +-1e38",
+        doc: "(k1 + sin alpha)(k2 - sin beta) + sin^2((alpha + beta)/2), no unit; at every node; beyond +-1e38 stored \
+              as +-1e38",
     },
     Scalar { name: "omega", doc: "(alpha + beta)/2, radians; at every node" },
     Scalar {
         name: "theta",
-        doc: "half the range of the involute's parameter on the arc with the same Q and omega, radians, in (0, 4.5); where EXISTS",
+        doc: "half the range of the involute's parameter on the arc with the same Q and omega, radians, in (0, 4.5); \
+              where EXISTS",
     },
     Scalar { name: "t0", doc: "middle of that range, radians, above theta; where EXISTS; beyond 1e38 stored as 1e38" },
 ];
@@ -83,7 +86,8 @@ const CHARTS: &[Chart] = &[
     Chart {
         name: "chord",
         axes: &["alpha", "beta", "k1", "k2"],
-        doc: "alpha, beta: directions at start and end against the chord, radians, counter-clockwise, from -pi to pi; k1, k2: signed end curvatures times half the chord",
+        doc: "alpha, beta: directions at start and end against the chord, radians, counter-clockwise, from -pi to pi; \
+              k1, k2: signed end curvatures times half the chord",
     },
     Chart {
         name: "curvature",
@@ -98,9 +102,11 @@ impl Family for AnySpiral {
             name: "any-spiral",
             title: "spirals of any kind between two ends, and the involute that makes one (Kurnosenko)",
             charts: CHARTS,
-            conventions: "end points (-1, 0) and (1, 0); directions alpha and beta in radians, counter-clockwise from the chord; curvature positive to the left, \
-         increasing or decreasing along the curve; short spirals: no point strictly inside the curve lies on the chord's line outside the chord; \
-         the doubles nearest to +-pi lie just inside, so a half turn of falling curvature is written with the other sign than one of rising curvature",
+            conventions: "end points (-1, 0) and (1, 0); directions alpha and beta in radians, counter-clockwise from \
+                          the chord; curvature positive to the left, increasing or decreasing along the curve; short \
+                          spirals: no point strictly inside the curve lies on the chord's line outside the chord; the \
+                          doubles nearest to +-pi lie just inside, so a half turn of falling curvature is written with \
+                          the other sign than one of rising curvature",
             flags: FLAGS,
             yes: &["EXISTS"],
             nested: &["EXISTS", "INFLECTION"],

@@ -31,7 +31,7 @@ pub(super) fn side(alpha: f64, beta: f64) -> f64 {
 
 impl Pair {
     /// For angles in [-π, π]; `None` where they are too small for doubles.
-    pub fn new(alpha: f64, beta: f64) -> Option<Pair> {
+    pub(super) fn new(alpha: f64, beta: f64) -> Option<Pair> {
         let side = side(alpha, beta);
         let sum = (alpha + beta).abs();
         if [alpha.abs(), beta.abs(), sum].iter().any(|x| *x != 0.0 && *x < LEAST) {
@@ -44,7 +44,7 @@ impl Pair {
     }
 
     /// Q and how far it may be off.
-    pub fn q(&self, k1: f64, k2: f64) -> (f64, f64) {
+    pub(super) fn q(&self, k1: f64, k2: f64) -> (f64, f64) {
         let mirror = if self.side < 0.0 { -1.0 } else { 1.0 };
         let ([sin0, sin1, square], kappa0, kappa1) = (self.sines, mirror * k1, mirror * k2);
         let (room0, room1) = (sin0 - kappa0, kappa1 - sin1);

@@ -12,7 +12,7 @@
 
 use super::{AnySpiral, EXISTS, INFLECTION, RISING};
 use crate::family::outer_region::rising;
-use crate::family::region::{Facts, MOST_SIDES, Region, clip_side};
+use crate::family::region::{Facts, MOST_SIDES, Region, clip_side, sides};
 use crate::num::Form;
 use crate::num::Verdict;
 use crate::num::verdict::and;
@@ -64,8 +64,7 @@ impl Region for AnySpiral {
 
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
         let mut facts = Facts::default();
-        let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else { return facts };
-        let [first, phi1, kappa0, kappa1]: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
+        let Some([first, phi1, kappa0, kappa1]) = sides(low, high) else { return facts };
         let within = |side: &[f64; 2], most: f64| side.iter().all(|x| x.abs() <= most);
         // Not for NaN either.
         if ![first, phi1].iter().all(|side| within(side, PI))

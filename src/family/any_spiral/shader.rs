@@ -1,7 +1,7 @@
 //! What the shader of `shaders/any_spiral/` reads.
 
+use super::FLAGS;
 use super::pair;
-use super::{EXISTS, INFLECTION, RISING};
 use crate::family::kernel::{constants, fragment, tables};
 use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
@@ -18,8 +18,7 @@ const LEAST_SQUARE: f64 = LEAST_SINE / (1u32 << 20) as f64;
 const OUTER: f64 = 6.0 / (1u32 << 24) as f64;
 
 pub(super) fn shader() -> Shader {
-    let flags = [("EXISTS", EXISTS), ("RISING", RISING), ("INFLECTION", INFLECTION)];
-    let constants = constants(&flags, &[], &[("MOST", MOST), ("OUTER", OUTER)]) + &Pair::wgsl() + &First::wgsl();
+    let constants = constants(FLAGS, &[], &[("MOST", MOST), ("OUTER", OUTER)]) + &Pair::wgsl() + &First::wgsl();
     Shader { constants, fragments: vec![fragment!("lib/outer.wgsl"), fragment!("any_spiral/table.wgsl")] }
 }
 

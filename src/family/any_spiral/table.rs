@@ -7,7 +7,6 @@ use crate::error::{Error, Result};
 use crate::family::rows::{Rows, fill};
 use crate::family::{Kernel, Shader, ShaderInputs, Table, chart_of, outer};
 use crate::grid::{Axis, Grid, MAX_AXES};
-use crate::num::told;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::f64::consts::PI;
@@ -21,7 +20,7 @@ pub(super) struct AnyTable<'g> {
 }
 
 impl<'g> AnyTable<'g> {
-    pub fn new(grid: &'g Grid) -> Result<AnyTable<'g>> {
+    pub(super) fn new(grid: &'g Grid) -> Result<AnyTable<'g>> {
         let sign = if chart_of(&AnySpiral, grid)? == 0 { 1.0 } else { -1.0 };
         for axis in &grid.axes()[..2] {
             check_angles(axis)?;
@@ -40,11 +39,10 @@ fn check_angles(axis: &Axis) -> Result<()> {
     let values = axis.values();
     match [values[0], values[values.len() - 1]].into_iter().find(|x| x.abs() > PI) {
         None => Ok(()),
-        Some(x) => Err(Error::Domain(format!(
-            "{} is {}; it must be -pi to pi (radians; write `180deg` for a half turn, and add or subtract 360deg beyond)",
-            axis.name(),
-            told(x)
-        ))),
+        Some(x) => {
+            let way_out = "radians; write `180deg` for a half turn, and add or subtract 360deg beyond";
+            Err(Error::angle(axis.name().to_owned(), x, "-pi to pi", way_out))
+        }
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) struct Angles {
 impl Angles {
     /// [`Angles::new`], kept for the next call: neighbouring nodes share their angles, and the sines cost more than all
     /// else.
-    pub fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
+    pub(super) fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
         type Last = Option<([u64; 2], usize, Rc<Angles>)>;
         thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });
         let key = [phi0.to_bits(), phi1.to_bits()];
@@ -31,7 +31,7 @@ impl Angles {
         })
     }
 
-    pub fn new(phi0: f64, phi1: f64, bits: usize) -> Option<Angles> {
+    pub(super) fn new(phi0: f64, phi1: f64, bits: usize) -> Option<Angles> {
         let ((sin0, cos0), (sin1, cos1)) = (Interval::sin_cos(phi0, bits), Interval::sin_cos(phi1, bits));
         let (sc, cs) = (&sin0 * &cos1, &cos0 * &sin1);
         let sum = &sc + &cs;

@@ -13,7 +13,7 @@ use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 /// A datum in one of the two charts, its numbers taken as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExactDatum {
+pub(super) struct ExactDatum {
     /// Start angle.
     pub phi0: f64,
     /// End angle.
@@ -24,7 +24,7 @@ pub struct ExactDatum {
 
 /// The two curvature coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Ends {
+pub(super) enum Ends {
     /// κ0, κ1.
     Curvature(f64, f64),
     /// a, k.

@@ -3,9 +3,11 @@
 //! Guesses (Newton's method, division, square roots) only choose where to look. What is stored rests on `+ - *` with
 //! these bounds, in units of u = 2^-53. The shader of `shaders/cubic/` does the same in f32, function by function.
 
-use super::precision::{Precision, Prepared};
-use super::root::{Data, Root, Side, bernstein, bits, residual, root, sides};
+use super::precision::{Precision, Prepared, ROUNDINGS, THROUGH};
+use super::root::{Data, Root, Side, bernstein, residual, root, sides};
+use super::{ANY_SPIRAL, FLAGS, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::family::outer;
+use crate::family::rows::bits;
 use crate::num::Verdict;
 use crate::num::bernstein::{Quintic, positive};
 use fearless_simd::prelude::*;
@@ -13,15 +15,20 @@ use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask};
 
 /// Verdicts of a vector of nodes, one bit a lane.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Planes {
-    /// SOLVABLE, THEOREM31, THEOREM31_ANY, SPIRAL, ANY_SPIRAL.
-    pub flags: [u64; 5],
+pub(super) struct Planes {
+    /// By bit.
+    pub flags: [u64; FLAGS.len()],
     /// Number of roots, two bits.
     pub roots: [u64; 2],
     /// Number of spirals, two bits.
     pub spirals: [u64; 2],
     /// Lanes where something could not be proved.
     pub undecided: u64,
+}
+
+/// The place of a flag.
+const fn bit(flag: u8) -> usize {
+    flag.trailing_zeros() as usize
 }
 
 /// Bit l of a byte as the lowest bit of byte l: a plane of eight lanes, spread over their codes.
@@ -42,10 +49,10 @@ const SPREAD: [u64; 256] = {
 impl Planes {
     /// Writes the codes of the first lanes, at most eight.
     #[inline(always)]
-    pub fn store(&self, codes: &mut [super::Code]) {
+    pub(super) fn store(&self, codes: &mut [super::Code]) {
         let spread = |plane: u64| SPREAD[(plane & 0xff) as usize];
         let undecided = spread(self.undecided) * 0xff;
-        let flags = (0..5).fold(undecided, |bytes, i| bytes | spread(self.flags[i]) << i);
+        let flags = (0..FLAGS.len()).fold(undecided, |bytes, i| bytes | spread(self.flags[i]) << i);
         let counts = [self.roots[0], self.roots[1], self.spirals[0], self.spirals[1]];
         let counts = (0..4).fold(undecided, |bytes, i| bytes | spread(counts[i]) << i);
         for (code, (flags, counts)) in codes.iter_mut().zip(flags.to_le_bytes().into_iter().zip(counts.to_le_bytes())) {
@@ -122,9 +129,9 @@ fn half_theorem<S: Simd>(side: &Side<S>, w: S::f64s, delta: S::f64s) -> (u64, u6
     let product = b0 * b2;
     // The root's inequality, squared: certain only where the signs under it are, which the first two conditions see to.
     let over = product * w * 8.0 - b1 * b1;
-    let error = ((b0.abs() * e2 + b2.abs() * e0 + e0 * e2) * (w + delta) + product.abs() * delta) * 8.1
+    let error = ((b0.abs() * e2 + b2.abs() * e0 + e0 * e2) * (w + delta) + product.abs() * delta) * THROUGH
         + (b1.abs() * 2.0 + e1) * e1
-        + (product.abs() * w * 8.0 + b1 * b1) * (16.0 * U);
+        + (product.abs() * w * 8.0 + b1 * b1) * (ROUNDINGS * U);
     let middle_yes = b1.simd_gt(e1) | over.simd_gt(error);
     let middle_no = b1.simd_lt(-e1) & over.simd_lt(-error);
     let yes = b0.simd_gt(e0) & b2.simd_gt(e2) & middle_yes;
@@ -162,7 +169,7 @@ fn dipping<S: Simd>(side: &Side<S>, w: S::f64s, delta: S::f64s) -> [(S::f64s, S:
     let mut terms = side.weighed(w, delta);
     terms[2] = (terms[2].0 * 2.0, terms[2].1 * 2.0);
     for (h, e) in &mut terms {
-        *e += h.abs() * (16.0 * Precision::F64.unit);
+        *e += h.abs() * (ROUNDINGS * Precision::F64.unit);
     }
     terms
 }
@@ -227,7 +234,7 @@ pub(super) struct RootLanes<'r, S: Simd> {
 
 /// Classifies a vector of data of one pair of angles.
 #[inline(always)]
-pub fn classify<S: Simd>(simd: S, prepared: &Prepared, d: &Data<S>) -> Planes {
+pub(super) fn classify<S: Simd>(simd: S, prepared: &Prepared, d: &Data<S>) -> Planes {
     // Without any spiral the counts say all, so the roots need not be found.
     visit::<S, false>(simd, prepared, d, |_| {})
 }
@@ -249,8 +256,11 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
         false => (0, all),
     };
     let two = case.smaller_two | case.larger_two;
+    let mut flags = [0; FLAGS.len()];
+    flags[bit(SOLVABLE)] = case.one | case.smaller_two;
+    flags[bit(ANY_SPIRAL)] = any;
     let mut planes = Planes {
-        flags: [case.one | case.smaller_two, 0, 0, 0, any],
+        flags,
         roots: [case.one | case.lone | case.three, two | case.three],
         spirals: [0, 0],
         undecided: all & !(case.known & (any | no)),
@@ -290,10 +300,10 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
         // Theorem 3.1 is sufficient: no spiral, no theorem.
         planes.undecided |= wanted & !((theorem | known.theorem.1 | not_spirals) & (spirals | not_spirals));
         if slot == 0 {
-            planes.flags[1] = theorem & planes.flags[0];
+            planes.flags[bit(THEOREM31)] = theorem & planes.flags[bit(SOLVABLE)];
         }
-        planes.flags[2] |= theorem;
-        planes.flags[3] |= spirals;
+        planes.flags[bit(THEOREM31_ANY)] |= theorem;
+        planes.flags[bit(SPIRAL)] |= spirals;
         count(&mut planes.spirals, spirals);
         seen(RootLanes { root: &root, start: &start, end: &end, wanted, theorem, spirals });
     }

@@ -113,7 +113,8 @@ const SCALARS: &[Scalar] = &[
     Scalar { name: "f1", doc: "f1 of the chosen spiral, in (0, 3), no unit" },
     Scalar {
         name: "margin",
-        doc: "margin of the chosen spiral, in [0, 1], no unit: least value of the spiral polynomial on [0, 1] over its largest Bernstein coefficient",
+        doc: "margin of the chosen spiral, in [0, 1], no unit: least value of the spiral polynomial on [0, 1] over its \
+              largest Bernstein coefficient",
     },
 ];
 
@@ -121,7 +122,8 @@ const CHARTS: &[Chart] = &[
     Chart {
         name: "curvature",
         axes: &["phi0", "phi1", "kappa0", "kappa1"],
-        doc: "phi0, phi1: angles of the end tangents against the chord, radians, positive, phi0 + phi1 < pi; kappa0, kappa1: signed end curvatures times half the chord",
+        doc: "phi0, phi1: angles of the end tangents against the chord, radians, positive, phi0 + phi1 < pi; kappa0, \
+              kappa1: signed end curvatures times half the chord",
     },
     Chart {
         name: "normalised",
@@ -147,8 +149,9 @@ impl Family for Cubic {
             name: "cubic",
             title: "cubic Bezier spirals matching G2 Hermite data (Habib & Sakai)",
             charts: CHARTS,
-            conventions: "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos phi1, sin phi1); \
-         curvature positive to the left and increasing along the curve; lengths in half chords, angles in radians",
+            conventions: "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos \
+                          phi1, sin phi1); curvature positive to the left and increasing along the curve; lengths in \
+                          half chords, angles in radians",
             flags: FLAGS,
             yes: &["SPIRAL"],
             nested: &["ANY_SPIRAL", "SPIRAL", "THEOREM31_ANY", "THEOREM31"],

@@ -8,11 +8,11 @@ use std::f64::consts::PI;
 ///
 /// The worst is `curve0 = (sin φ1 / S)² / sin φ0`: two sines of 10 units and a division, twice, then a sine of 10
 /// and two roundings: 2 · 21 + 1 + 10 + 1 = 54. A product with a curvature adds 1.
-pub const PAIR_ERROR: f64 = 64.0;
+pub(super) const PAIR_ERROR: f64 = 64.0;
 
 /// The constants of a pair of tangent angles; see [`super::poly`] for p, r, g0, g1.
 #[derive(Debug, Clone, Copy)]
-pub struct Pair {
+pub(super) struct Pair {
     /// sin φ0 cos φ1 / S; negative beyond φ1 = π/2.
     pub p: f64,
     /// cos φ0 sin φ1 / S.
@@ -41,7 +41,7 @@ const LEAST_SINE: f64 = 1.0 / ((1u64 << 50) as f64);
 impl Pair {
     /// The constants of `0 < φ0`, `0 < φ1`, `φ0 + φ1 < π`, or `None` where a sine is under 2^-50 or the sum so close to
     /// π that it rounds to π: such pairs are left to intervals.
-    pub fn new(phi0: f64, phi1: f64) -> Option<Pair> {
+    pub(super) fn new(phi0: f64, phi1: f64) -> Option<Pair> {
         if phi0 + phi1 >= PI {
             return None;
         }
@@ -69,7 +69,7 @@ impl Pair {
 
     /// The same, each constant correctly rounded from intervals; `None` also where 128 bits do not tell the nearest
     /// double.
-    pub fn precise(phi0: f64, phi1: f64) -> Option<Pair> {
+    pub(super) fn precise(phi0: f64, phi1: f64) -> Option<Pair> {
         let rough = Pair::new(phi0, phi1)?;
         let angles = Angles::cached(phi0, phi1, 128)?;
         Some(Pair {

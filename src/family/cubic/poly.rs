@@ -17,7 +17,7 @@ use crate::num::{Number, formula};
 
 /// `[B0, B1, B2]` at (x, y) with `u = 3 - x`; for the other end pass (y, x; r, g1, p) and negate.
 #[inline(always)]
-pub fn side<N: Number>(x: &N, y: &N, p: &N, g: &N, r: &N) -> [N; 3] {
+pub(super) fn side<N: Number>(x: &N, y: &N, p: &N, g: &N, r: &N) -> [N; 3] {
     let u = formula!(3.0 - x);
     let u2 = u.mul(&u);
     let xu = x.mul(&u);
@@ -47,7 +47,7 @@ pub fn side<N: Number>(x: &N, y: &N, p: &N, g: &N, r: &N) -> [N; 3] {
 /// in another order. `slope_i` is the sum of the largest |∂/∂x| and |∂/∂y| over the box, term by term:
 /// 12|p| + 25g, (192 + 102)|p| + (207 + 132)g + 108|r|, (81 + 14)|p| + (81 + 54)g + 57|r|.
 #[derive(Debug, Clone, Copy)]
-pub struct Bounds {
+pub(super) struct Bounds {
     /// Error of evaluation.
     pub rounding: [f64; 3],
     /// Error per unit of uncertainty of the root.
@@ -56,7 +56,7 @@ pub struct Bounds {
 
 impl Bounds {
     /// The bounds for one end; `gamma` is Γ above.
-    pub fn new(p: f64, g: f64, r: f64, gamma: f64) -> Bounds {
+    pub(super) fn new(p: f64, g: f64, r: f64, gamma: f64) -> Bounds {
         let (p, r) = (p.abs(), r.abs());
         Bounds {
             rounding: [18.0 * p + 62.0 * g, 420.0 * p + 563.0 * g + 108.0 * r, 628.0 * p + 774.0 * g + 30.0 * r]
@@ -66,7 +66,7 @@ impl Bounds {
     }
 
     /// The two ends of a pair: (φ0 side, φ1 side).
-    pub fn of_pair(pair: &Pair, gamma: f64) -> (Bounds, Bounds) {
+    pub(super) fn of_pair(pair: &Pair, gamma: f64) -> (Bounds, Bounds) {
         (Bounds::new(pair.p, pair.g0, pair.r, gamma), Bounds::new(pair.r, pair.g1, pair.p, gamma))
     }
 }

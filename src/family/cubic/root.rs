@@ -2,14 +2,15 @@
 //! there.
 
 use super::poly::{Bounds, side};
-use super::precision::{Precision, Prepared};
+use super::precision::{ENDS, Precision, Prepared, SMALL, THROUGH_X, TRIED};
+use crate::family::rows::bits;
 use crate::num::bernstein::Quintic;
-use crate::num::{Lanes, Number};
-use fearless_simd::{Simd, SimdBase, SimdMask};
+use crate::num::{COVER, Lanes, Number};
+use fearless_simd::{Simd, SimdBase};
 
 /// A vector of data: κ0, κ1 and the normalised a, k, each within [`Precision::input`].
 #[derive(Debug, Clone, Copy)]
-pub struct Data<S: Simd> {
+pub(super) struct Data<S: Simd> {
     /// a = κ0 d0² / (4 sin φ0).
     pub a: S::f64s,
     /// k = κ1 d1² / (4 sin φ1).
@@ -20,11 +21,6 @@ pub struct Data<S: Simd> {
     pub kappa1: S::f64s,
     /// How accurate the four are.
     pub precision: Precision,
-}
-
-#[inline(always)]
-pub(super) fn bits<S: Simd>(mask: S::mask64s) -> u64 {
-    mask.to_bitmask()
 }
 
 /// A root known to lie within `delta` of (x, y), in both coordinates.
@@ -69,9 +65,8 @@ pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -
         }
     }
     let (_, error, y, slope) = residual(simd, d, x);
-    // Any δ would do that the proof accepts; this one it usually does: F moves by 2.5 errors, of which the value at x
-    // may take one half and the proof needs one.
-    let delta = error * 2.5 / slope.abs() + x * 2f64.powi(-50);
+    // Any δ would do that the proof accepts; this one it usually does.
+    let delta = error * TRIED / slope.abs() + x * 2f64.powi(-50);
     let (low, high) = (x - delta, x + delta);
     let (f_low, e_low, _, _) = residual(simd, d, low);
     let (f_high, e_high, y_high, _) = residual(simd, d, high);
@@ -80,12 +75,10 @@ pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -
     let inside = low.simd_gt(zero)
         & high.simd_le(S::f64s::splat(simd, 3.0))
         & y_high.simd_gt(S::f64s::splat(simd, d.precision.eta()));
-    let small = (delta * 64.0).simd_lt(x);
-    // The root lies between the rounded x - δ and x + δ, each off by up to 2 units for x up to 3; 1.01 covers δ's own
-    // rounding.
-    let delta = delta * 1.01 + 4.0 * Precision::F64.unit;
-    // |y - y*| <= a (2x + δ) δ + η, and δ < x/60.
-    let delta_y = d.a * x * delta * 2.1 + d.precision.eta();
+    let small = (delta * SMALL).simd_lt(x);
+    // The root lies between the rounded x - δ and x + δ.
+    let delta = delta * COVER + ENDS * Precision::F64.unit;
+    let delta_y = d.a * x * delta * THROUGH_X + d.precision.eta();
     Root { x, y, delta: delta.max(delta_y), low, high, proved: bits::<S>(crossing & inside & small) }
 }
 
@@ -118,12 +111,11 @@ impl<S: Simd> Side<S> {
     /// `w² B0, w B1, w B2`, and how far each may be off before its own rounding: w and the B are off by `delta` and
     /// their errors.
     #[inline(always)]
-    pub fn weighed(&self, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
+    pub(super) fn weighed(&self, w: S::f64s, delta: S::f64s) -> [(S::f64s, S::f64s); 3] {
         let ([b0, b1, b2], [e0, e1, e2], near) = (self.value, self.error, w + delta);
-        // 1.01 covers the roundings of the bounds themselves.
-        let square = (near * near * e0 + (w + near) * delta * b0.abs()) * 1.01;
-        let first = (near * e1 + delta * b1.abs()) * 1.01;
-        let second = (near * e2 + delta * b2.abs()) * 1.01;
+        let square = (near * near * e0 + (w + near) * delta * b0.abs()) * COVER;
+        let first = (near * e1 + delta * b1.abs()) * COVER;
+        let second = (near * e2 + delta * b2.abs()) * COVER;
         [(w * w * b0, square), (w * b1, first), (w * b2, second)]
     }
 }

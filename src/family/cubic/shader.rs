@@ -1,9 +1,9 @@
 //! What the shader of `shaders/cubic/` reads: constants and tables, generated from the same Rust as the f64 step.
 
+use super::FLAGS;
 use super::pair;
 use super::poly::Bounds;
-use super::precision::Precision;
-use super::{ANY_SPIRAL, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
+use super::precision::{ENDS, Precision, ROUNDINGS, SMALL, THROUGH, THROUGH_X, TRIED};
 use crate::family::kernel::{constants, fragment, tables};
 use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
@@ -21,13 +21,6 @@ const KAPPA_LEAST: f64 = 1e-24;
 
 pub(super) fn shader() -> Shader {
     const P: Precision = Precision::F32;
-    let flags = [
-        ("SOLVABLE", SOLVABLE),
-        ("THEOREM31", THEOREM31),
-        ("THEOREM31_ANY", THEOREM31_ANY),
-        ("SPIRAL", SPIRAL),
-        ("ANY_SPIRAL", ANY_SPIRAL),
-    ];
     let numbers = [
         ("UNIT", P.unit),
         ("THIRD", P.third()),
@@ -36,12 +29,18 @@ pub(super) fn shader() -> Shader {
         ("ETA", P.eta()),
         ("RESIDUAL", P.residual()),
         ("RESIDUAL_FLOOR", P.residual_floor()),
+        ("ENDS", ENDS * P.unit),
+        ("ROUNDINGS", ROUNDINGS * P.unit),
+        ("TRIED", TRIED),
+        ("SMALL", SMALL),
+        ("THROUGH_X", THROUGH_X),
+        ("THROUGH", THROUGH),
         ("MOST", MOST),
         ("LEAST", 1.0 / MOST),
         ("KAPPA_MOST", KAPPA_MOST),
     ];
     Shader {
-        constants: constants(&flags, &[], &numbers) + &Pair::wgsl(),
+        constants: constants(FLAGS, &[], &numbers) + &Pair::wgsl(),
         fragments: vec![
             fragment!("lib/outer.wgsl"),
             fragment!("lib/bernstein.wgsl"),

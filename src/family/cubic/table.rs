@@ -21,7 +21,7 @@ pub(super) struct CubicTable<'g> {
 }
 
 impl<'g> CubicTable<'g> {
-    pub fn new(grid: &'g Grid, level: Level) -> Result<CubicTable<'g>> {
+    pub(super) fn new(grid: &'g Grid, level: Level) -> Result<CubicTable<'g>> {
         let chart = chart_of(&Cubic, grid)?;
         check_grid(grid)?;
         Ok(CubicTable { grid, normalised: chart == 1, level })

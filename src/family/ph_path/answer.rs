@@ -1,4 +1,4 @@
-//! What `query` tells of one datum.
+//! What `query` reports of one datum.
 
 use super::datum::{Datum, check};
 use super::truth::{Greatest, least};
@@ -24,7 +24,7 @@ pub(super) fn answer(kind: Kind, point: &[f64]) -> Result<Answer> {
     let sizes: Vec<f64> = choice.candidates.iter().map(|c| c.curve.greatest_curvature().1).collect();
     let regular = |i: &usize| choice.candidates[*i].regular;
     let chosen = (0..sizes.len()).filter(regular).min_by(|i, j| sizes[*i].total_cmp(&sizes[*j]));
-    Ok(Answer { code, derived, solutions: choice.candidates.iter().zip(sizes).map(told).collect(), chosen })
+    Ok(Answer { code, derived, solutions: choice.candidates.iter().zip(sizes).map(values).collect(), chosen })
 }
 
 /// The proved value, rounded to nearest: by two doubles, or else by intervals.
@@ -64,7 +64,7 @@ fn solutions(datum: &Datum) -> Result<Choice> {
     }
 }
 
-fn told((candidate, kappa_max): (&Candidate, f64)) -> Values {
+fn values((candidate, kappa_max): (&Candidate, f64)) -> Values {
     let mut values: Values = vec![("regular", candidate.regular.into())];
     // Where it stands still, the curvature is infinite or nothing at all.
     if candidate.regular {

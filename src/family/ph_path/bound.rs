@@ -5,7 +5,7 @@
 //! sizes no `κ(t_i)` alone has a large least value over a box, because each falls where another rises. The mean whose
 //! slopes cancel changes by the second order of the box's size only.
 
-use super::arc::{Arc, Complex, re};
+use crate::curve::hodograph::{Complex, Hodograph, re};
 use crate::num::{Number, Quadratic, Real, formula};
 
 /// Parts that are looked at for peaks.
@@ -23,7 +23,7 @@ fn parts() -> impl Iterator<Item = f64> {
 
 /// What the greatest |κ| exceeds in a box wherever the arc is longer than the chord by no more than `beyond`; as much
 /// as is `enough`, or more.
-pub(super) fn bound(arc: &Arc<Quadratic>, beyond: f64, enough: f64) -> f64 {
+pub(super) fn bound(arc: &Hodograph<Quadratic>, beyond: f64, enough: f64) -> f64 {
     // Both the length's thirds and fifths and the bound in chords are rounded.
     let over = arc.beyond_chord().plus(-beyond * (1.0 + 1e-15));
     if over.low() > 0.0 {
@@ -50,7 +50,7 @@ pub(super) fn bound(arc: &Arc<Quadratic>, beyond: f64, enough: f64) -> f64 {
 }
 
 /// |κ| at t where it keeps its sign, or else a number below; `None` where it may be infinite.
-fn bend(arc: &Arc<Quadratic>, t: f64) -> Option<Quadratic> {
+fn bend(arc: &Hodograph<Quadratic>, t: f64) -> Option<Quadratic> {
     let at = |[a, b, c]: [&Quadratic; 3]| mixed(&mixed(a, b, t), &mixed(b, c, t), t);
     let w = [0, 1].map(|i| at([0, 1, 2].map(|k| &arc.w[k][i])));
     let speed = re(&w, &w);
@@ -68,7 +68,7 @@ fn mixed(a: &Quadratic, b: &Quadratic, t: f64) -> Quadratic {
 }
 
 /// About where inside |κ| has peaks in the middle of the box.
-fn peaks(arc: &Arc<Quadratic>) -> Vec<f64> {
+fn peaks(arc: &Hodograph<Quadratic>) -> Vec<f64> {
     let plain = arc.plain();
     let samples: Vec<(f64, f64)> = parts().map(|t| (t, plain.bend(t))).collect();
     let inside = samples.windows(3).filter(|s| s[1].1 > s[0].1 && s[1].1 >= s[2].1).map(|s| s[1].0);
@@ -86,7 +86,7 @@ fn peaks(arc: &Arc<Quadratic>) -> Vec<f64> {
 /// Nearer and nearer to where the curve is slow: parameters at which |κ| is above a limit in the middle of the box.
 ///
 /// The peak there may be too sharp to be enclosed, but its slopes are not.
-fn slopes(arc: &Arc<Quadratic>, limit: f64) -> Vec<f64> {
+fn slopes(arc: &Hodograph<Quadratic>, limit: f64) -> Vec<f64> {
     let plain = arc.plain();
     let beside =
         |t: f64| (1..10).flat_map(move |k| [-1.0, 1.0].map(|side| on_grid(t.clamp(0.0, 1.0) + side * 0.5f64.powi(k))));
@@ -99,7 +99,7 @@ fn slopes(arc: &Arc<Quadratic>, limit: f64) -> Vec<f64> {
 ///
 /// Where σ falls at a and rises at b there is such a place between these, and |w| is nowhere between them less than
 /// there.
-fn needle(arc: &Arc<Quadratic>, enough: f64) -> f64 {
+fn needle(arc: &Hodograph<Quadratic>, enough: f64) -> f64 {
     let slow = arc.plain().slow();
     let mut best = 0.0f64;
     for reach in [0.125, 0.25, 0.0625, 0.5, 0.03125] {
@@ -122,7 +122,7 @@ fn needle(arc: &Arc<Quadratic>, enough: f64) -> f64 {
 }
 
 /// w and w' at t.
-fn moved(arc: &Arc<Quadratic>, t: f64) -> (Complex<Quadratic>, Complex<Quadratic>) {
+fn moved(arc: &Hodograph<Quadratic>, t: f64) -> (Complex<Quadratic>, Complex<Quadratic>) {
     let [w0, w1, w2] = &arc.w;
     let legs = [0, 1].map(|i| [mixed(&w0[i], &w1[i], t), mixed(&w1[i], &w2[i], t)]);
     let slopes = [0, 1].map(|i| mixed(&w1[i].sub(&w0[i]), &w2[i].sub(&w1[i]), t).times(2.0));

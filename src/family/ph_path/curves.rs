@@ -2,12 +2,12 @@
 //!
 //! With `w0 = √l0 e^(iθ0/2)`, `w2 = ±√l1 e^(iθ1/2)` the ends leave `w1 = (±√Z - 3(w0 + w2))/4`,
 //! `Z = 120 - 15w0² - 15w2² + 10w0w2`. A given arc length with equal end speeds z is the same with `l0 = l1 = z`, where
-//! z and √Z follow from (10)-(13): see `curve/equal_length.rs`.
+//! z and √Z follow from Farouki et al., (10)-(13): see `curve/equal_length.rs`.
 
 use super::Kind;
-use super::arc::{Arc, Complex};
 use super::datum::{Datum, Symmetry, Turned};
 use super::straight;
+use crate::curve::hodograph::{Complex, Hodograph};
 use crate::num::{Ball, Quadratic, Real, formula};
 use std::cmp::Ordering::{Equal, Greater, Less};
 
@@ -15,7 +15,7 @@ use std::cmp::Ordering::{Equal, Greater, Less};
 #[derive(Debug, Clone)]
 pub(super) struct Curve<N> {
     /// All of it.
-    pub whole: Arc<N>,
+    pub whole: Hodograph<N>,
     /// Its second half is an image of the first: what is asked of |κ| may be asked of that.
     pub folded: bool,
     /// One of the paper's: `w2` with the positive sign.
@@ -81,7 +81,7 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
 }
 
 /// All four solutions for sizes in ranges, symmetric or not.
-pub(super) fn boxed(theta: [f64; 2], size: [Quadratic; 2]) -> Option<Vec<Arc<Quadratic>>> {
+pub(super) fn boxed(theta: [f64; 2], size: [Quadratic; 2]) -> Option<Vec<Hodograph<Quadratic>>> {
     let half = theta.map(|theta| Ball::half_turn(theta, 53).map(Quadratic::ball));
     let given = Given { kind: Kind::Hermite, half, size, symmetry: Symmetry::None };
     let mut all = Vec::with_capacity(4);
@@ -118,13 +118,13 @@ fn solutions<N: Real>(
     let signs: &[f64] = if mirrored { &[0.25] } else { &[0.25, -0.25] };
     signs.iter().map(move |sign| {
         let w1 = [0, 1].map(|i| formula!(root[i] * { *sign } - 0.75 * (w0[i] + w2[i])));
-        Curve { whole: Arc::new([w0.clone(), w1, w2.clone()]), folded, paper, flat: false, tied: false }
+        Curve { whole: Hodograph::new([w0.clone(), w1, w2.clone()]), folded, paper, flat: false, tied: false }
     })
 }
 
 impl<N: Real> Curve<N> {
     /// What is looked at for |κ|: half of a symmetric curve.
-    pub fn part(&self) -> Arc<N> {
+    pub(super) fn part(&self) -> Hodograph<N> {
         if self.folded {
             self.whole.halves().into_iter().next().unwrap_or_else(|| self.whole.clone())
         } else {

@@ -26,12 +26,12 @@ pub(super) struct Datum {
 }
 
 impl Datum {
-    pub fn new(kind: Kind, node: &[f64]) -> Datum {
+    pub(super) fn new(kind: Kind, node: &[f64]) -> Datum {
         let size = [node[2], node[kind.axes().len() - 1]];
         Datum { kind, theta: [node[0], node[1]], size }
     }
 
-    pub fn symmetry(&self) -> Symmetry {
+    pub(super) fn symmetry(&self) -> Symmetry {
         let [first, last] = self.theta;
         match (first, last) {
             _ if first == 0.0 && last == 0.0 => Symmetry::Line,
@@ -68,7 +68,7 @@ pub(super) fn check(kind: Kind, axis: usize, value: f64) -> Result<()> {
         }
         (_, Kind::Hermite) => ((LEAST..=MOST).contains(&value), "1e-6 to 1e6, in chords"),
     };
-    if fits { Ok(()) } else { Err(Error::Domain(format!("{name} is {value:?}; it must be {range}"))) }
+    if fits { Ok(()) } else { Err(Error::domain(name, value, range)) }
 }
 
 /// Numbers that have sines.

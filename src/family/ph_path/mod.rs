@@ -7,26 +7,23 @@
 //! - The scalar is the least of four greatest curvatures. A minimum needs no winner: overlapping enclosures are united.
 //!   The flags need one, which is proved by a single curvature that it stays below and each other exceeds; two that tie
 //!   for all precisions are told by symmetry (`curves.rs`, `truth.rs`).
-//! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`arc.rs`). v is just above the value at a peak
-//!   (scalars), between two solutions (winner), or the end's own curvature, whose zero is left out (PEAK_INSIDE).
+//! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`curve/hodograph.rs`). v is just above the value at a
+//!   peak (scalars), between two solutions (winner), or the end's own curvature, whose zero is left out (PEAK_INSIDE).
 //!   Guesses are free: a missed peak is where the certificate fails, and the next start.
 //! - Both angles 0 make straight lines, decided by exact signs (`straight.rs`).
 //! - `range.rs` runs the same formulas on ranges of sizes, as doubles with that much error: the bounds of
 //!   `path/least_curvature.rs`.
 
 mod answer;
-mod arc;
 mod bound;
 mod curves;
 mod datum;
-mod peak;
 mod range;
 mod shader;
 mod straight;
 mod table;
 mod truth;
 
-pub(crate) use arc::bends_less;
 pub(crate) use range::{Candidate, Search};
 
 use super::{About, Answer, Chart, Family, Flag, Scalar, Table};
@@ -81,11 +78,13 @@ const FLAGS: &[Flag] = &[
 const SCALARS: &[Scalar] = &[
     Scalar {
         name: "kappa_max",
-        doc: "greatest |curvature| times the chord, the least of all solutions that stand still nowhere; at least 0; beyond the largest single, that",
+        doc: "greatest |curvature| times the chord, the least of all solutions that stand still nowhere; at least 0; \
+              beyond the largest single, that",
     },
     Scalar {
         name: "kappa_max_paper",
-        doc: "the same of the two solutions with w2 of the positive sign, which the paper takes; none where both stand still",
+        doc: "the same of the two solutions with w2 of the positive sign, which the paper takes; none where both stand \
+              still",
     },
 ];
 
@@ -93,14 +92,14 @@ const CHARTS: [&[Chart]; 2] = [
     &[Chart {
         name: "length",
         axes: &["theta0", "theta1", "S"],
-        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-9 and more); \
-              S: arc length over the chord, above 1 by at least 1e-6, at most 1e6",
+        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, \
+              or 1e-9 and more); S: arc length over the chord, above 1 by at least 1e-6, at most 1e6",
     }],
     &[Chart {
         name: "speeds",
         axes: &["theta0", "theta1", "l0", "l1"],
-        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, or 1e-9 and more); \
-              l0, l1: lengths of the end derivatives over the chord, 1e-6 to 1e6",
+        doc: "theta0, theta1: directions at start and end against the chord, radians, counter-clockwise, -pi to pi (0, \
+              or 1e-9 and more); l0, l1: lengths of the end derivatives over the chord, 1e-6 to 1e6",
     }],
 ];
 
@@ -114,8 +113,8 @@ const EQUAL_LENGTH: About = About {
     name: "ph-equal-length",
     title: "the least greatest curvature of PH quintics of given arc length (Farouki et al.)",
     charts: CHARTS[Kind::EqualLength as usize],
-    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients w0, w1, w2, |w0| = |w2|; \
-                 lengths in chords, curvatures in their inverses, angles in radians",
+    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients \
+                  w0, w1, w2, |w0| = |w2|; lengths in chords, curvatures in their inverses, angles in radians",
     flags: FLAGS,
     yes: &["REGULAR"],
     nested: &["REGULAR", "ONE_WAY"],
@@ -127,8 +126,9 @@ const HERMITE: About = About {
     name: "ph-hermite",
     title: "the least greatest curvature of PH quintics with given end derivatives (Farouki et al.)",
     charts: CHARTS[Kind::Hermite as usize],
-    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients w0, w1, w2, |w0|^2 = l0, \
-                 |w2|^2 = l1; lengths in chords, curvatures in their inverses, angles in radians",
+    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients \
+                  w0, w1, w2, |w0|^2 = l0, |w2|^2 = l1; lengths in chords, curvatures in their inverses, angles in \
+                  radians",
     ..EQUAL_LENGTH
 };
 

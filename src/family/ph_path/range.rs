@@ -1,10 +1,10 @@
 //! Solutions at sizes and over ranges of sizes, for searches.
 
 use super::Kind;
-use super::arc::Arc;
 use super::bound::bound;
 use super::curves::{boxed, curves};
 use super::datum::Datum;
+use crate::curve::hodograph::Hodograph;
 use crate::num::{Ball, Quadratic};
 
 /// Solutions with end directions (to the chord) that are longer than the chord by no more than `beyond`, in chords.
@@ -29,7 +29,7 @@ impl Search {
     /// With `w = u + iv` such a solution is longer than its chord by `∫ |w|² - Re w² = 2 ∫ v²`, and a polynomial v of
     /// degree 2 has `∫ v² >= v²/9` at either end, where it is `√l sin(θ/2)`. The same of |w| makes sizes at most nine
     /// times the length.
-    pub fn sizes(&self) -> [f64; 2] {
+    pub(crate) fn sizes(&self) -> [f64; 2] {
         self.theta.map(|theta| {
             let sine = (0.5 * theta).sin();
             // A little more than the roundings.
@@ -38,14 +38,14 @@ impl Search {
     }
 
     /// The solution at these sizes that bends least.
-    pub fn at(&self, size: [f64; 2]) -> Option<Candidate> {
+    pub(crate) fn at(&self, size: [f64; 2]) -> Option<Candidate> {
         let curves = curves::<Ball>(&Datum { kind: Kind::Hermite, theta: self.theta, size }, 53)?;
         if curves.straight {
             let [a, b] = size.map(f64::sqrt);
             let middle = ((120.0 - 15.0 * (a * a + b * b) + 10.0 * a * b).sqrt() - 3.0 * (a + b)) / 4.0;
             return Some(Candidate { most: 0.0, beyond: 0.0, preimage: [[a, 0.0], [middle, 0.0], [b, 0.0]] });
         }
-        let found = |part: Arc<Ball>, whole: &Arc<Ball>| Candidate {
+        let found = |part: Hodograph<Ball>, whole: &Hodograph<Ball>| Candidate {
             most: part.guess().1,
             beyond: whole.beyond_chord().value,
             preimage: whole.w.map(|z| z.map(|x| x.value)),
@@ -59,7 +59,7 @@ impl Search {
     /// both the same in the first).
     ///
     /// As much as is `enough`, or more.
-    pub fn least(&self, size: [[f64; 2]; 2], equal: bool, enough: f64) -> f64 {
+    pub(crate) fn least(&self, size: [[f64; 2]; 2], equal: bool, enough: f64) -> f64 {
         let first = Quadratic::along(size[0], 0);
         let last = if equal { first } else { Quadratic::along(size[1], 1) };
         let Some(arcs) = boxed(self.theta, [first, last]) else { return 0.0 };

@@ -1,6 +1,6 @@
 //! What the shaders of `shaders/ph_path/` read.
 
-use super::{Kind, ONE_WAY, PAPER, PEAK_INSIDE, REGULAR};
+use super::{FLAGS, Kind};
 use crate::family::kernel::{constants, fragment, tables};
 use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
@@ -20,9 +20,8 @@ const MOST: f64 = (1u32 << 20) as f64;
 const LEAST_SINE: f64 = 1.0 / (1u64 << 60) as f64;
 
 pub(super) fn shader(kind: Kind) -> Shader {
-    let flags = [("REGULAR", REGULAR), ("ONE_WAY", ONE_WAY), ("PEAK_INSIDE", PEAK_INSIDE), ("PAPER", PAPER)];
     let numbers = [("UNIT", UNIT), ("SIDE", SIDE), ("TINY", TINY)];
-    let shared = [fragment!("ph_path/arc.wgsl"), fragment!("ph_path/truth.wgsl")];
+    let shared = [fragment!("ph_path/hodograph.wgsl"), fragment!("ph_path/truth.wgsl")];
     let (record, own) = match kind {
         Kind::EqualLength => {
             (Units::wgsl() + &Sums::wgsl() + &Lengths::wgsl(), fragment!("ph_path/curves_of_length.wgsl"))
@@ -30,7 +29,7 @@ pub(super) fn shader(kind: Kind) -> Shader {
         Kind::Hermite => (Units::wgsl(), fragment!("ph_path/curves_of_speeds.wgsl")),
     };
     Shader {
-        constants: constants(&flags, &[], &numbers) + &record,
+        constants: constants(FLAGS, &[], &numbers) + &record,
         fragments: shared.into_iter().chain([own]).collect(),
     }
 }

@@ -18,7 +18,7 @@ pub(super) struct PathTable<'g> {
 }
 
 impl<'g> PathTable<'g> {
-    pub fn new(kind: Kind, grid: &'g Grid) -> Result<PathTable<'g>> {
+    pub(super) fn new(kind: Kind, grid: &'g Grid) -> Result<PathTable<'g>> {
         chart_of(&PhPath(kind), grid)?;
         for (which, axis) in grid.axes().iter().enumerate() {
             axis.values().iter().try_for_each(|value| check(kind, which, *value))?;

@@ -1,9 +1,9 @@
 //! Verdicts and values of a datum: doubles with error bounds and intervals of growing precision run the same steps.
 
-use super::arc::{Arc, Bound};
 use super::curves::{Curve, Curves, curves};
 use super::datum::{Datum, Turned};
 use super::{ONE_WAY, PAPER, PEAK_INSIDE, REGULAR};
+use crate::curve::hodograph::{Bound, Hodograph};
 use crate::family::Code;
 use crate::num::Real;
 use crate::num::Verdict;
@@ -22,7 +22,7 @@ pub(super) enum Greatest<N> {
 /// A solution with the part that is looked at, from its greater end, and its guessed peak.
 struct Seen<'c, N> {
     curve: &'c Curve<N>,
-    part: Arc<N>,
+    part: Hodograph<N>,
     at: f64,
     most: f64,
 }
@@ -37,7 +37,7 @@ impl<N: Real> Seen<'_, N> {
 
 /// What is looked at of a curve, the end that bends more first: a peak may be closer to that than doubles tell
 /// parameters from 1. It may bend more by far less than doubles tell, too.
-fn oriented<N: Real>(curve: &Curve<N>) -> Arc<N> {
+fn oriented<N: Real>(curve: &Curve<N>) -> Hodograph<N> {
     let part = curve.part();
     let at = |t: f64| part.curvature(&N::of(t, part.turn[0].bits()));
     match (at(0.0), at(1.0)) {
@@ -149,7 +149,7 @@ fn winners<'c, N: Real>(mut close: Vec<Seen<'c, N>>, datum: &Datum, bits: usize)
 }
 
 /// Whether h keeps its sign.
-fn one_way<N: Real>(curve: &Arc<N>) -> Verdict {
+fn one_way<N: Real>(curve: &Hodograph<N>) -> Verdict {
     let turn = &curve.turn;
     let depth = if turn[0].bits() <= 53 { 20 } else { 100 };
     let [first, _, last] = [0, 1, 2].map(|i| turn[i].certain_sign(0.0));

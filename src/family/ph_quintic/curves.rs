@@ -57,19 +57,19 @@ fn scale(alpha: f64) -> f64 {
 
 impl<N: Real> Curves<N> {
     /// The equations; `None` when the precision does not suffice.
-    pub fn of(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Curves<N>> {
+    pub(super) fn of(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Curves<N>> {
         let quarter = pair.sin.times(4.0);
         let bend = |kappa: f64| N::of(kappa, quarter.bits()).over(&quarter);
         Some(Curves::bent([bend(kappa[0])?, bend(kappa[1])?], pair.cos.clone(), pair.right.clone(), pair.skew.clone()))
     }
 
     /// The same from α, β and what the angles give.
-    pub fn bent(bend: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
+    pub(super) fn bent(bend: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
         Curves::scaled([bend[0].approx(), bend[1].approx()], bend, cos, right, skew)
     }
 
     /// About the same in doubles, for guesses.
-    pub fn approx(&self) -> Curves<f64> {
+    pub(super) fn approx(&self) -> Curves<f64> {
         let near = |x: &[N; 2]| [x[0].approx(), x[1].approx()];
         Curves::new(self.scale, near(&self.bend), self.cos.approx(), near(&self.right), self.skew.approx())
     }
@@ -78,7 +78,7 @@ impl<N: Real> Curves<N> {
 impl<N: Number> Curves<N> {
     /// The same, where α and β are about `largest` or less.
     #[inline(always)]
-    pub fn scaled(largest: [f64; 2], [alpha, beta]: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
+    pub(super) fn scaled(largest: [f64; 2], [alpha, beta]: [N; 2], cos: N, right: [N; 2], skew: N) -> Curves<N> {
         let [p, q] = largest.map(scale);
         let bend = [formula!(alpha * { p } * { p } * { p }), formula!(beta * { q } * { q } * { q })];
         Curves::new([p, q], bend, cos, right, skew)
@@ -105,7 +105,7 @@ impl<N: Number> Curves<N> {
 
     /// The same datum with its ends exchanged: Z and t become b² and 1/t, and the curves change places.
     #[inline(always)]
-    pub fn reversed(&self) -> Curves<N> {
+    pub(super) fn reversed(&self) -> Curves<N> {
         let swap = |x: &[N; 2]| [x[1].clone(), x[0].clone()];
         Curves::new(
             [self.scale[1], self.scale[0]],
@@ -118,7 +118,7 @@ impl<N: Number> Curves<N> {
 
     /// Both left-hand sides at t.
     #[inline(always)]
-    pub fn at(&self, t: &N) -> [Cubic<N>; 2] {
+    pub(super) fn at(&self, t: &N) -> [Cubic<N>; 2] {
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
         let first = t.times(self.scale[0] * self.scale[1]);
@@ -155,7 +155,7 @@ impl<N: Real> Curves<N> {
     /// `s' = Σ w m² / Σ w k` and `s'' = (Σ w m³ - 3 s' Σ w m k) / Σ w k`, `m = j - ks`, of both curves at t, with their
     /// heights and slopes there; all may be enclosures over an interval. For w changes with x as `w m`, m as `-k s'`,
     /// and `Σ w m = 0`.
-    pub fn slope_changes(&self, t: &N, at: impl Fn(usize) -> (N, N)) -> Option<[Changes<N>; 2]> {
+    pub(super) fn slope_changes(&self, t: &N, at: impl Fn(usize) -> (N, N)) -> Option<[Changes<N>; 2]> {
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
         let first = t.times(self.scale[0] * self.scale[1]);
@@ -191,7 +191,7 @@ impl<N: Real> Curves<N> {
     }
 
     /// D'' and D''' at a knot.
-    pub fn change(&self, knot: &Knot<N>) -> Option<[N; 2]> {
+    pub(super) fn change(&self, knot: &Knot<N>) -> Option<[N; 2]> {
         let [from, to] = self.slope_changes(&knot.t, |i| (knot.z[i].clone(), knot.s[i].clone()))?;
         Some([to.first.sub(&from.first), to.second.sub(&from.second)])
     }
@@ -200,7 +200,7 @@ impl<N: Real> Curves<N> {
 impl Cubic<f64> {
     /// About where the cubic reaches `right`: Newton's method, which comes down to it from the least height one term
     /// alone would need.
-    pub fn guess(&self, right: f64) -> f64 {
+    pub(super) fn guess(&self, right: f64) -> f64 {
         let [c0, c1, c2] = self.c;
         let mut z = (right / c0).min((right / c1).sqrt());
         // A cube root costs more than all the rest, and is seldom the least.
@@ -219,7 +219,7 @@ impl Cubic<f64> {
     }
 
     /// s at height z.
-    pub fn slope(&self, z: f64) -> f64 {
+    pub(super) fn slope(&self, z: f64) -> f64 {
         let ([c0, c1, c2], [j0, j1, j2]) = (self.c, self.j);
         ((j2 * z + j1) * z + j0) / ((3.0 * c2 * z + 2.0 * c1) * z + c0)
     }
@@ -230,7 +230,7 @@ impl<N: Real> Cubic<N> {
     ///
     /// `d ln F / d ln Z >= 1`, so a relative residual r puts Z within the factor `exp(±|ln(1 + r)|)`, inside
     /// `1 ± 1.05 r` for `|r| < 1/64`.
-    pub fn height(&self, right: &N, guess: f64) -> Option<N> {
+    pub(super) fn height(&self, right: &N, guess: f64) -> Option<N> {
         let [c0, c1, c2] = &self.c;
         let value = |z: &N| formula!(((c2 * z + c1) * z + c0) * z);
         let rise = |z: &N| formula!((3.0 * (c2 * z) + 2.0 * c1) * z + c0);
@@ -262,7 +262,7 @@ impl<N: Real> Cubic<N> {
     }
 
     /// s at height z.
-    pub fn slope_at(&self, z: &N) -> Option<N> {
+    pub(super) fn slope_at(&self, z: &N) -> Option<N> {
         let ([c0, c1, c2], [j0, j1, j2]) = (&self.c, &self.j);
         let rise = formula!((3.0 * (c2 * z) + 2.0 * c1) * z + c0);
         formula!((j2 * z + j1) * z + j0).over(&rise)

@@ -17,7 +17,7 @@ pub(super) struct Knot<N> {
 
 impl<N: Real> Knot<N> {
     /// D'.
-    pub fn turn(&self) -> N {
+    pub(super) fn turn(&self) -> N {
         self.s[1].sub(&self.s[0])
     }
 }

@@ -53,7 +53,7 @@ fn most_looks(bits: usize) -> usize {
 }
 
 impl<N: Real> March<N> {
-    pub fn new(curves: Curves<N>) -> March<N> {
+    pub(super) fn new(curves: Curves<N>) -> March<N> {
         let fast = curves.approx();
         March { curves, fast }
     }
@@ -63,7 +63,7 @@ impl<N: Real> March<N> {
     }
 
     /// Both curves at t.
-    pub fn knot(&self, t: N) -> Option<Knot<N>> {
+    pub(super) fn knot(&self, t: N) -> Option<Knot<N>> {
         count();
         let (near, exact) = (self.fast.at(&t.approx()), self.curves.at(&t));
         let side = |i: usize| {
@@ -85,7 +85,7 @@ impl<N: Real> March<N> {
     }
 
     /// All solutions, by increasing t; `None` when the precision does not suffice.
-    pub fn roots(&self) -> Option<Vec<Root<N>>> {
+    pub(super) fn roots(&self) -> Option<Vec<Root<N>>> {
         let mut roots = Vec::new();
         for (a, b) in self.brackets()? {
             roots.push(self.enclose(&a, &b)?);
@@ -94,7 +94,7 @@ impl<N: Real> March<N> {
     }
 
     /// How many solutions there are, each between two knots.
-    pub fn brackets(&self) -> Option<Vec<(Knot<N>, Knot<N>)>> {
+    pub(super) fn brackets(&self) -> Option<Vec<(Knot<N>, Knot<N>)>> {
         let mut brackets = Vec::new();
         let (mut a, last) = (self.first()?, self.last()?);
         let mut waiting = vec![last];
@@ -221,7 +221,7 @@ impl<N: Real> March<N> {
     }
 
     /// About where D is 0: Newton's method for D as a function of ln t, kept between the knots.
-    pub fn guess(&self, a: &Knot<N>, b: &Knot<N>) -> f64 {
+    pub(super) fn guess(&self, a: &Knot<N>, b: &Knot<N>) -> f64 {
         let (mut low, mut high) = (a.t.approx(), b.t.approx());
         let side = a.gap.approx() > 0.0;
         let mut t = (low * high).sqrt();

@@ -30,7 +30,7 @@ fn right<N: Real>(sin0: &N, sin1: &N, sin: &N) -> Option<[N; 2]> {
 
 impl Pair<Ball> {
     /// The pair in doubles; `None` where the sum rounds to π.
-    pub fn new(phi0: f64, phi1: f64) -> Option<Pair<Ball>> {
+    pub(super) fn new(phi0: f64, phi1: f64) -> Option<Pair<Ball>> {
         if phi0 + phi1 >= PI {
             return None;
         }
@@ -55,7 +55,7 @@ impl Pair<Ball> {
 
 impl Pair<Interval> {
     /// [`Pair::exact`], kept for the next call: neighbouring nodes share their angles.
-    pub fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Pair<Interval>>> {
+    pub(super) fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Pair<Interval>>> {
         type Last = Option<([u64; 2], usize, Rc<Pair<Interval>>)>;
         thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });
         let key = [phi0.to_bits(), phi1.to_bits()];
@@ -70,7 +70,7 @@ impl Pair<Interval> {
     }
 
     /// The pair in intervals; `None` when the precision does not tell that cos Φ is positive.
-    pub fn exact(phi0: f64, phi1: f64, bits: usize) -> Option<Pair<Interval>> {
+    pub(super) fn exact(phi0: f64, phi1: f64, bits: usize) -> Option<Pair<Interval>> {
         let half = |phi: f64| Interval::new(phi, bits).scale(0.5).sine_cosine();
         Pair::of_halves([half(phi0), half(phi1)], phi0 < phi1)
     }
@@ -79,7 +79,7 @@ impl Pair<Interval> {
 impl Pair<Twin> {
     /// The pair in two doubles each; `None` when they do not tell that cos Φ is positive, or where halving an angle may
     /// not be exact.
-    pub fn twins(phi0: f64, phi1: f64) -> Option<Pair<Twin>> {
+    pub(super) fn twins(phi0: f64, phi1: f64) -> Option<Pair<Twin>> {
         let half = |phi: f64| (phi > 1e-300).then(|| Twin::sine_cosine(0.5 * phi));
         Pair::of_halves([half(phi0)?, half(phi1)?], phi0 < phi1)
     }

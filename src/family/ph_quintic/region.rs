@@ -24,8 +24,8 @@ use super::knot::Knot;
 use super::march::{March, Root};
 use super::shape::CurveShape;
 use super::{ANY_SPIRAL, PhQuintic, SOLVABLE, SPIRAL};
-use crate::family::hermite::{clip, holds_box};
-use crate::family::outer_region::{any, fails_within_domain};
+use crate::family::hermite::clip;
+use crate::family::outer_region::{any, facts};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
 use crate::num::bernstein::Certain;
 use crate::num::verdict::{and, or};
@@ -140,18 +140,7 @@ impl Region for PhQuintic {
     }
 
     fn facts(&self, _: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
-        let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else {
-            return Facts::default();
-        };
-        let sides: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
-        if holds_box(&sides) {
-            return prove(&sides, wanted);
-        }
-        let mut facts = Facts::default();
-        if fails_within_domain(&sides) {
-            facts.note(wanted & (ANY_SPIRAL | SPIRAL), Some(false));
-        }
-        facts
+        facts(low, high, wanted & (ANY_SPIRAL | SPIRAL), |sides| prove(sides, wanted))
     }
 }
 

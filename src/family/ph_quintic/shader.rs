@@ -1,7 +1,7 @@
 //! What the shader of `shaders/ph_quintic/` reads: constants and tables.
 
+use super::FLAGS;
 use super::pair;
-use super::{ANY_SPIRAL, SOLVABLE, SPIRAL};
 use crate::family::kernel::{constants, fragment, tables};
 use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
@@ -31,7 +31,6 @@ const LEAST_Z: f64 = 1.0 / MOST_Z;
 const LEAST: f64 = 1.0 / (1u32 << 10) as f64;
 
 pub(super) fn shader() -> Shader {
-    let flags = [("SOLVABLE", SOLVABLE), ("SPIRAL", SPIRAL), ("ANY_SPIRAL", ANY_SPIRAL)];
     let numbers = [
         ("UNIT", UNIT),
         ("TERM", TERM),
@@ -42,7 +41,7 @@ pub(super) fn shader() -> Shader {
         ("LEAST_Z", LEAST_Z),
     ];
     Shader {
-        constants: constants(&flags, &[], &numbers) + &Pair::wgsl() + &Curvature::wgsl(),
+        constants: constants(FLAGS, &[], &numbers) + &Pair::wgsl() + &Curvature::wgsl(),
         fragments: vec![
             fragment!("lib/outer.wgsl"),
             fragment!("lib/bernstein.wgsl"),

@@ -18,7 +18,7 @@ pub(super) struct CurveShape<N> {
 
 impl<N: Real> CurveShape<N> {
     /// The curve; `None` only when a number leaves the range of its arithmetic.
-    pub fn new(curves: &Curves<N>, root: &Root<N>) -> Option<CurveShape<N>> {
+    pub(super) fn new(curves: &Curves<N>, root: &Root<N>) -> Option<CurveShape<N>> {
         let one = N::of(1.0, root.t.bits());
         let third = one.over(&N::of(3.0, root.t.bits()))?;
         Some(CurveShape::of(curves, &root.t, &root.z, [&one, &third]))
@@ -28,7 +28,7 @@ impl<N: Real> CurveShape<N> {
 impl<N: Number> CurveShape<N> {
     /// The curve of a solution; the last are 1 and 1/3.
     #[inline(always)]
-    pub fn of(curves: &Curves<N>, t: &N, z: &N, [one, third]: [&N; 2]) -> CurveShape<N> {
+    pub(super) fn of(curves: &Curves<N>, t: &N, z: &N, [one, third]: [&N; 2]) -> CurveShape<N> {
         let ([p, q], [alpha, beta], cos) = (curves.scale, &curves.bend, &curves.cos);
         let t2 = t.mul(t);
         let t3 = t2.mul(t);
@@ -49,13 +49,13 @@ impl<N: Number> CurveShape<N> {
     }
 
     /// Bernstein coefficients of κ' up to a positive function, times 10.
-    pub fn quintic(&self) -> Quintic<N> {
+    pub(super) fn quintic(&self) -> Quintic<N> {
         self.sums().map(|[gain, loss]| gain.sub(&loss))
     }
 
     /// The same as what adds to each and what is taken away: sums of positive terms.
     #[inline(always)]
-    pub fn sums(&self) -> [[N; 2]; 6] {
+    pub(super) fn sums(&self) -> [[N; 2]; 6] {
         let [h0, h1, h2] = &self.turn;
         let [s0, s1, s2, s3, s4] = &self.speed;
         let [b0, b1, b2] = half([h0, h1, h2], [s0, s1, s2, s3]);

@@ -20,7 +20,7 @@ pub(super) struct PhTable<'g> {
 }
 
 impl<'g> PhTable<'g> {
-    pub fn new(grid: &'g Grid) -> Result<PhTable<'g>> {
+    pub(super) fn new(grid: &'g Grid) -> Result<PhTable<'g>> {
         chart_of(&PhQuintic, grid)?;
         check_grid(grid)?;
         Ok(PhTable { grid, level: Level::new() })

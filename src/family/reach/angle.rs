@@ -2,7 +2,6 @@
 
 use super::Kind;
 use crate::error::{Error, Result};
-use crate::family::hermite::told_angle;
 use crate::num::sines::{cos, sin};
 use crate::num::{Interval, Real, Twin, formula};
 use std::cell::RefCell;
@@ -40,7 +39,7 @@ pub(super) fn factors(kind: Kind) -> (f64, f64) {
 
 impl Angle {
     /// The constants, or `None` where a sine is under 2^-50: such angles are left to intervals.
-    pub fn new(kind: Kind, theta: f64) -> Option<Angle> {
+    pub(super) fn new(kind: Kind, theta: f64) -> Option<Angle> {
         let least = 2f64.powi(-50);
         let (sin_theta, cos_theta) = (sin(theta), cos(theta));
         let half = cos(0.5 * theta);
@@ -72,7 +71,7 @@ pub(super) struct ExactAngle<N> {
 
 impl ExactAngle<Interval> {
     /// Kept for the next call: neighbouring nodes share their angle.
-    pub fn cached(kind: Kind, theta: f64, bits: usize) -> Option<Rc<ExactAngle<Interval>>> {
+    pub(super) fn cached(kind: Kind, theta: f64, bits: usize) -> Option<Rc<ExactAngle<Interval>>> {
         type Key = (Kind, u64, usize);
         thread_local!(static LAST: RefCell<Option<(Key, Rc<ExactAngle<Interval>>)>> = const { RefCell::new(None) });
         let key = (kind, theta.to_bits(), bits);
@@ -93,7 +92,7 @@ impl ExactAngle<Interval> {
 
 impl ExactAngle<Twin> {
     /// In two doubles each.
-    pub fn twins(kind: Kind, theta: f64) -> Option<ExactAngle<Twin>> {
+    pub(super) fn twins(kind: Kind, theta: f64) -> Option<ExactAngle<Twin>> {
         ExactAngle::of(kind, Twin::sine_cosine(theta))
     }
 }
@@ -123,11 +122,8 @@ pub(super) fn check(kind: Kind, theta: f64) -> Result<()> {
     if theta > 0.0 && theta <= most {
         return Ok(());
     }
-    Err(Error::Domain(format!(
-        "theta is {}; for `{}` it must be above 0 and below {name} (radians; write `40deg` for degrees)",
-        told_angle(theta),
-        kind.name()
-    )))
+    let limit = format!("above 0 and below {name} for `{}`", kind.name());
+    Err(Error::angle("theta", theta, limit, "radians; write `40deg` for degrees"))
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ pub(super) struct SegmentShape<N> {
 
 impl<N: Real> SegmentShape<N> {
     /// q.
-    pub fn q(&self, angle: &ExactAngle<N>) -> Option<N> {
+    pub(super) fn q(&self, angle: &ExactAngle<N>) -> Option<N> {
         angle.length.over(&self.u)
     }
 }

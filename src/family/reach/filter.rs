@@ -7,10 +7,10 @@ use super::angle::{Angle, SCALE_ERROR};
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::family::Code;
-use crate::num::Lanes;
-use crate::num::Verdict;
+use crate::family::rows::bits;
 use crate::num::bernstein::positive;
-use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask};
+use crate::num::{COVER, Lanes, Verdict};
+use fearless_simd::{Simd, SimdBase, SimdFloat};
 
 /// Constants of the error bounds: they count operations for each term, so they hold with fused multiply-adds and
 /// reassociation.
@@ -37,7 +37,7 @@ pub(super) struct Precision {
 }
 
 impl Precision {
-    pub const F64: Precision = Precision {
+    pub(super) const F64: Precision = Precision {
         unit: 1.0 / (1u64 << 53) as f64,
         scale: SCALE_ERROR + 2.0,
         side: 14.0,
@@ -48,7 +48,7 @@ impl Precision {
         most_beta: (1u128 << 120) as f64,
         range_u: (1.0 / (1u128 << 100) as f64, (1u128 << 84) as f64),
     };
-    pub const F32: Precision = Precision {
+    pub(super) const F32: Precision = Precision {
         unit: 1.0 / (1u32 << 24) as f64,
         scale: 5.0,
         side: 6.0,
@@ -60,26 +60,32 @@ impl Precision {
         range_u: (1.0 / (1u32 << 24) as f64, (1u32 << 14) as f64),
     };
 
-    pub const fn scale(self) -> f64 {
+    pub(super) const fn scale(self) -> f64 {
         self.scale * self.unit
     }
-    pub const fn side(self) -> f64 {
+    pub(super) const fn side(self) -> f64 {
         self.side * self.unit
     }
-    pub const fn shape(self) -> f64 {
+    pub(super) const fn shape(self) -> f64 {
         self.shape * self.unit
     }
-    pub const fn coefficient(self) -> f64 {
+    pub(super) const fn coefficient(self) -> f64 {
         self.coefficient * self.unit
     }
     /// G: at most seven operations a term.
-    pub const fn residual(self) -> f64 {
+    pub(super) const fn residual(self) -> f64 {
         8.0 * self.unit
     }
 }
 
 /// Relative errors of u and m must be below this; the factors 1.05 and 1.1 below cover what is of second order.
 pub(super) const SMALL: f64 = 1.0 / 64.0;
+/// Errors of G in the δ that is tried for u: the value at the guess may take one half, and the proof needs one.
+pub(super) const TRIED: f64 = 2.5;
+/// Covers what the cubic's bounds leave out: roundings of their own computation, and squares of errors.
+pub(super) const LOOSE: f64 = 1.05;
+/// u to the second power is off by twice the relative error of u, and by its square.
+pub(super) const THROUGH_U: f64 = 2.2;
 
 /// m*, rounded.
 pub(super) const fn least_drawn_m(kind: Kind) -> f64 {
@@ -90,11 +96,6 @@ pub(super) const fn least_drawn_m(kind: Kind) -> f64 {
 }
 
 const P: Precision = Precision::F64;
-
-#[inline(always)]
-fn bits<S: Simd>(mask: S::mask64s) -> u64 {
-    mask.to_bitmask()
-}
 
 /// A number and how far it may be off.
 #[derive(Clone, Copy)]
@@ -108,7 +109,7 @@ impl<S: Simd> Near<S> {
     #[inline(always)]
     fn scaled(&self, by: f64) -> Near<S> {
         let value = self.value * by;
-        Near { value, error: value.abs() * P.scale() + self.error * (1.01 * by) + P.floor }
+        Near { value, error: value.abs() * P.scale() + self.error * (COVER * by) + P.floor }
     }
 }
 
@@ -125,7 +126,7 @@ pub(super) struct SegmentLanes<S: Simd> {
 
 impl<S: Simd> SegmentLanes<S> {
     /// Whether a lane's segment is proved to exist.
-    pub fn is_found(&self, lane: u32) -> bool {
+    pub(super) fn is_found(&self, lane: u32) -> bool {
         self.found >> lane & 1 == 1
     }
 }
@@ -175,10 +176,10 @@ fn cubic<S: Simd>(simd: S, alpha: &Near<S>, beta: &Near<S>) -> SegmentLanes<S> {
     let one = S::f64s::splat(simd, 1.0);
     let u = one / alpha.value;
     // |u - u*| / u* = |α* u - 1|
-    let rho = ((alpha.value * u - one).abs() + alpha.error * u + 3.0 * P.unit) * 1.05;
+    let rho = ((alpha.value * u - one).abs() + alpha.error * u + 3.0 * P.unit) * LOOSE;
     let square = u * u;
     let sum = beta.value * square;
-    let error = (beta.error * square + sum.abs() * rho * 2.0) * 1.05 + (sum.abs() + one) * (4.0 * P.unit);
+    let error = (beta.error * square + sum.abs() * rho * 2.0) * LOOSE + (sum.abs() + one) * (4.0 * P.unit);
     SegmentLanes { u: Near { value: u, error: rho }, m: Near { value: sum - one, error }, found: u64::MAX, none: 0 }
 }
 
@@ -197,7 +198,7 @@ fn residual<S: Simd>(beta: &Near<S>, m: &Near<S>, u: S::f64s) -> Near<S> {
     let size = m.value.abs();
     let terms = (size + 3.0) * u * 2.0 + size * (size + 1.0) * 3.0 + 2.0 + right.0.abs();
     let through_m = (u * 2.0 + size * 6.0 + 3.0 + m.error * 3.0) * m.error;
-    Near { value: left.0 - right.0, error: (through_m + beta.error * (u * u * u)) * 1.01 + terms * P.residual() }
+    Near { value: left.0 - right.0, error: (through_m + beta.error * (u * u * u)) * COVER + terms * P.residual() }
 }
 
 /// The equation for u of the PH quintic.
@@ -252,15 +253,15 @@ fn ph<S: Simd>(simd: S, g: f64, alpha: &Near<S>, beta: &Near<S>, wanted: u64) ->
     }
     let (m, value) = curve.at(u);
     // Any δ would do that the proof accepts.
-    let delta = (value.error * 2.5 / curve.slope(m.value, value.value, u) + 4.0 * P.unit) * u;
+    let delta = (value.error * TRIED / curve.slope(m.value, value.value, u) + 4.0 * P.unit) * u;
     let (low, high) = (u - delta, u + delta);
     let ((m_low, g_low), (_, g_high)) = (curve.at(low), curve.at(high));
     let monotone = (m_low.value - m_low.error).simd_gt(least);
     let crossing = monotone & g_low.value.simd_lt(-g_low.error) & g_high.value.simd_gt(g_high.error);
     // Where rounding has turned the slope, δ is no length and proves nothing.
     let found = bits::<S>(crossing & low.simd_gt(zero) & delta.simd_gt(zero));
-    let rho = delta / u * 1.01 + 4.0 * P.unit;
-    let error = m.error + (alpha.value * u + g * 12.0) * u * 2.2 * rho;
+    let rho = delta / u * COVER + 4.0 * P.unit;
+    let error = m.error + (alpha.value * u + g * 12.0) * u * THROUGH_U * rho;
     SegmentLanes { u: Near { value: u, error: rho }, m: Near { value: m.value, error }, found, none }
 }
 
@@ -285,7 +286,7 @@ pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Segmen
     let value = coefficients(kind, &Lanes::<S>(m), &Lanes(u), &Lanes(g), -1.0);
     let mut error = coefficients(kind, &Lanes::<S>(m), &Lanes(u), &Lanes(g), 1.0);
     // A term has m to the third power at most, u to the second.
-    let relative = shape.m.error / m * 3.3 + shape.u.error * 2.2 + P.coefficient();
+    let relative = shape.m.error / m * 3.3 + shape.u.error * THROUGH_U + P.coefficient();
     let (mut above, mut below) = ([0; 4], [0; 4]);
     for i in 0..6 {
         error[i] = Lanes(error[i].0 * relative);

@@ -128,22 +128,24 @@ const SCALARS: &[Scalar] = &[
 const CUBIC_CHARTS: &[Chart] = &[Chart {
     name: "end-point",
     axes: &["theta", "xi", "eta"],
-    doc: "theta: angle from the start to the end tangent, radians, in (0, pi/2); (xi, eta): end point over r, start at (0, 0) along (1, 0)",
+    doc: "theta: angle from the start to the end tangent, radians, in (0, pi/2); (xi, eta): end point over r, start at \
+          (0, 0) along (1, 0)",
 }];
 
 const PH_CHARTS: &[Chart] = &[Chart {
     name: "end-point",
     axes: &["theta", "xi", "eta"],
-    doc: "theta: angle from the start to the end tangent, radians, in (0, pi); (xi, eta): end point over r, start at (0, 0) along (1, 0)",
+    doc: "theta: angle from the start to the end tangent, radians, in (0, pi); (xi, eta): end point over r, start at \
+          (0, 0) along (1, 0)",
 }];
 
 const CUBIC: About = About {
     name: Kind::Cubic.name(),
     title: "end points that a cubic spiral segment reaches (Habib & Sakai)",
     charts: CUBIC_CHARTS,
-    conventions: "start point (0, 0), start direction (1, 0), end direction (cos theta, sin theta), curvature positive to the left; case 1: \
-         curvature 0 at the start and 1/r at the end, increasing; case 2: 1/r at the start and 0 at the end, decreasing; lengths in \
-         units of r, angles in radians",
+    conventions: "start point (0, 0), start direction (1, 0), end direction (cos theta, sin theta), curvature positive \
+                  to the left; case 1: curvature 0 at the start and 1/r at the end, increasing; case 2: 1/r at the \
+                  start and 0 at the end, decreasing; lengths in units of r, angles in radians",
     flags: FLAGS,
     yes: &["CASE1_EXACT", "CASE2_EXACT"],
     nested: &["CASE1_EXISTS", "CASE1_EXACT", "CASE1_THEOREM", "CASE1_PAPER"],

@@ -21,7 +21,7 @@ use super::angle::{check, greatest};
 use super::filter::least_drawn_m;
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, Reach, THEOREM};
-use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, clip_side, positive, unit_sign};
+use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, clip_side, positive, sides, unit_sign};
 use crate::num::verdict::{and, or};
 use crate::num::{Ball, Form, Number, Real, Verdict, formula};
 
@@ -221,15 +221,12 @@ impl Region for Reach {
     }
 
     fn facts(&self, _: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
-        let (Ok(low), Ok(high)) = (<[f64; 3]>::try_from(low), <[f64; 3]>::try_from(high)) else {
-            return Facts::default();
-        };
         let kind = self.0;
-        let inside = check(kind, low[0]).is_ok() && check(kind, high[0]).is_ok();
-        if !inside || !low.iter().chain(&high).all(|x| x.is_finite()) {
-            return Facts::default();
-        }
-        let [theta, xi, eta]: [Three; 3] = std::array::from_fn(|i| Three::centred([low[i], high[i]], i));
+        let within = |sides: &[[f64; 2]; 3]| {
+            sides[0].iter().all(|x| check(kind, *x).is_ok()) && sides.iter().flatten().all(|x| x.is_finite())
+        };
+        let Some(sides) = sides(low, high).filter(within) else { return Facts::default() };
+        let [theta, xi, eta]: [Three; 3] = std::array::from_fn(|i| Three::centred(sides[i], i));
         let angle = Angle::new(kind, &theta);
         let h = formula!(xi * theta.sine() - eta * theta.cosine());
         let mut facts = Facts::default();

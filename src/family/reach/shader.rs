@@ -1,7 +1,7 @@
 //! What the shaders read: constants and tables, generated from the same Rust as the f64 step.
 
 use super::angle;
-use super::filter::{Precision, SMALL, least_drawn_m};
+use super::filter::{LOOSE, Precision, SMALL, THROUGH_U, TRIED, least_drawn_m};
 use super::poly::{LEAST_M, MONOTONE_M};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::family::kernel::{constants, fragment, tables};
@@ -20,8 +20,10 @@ const MOST: f64 = (1u32 << 30) as f64;
 
 pub(super) fn shader(kind: Kind) -> Shader {
     const P: Precision = Precision::F32;
-    let flags =
-        [("EXISTS", EXISTS), ("EXACT", EXACT), ("THEOREM", THEOREM), ("PAPER", PAPER), ("CASE_BITS", CASE_BITS as u8)];
+    // Of each case, whose bits are CASE_BITS apart.
+    let levels = [("EXISTS", EXISTS), ("EXACT", EXACT), ("THEOREM", THEOREM), ("PAPER", PAPER)];
+    let levels = levels.map(|(name, bit)| (name, usize::from(bit)));
+    let counts = [&levels[..], &[("CASE_BITS", CASE_BITS as usize)]].concat();
     let star = least_drawn_m(kind);
     let numbers = [
         ("UNIT", P.unit),
@@ -37,6 +39,9 @@ pub(super) fn shader(kind: Kind) -> Shader {
         ("MOST_U", P.range_u.1),
         ("MOST_M", MOST_M),
         ("SMALL", SMALL),
+        ("TRIED", TRIED),
+        ("LOOSE", LOOSE),
+        ("THROUGH_U", THROUGH_U),
         ("LEAST", LEAST),
         ("LEAST_M", LEAST_M),
         ("MONOTONE_M", MONOTONE_M),
@@ -48,7 +53,7 @@ pub(super) fn shader(kind: Kind) -> Shader {
         Kind::Ph => fragment!("reach/poly_ph.wgsl"),
     };
     Shader {
-        constants: constants(&flags, &[], &numbers) + &Angle::wgsl(),
+        constants: constants(&[], &counts, &numbers) + &Angle::wgsl(),
         fragments: vec![fragment!("lib/bernstein.wgsl"), fragment!("reach/filter.wgsl"), own],
     }
 }

@@ -4,7 +4,7 @@ use super::angle::{Angle, ExactAngle, check};
 use super::exact::{Rooted, SegmentShape, judge, judge_shape};
 use super::filter::{Near, shape, sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, finite, positive};
 use crate::family::{Code, NO_VALUE};
 use crate::num::{Interval, Twin, climb};
 use fearless_simd::{Level as SimdLevel, Simd, SimdBase, dispatch};
@@ -90,11 +90,8 @@ pub struct Reached {
 pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
     let Datum { theta, xi, eta } = *datum;
     check(kind, theta)?;
-    for (name, value) in [("xi", xi), ("eta", eta)] {
-        if !value.is_finite() {
-            return Err(Error::Domain(format!("{name} is {value}; it must be finite")));
-        }
-    }
+    finite("xi", xi)?;
+    finite("eta", eta)?;
     let twins = ExactAngle::twins(kind, theta);
     let case = |case| {
         let found = match twins.as_ref().and_then(|angle| segment(kind, angle, [xi, eta], case, Twin::to_f64)) {
@@ -108,8 +105,9 @@ pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
             }
         };
         match found {
-            Some(s) if !(s.m.is_finite() && s.q.is_finite()) => Err(Error::Domain(format!(
-                "{} leaves the range of doubles for theta = {theta:?}, xi = {xi:?}, eta = {eta:?}; choose less extreme numbers",
+            Some(s) if !(s.m.is_finite() && s.q.is_finite()) => Err(Error::invalid(format!(
+                "{} leaves the range of doubles for theta = {theta:?}, xi = {xi:?}, eta = {eta:?}; choose less extreme \
+                 numbers",
                 if s.m.is_finite() { "q" } else { "m" }
             ))),
             other => Ok(other),
@@ -138,11 +136,8 @@ fn segment<N: Rooted>(
 /// [`Error::Undecided`] at the precision cap.
 pub fn level_of_shape(kind: Kind, theta: f64, m: f64, q: f64) -> Result<Level> {
     check(kind, theta)?;
-    for (name, value) in [("m", m), ("q", q)] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(Error::Domain(format!("{name} is {value:?}; it must be finite and above 0")));
-        }
-    }
+    positive("m", m)?;
+    positive("q", q)?;
     let key = (kind, [theta, m, q].map(f64::to_bits));
     // Joins are made of a few shapes, again and again.
     type Known = VecDeque<((Kind, [u64; 3]), Level)>;

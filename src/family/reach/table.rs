@@ -21,7 +21,7 @@ pub(super) struct ReachTable<'g> {
 }
 
 impl<'g> ReachTable<'g> {
-    pub fn new(kind: Kind, grid: &'g Grid) -> Result<ReachTable<'g>> {
+    pub(super) fn new(kind: Kind, grid: &'g Grid) -> Result<ReachTable<'g>> {
         chart_of(&Reach(kind), grid)?;
         let theta = grid.axes()[0].values();
         check(kind, theta[0])?;

@@ -14,7 +14,7 @@ pub struct Shape {
     pub ratio: f64,
     /// Angle between the end tangents, radians, in (0, π/2).
     pub theta: f64,
-    /// `u0/u1` of (9), positive.
+    /// `u0/u1` of Misro, Ramli and Ali, (9), positive.
     pub m: f64,
     /// Shape parameter of the start, in (-4, 1].
     pub p: f64,

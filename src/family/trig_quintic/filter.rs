@@ -5,9 +5,8 @@ use super::plain::{flags, printed_ratio};
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use super::{END_RISES, PRINTED_RATIO, SPIRAL};
 use crate::family::Code;
-use crate::num::Lanes;
-use crate::num::Verdict;
 use crate::num::bernstein::{Certain, positive};
+use crate::num::{COVER, Lanes, Verdict};
 use fearless_simd::{Simd, SimdBase};
 
 /// 2^-53.
@@ -43,7 +42,7 @@ pub(super) fn decide<N: Certain>(value: &[N; K], size: &[f64; K], relative: f64)
     // their errors.
     let side = |sign: f64| {
         let c: [N; K] = std::array::from_fn(|i| value[i].plus(sign * relative * size[i]));
-        let largest = size.iter().fold(0.0f64, |most, s| most.max(*s)) * 1.01;
+        let largest = size.iter().fold(0.0f64, |most, s| most.max(*s)) * COVER;
         positive(&c, 0.0, largest * ((K - 1) as f64 * UNIT), DEPTH)
     };
     match side(-1.0) {

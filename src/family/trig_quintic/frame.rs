@@ -1,10 +1,9 @@
 //! The domain, and what depends on the ratio and the angle alone.
 
 use super::poly::Frame;
-use crate::error::{Error, Result};
-use crate::family::hermite::told_angle;
+use crate::error::{Error, Result, positive};
+use crate::num::Interval;
 use crate::num::sines::{cos, sin};
-use crate::num::{Interval, told};
 use std::f64::consts::FRAC_PI_2;
 
 /// Names of the coordinates, in order.
@@ -21,22 +20,20 @@ pub(super) const FRAME_ERRORS: [f64; 3] = [12.0, 23.0, 45.0];
 /// [`Error::Domain`] outside the domain: ratio and m positive, θ in (0, π/2), p and q in (-4, 1]. At -4 a derivative at
 /// an end is 0.
 pub(super) fn check(which: usize, value: f64) -> Result<()> {
-    let (fine, domain) = match which {
+    let name = NAMES[which];
+    match which {
         // The double next to π/2 lies below it.
-        1 => (value > 0.0 && value <= FRAC_PI_2, "above 0 and below pi/2 (radians; write `45deg` for degrees)"),
-        3 | 4 => (value > -4.0 && value <= 1.0, "above -4 and at most 1"),
-        _ => (value > 0.0 && value.is_finite(), "finite and above 0"),
-    };
-    if fine {
-        return Ok(());
+        1 if value > 0.0 && value <= FRAC_PI_2 => Ok(()),
+        1 => Err(Error::angle(name, value, "above 0 and below pi/2", "radians; write `45deg` for degrees")),
+        3 | 4 if value > -4.0 && value <= 1.0 => Ok(()),
+        3 | 4 => Err(Error::domain(name, value, "above -4 and at most 1")),
+        _ => positive(name, value).map(drop),
     }
-    let value = if which == 1 { told_angle(value) } else { told(value) };
-    Err(Error::Domain(format!("{} is {value}; it must be {domain}", NAMES[which])))
 }
 
 impl Frame<f64> {
     /// Within [`FRAME_ERRORS`]; `None` for angles so small that their squares might underflow.
-    pub fn new(ratio: f64, theta: f64) -> Option<Frame<f64>> {
+    pub(super) fn new(ratio: f64, theta: f64) -> Option<Frame<f64>> {
         let (sine, cosine) = (sin(theta), cos(theta));
         let whole = 1.0 + cosine;
         let tangent = sine / whole;
@@ -51,7 +48,7 @@ impl Frame<f64> {
 
 impl Frame<Interval> {
     /// In intervals; `None` when the precision does not suffice.
-    pub fn exact(ratio: f64, theta: f64, bits: usize) -> Option<Frame<Interval>> {
+    pub(super) fn exact(ratio: f64, theta: f64, bits: usize) -> Option<Frame<Interval>> {
         let (sine, cosine) = Interval::sin_cos(theta, bits);
         let whole = cosine.plus(1.0);
         let y = Interval::new(ratio, bits).over(&whole.scale(2.0))?;

@@ -54,26 +54,28 @@ const FLAGS: &[Flag] = &[
     Flag {
         name: "PRINTED_RATIO",
         label: "condition as printed",
-        doc: "ratio >= (6 + m)/2, for m = 1 the 7/2 that the paper takes: a condition for polynomial curves, which says nothing here",
+        doc: "ratio >= (6 + m)/2, for m = 1 the 7/2 that the paper takes: a condition for polynomial curves, which says \
+              nothing here",
     },
     Flag {
         name: "END_CURVATURE_AS_PRINTED",
         label: "end curvature as printed",
-        doc: "with (9) as printed the curvature at the end, 15/((4 + q)^2 r), is within a hundredth of the 1/r it should be",
+        doc: "with (9) as printed the curvature at the end, 15/((4 + q)^2 r), is within a hundredth of the 1/r it \
+              should be",
     },
 ];
 
 const SCALARS: &[Scalar] = &[Scalar {
     name: "threshold",
-    doc: "the least ratio from 1/64 on from which all ratios up to 64 give spirals, for this theta, m, p, q (whatever the node's own ratio); \
-          none where 64 gives no spiral; no unit",
+    doc: "the least ratio from 1/64 on from which all ratios up to 64 give spirals, for this theta, m, p, q (whatever \
+          the node's own ratio); none where 64 gives no spiral; no unit",
 }];
 
 const CHARTS: &[Chart] = &[Chart {
     name: "shape",
     axes: &["ratio", "theta", "m", "p", "q"],
-    doc: "ratio: s / tan(theta/2) of (9), above 0; theta: angle from the start to the end tangent, radians, in (0, pi/2); m: u0/u1, above 0; \
-          p, q: shape parameters at start and end, in (-4, 1]",
+    doc: "ratio: s / tan(theta/2) of (9), above 0; theta: angle from the start to the end tangent, radians, in (0, \
+          pi/2); m: u0/u1, above 0; p, q: shape parameters at start and end, in (-4, 1]",
 }];
 
 /// The proved flags of one shape: END_RISES, SPIRAL and so on.
@@ -103,9 +105,10 @@ impl Family for TrigQuintic {
             name: "trig-quintic",
             title: "quintic trigonometric Bezier spirals from a line to a circle (Misro, Ramli & Ali)",
             charts: CHARTS,
-            conventions: "start point (0, 0), start direction (1, 0), curvature 0 at the start and positive to the left; end direction (cos theta, sin theta); \
-         basis (2), control points (3) with (9); angles in radians; the radius scales out of every field: a curve has the end curvature 1/r when \
-         (9) is taken with 15 r / (4 + q)^2 in place of r",
+            conventions: "start point (0, 0), start direction (1, 0), curvature 0 at the start and positive to the \
+                          left; end direction (cos theta, sin theta); basis (2), control points (3) with (9); angles in \
+                          radians; the radius scales out of every field: a curve has the end curvature 1/r when (9) is \
+                          taken with 15 r / (4 + q)^2 in place of r",
             flags: FLAGS,
             yes: &["SPIRAL"],
             nested: &["END_RISES", "SPIRAL"],

@@ -1,9 +1,9 @@
 //! What the shader of `shaders/trig_quintic/` reads.
 
+use super::FLAGS;
 use super::filter::coefficient_error;
 use super::plain::{PRINTED_Q, end_slope, printed_ratio};
 use super::poly::{BERNSTEIN, Frame, K};
-use super::{END_CURVATURE_AS_PRINTED, END_RISES, PRINTED_RATIO, SPIRAL};
 use crate::family::kernel::{constants, fragment, tables};
 use crate::family::record::{Record, record};
 use crate::family::{Shader, ShaderInputs};
@@ -27,14 +27,8 @@ const ERROR: f64 = (coefficient_error([1.1, 1.1, 1.1], 1.0, 2.0) + 1.0) * UNIT;
 const FLOOR: f64 = 1.0 / (1u128 << 80) as f64;
 
 pub(super) fn shader() -> Shader {
-    let flags = [
-        ("END_RISES", END_RISES),
-        ("SPIRAL", SPIRAL),
-        ("PRINTED_RATIO", PRINTED_RATIO),
-        ("END_CURVATURE_AS_PRINTED", END_CURVATURE_AS_PRINTED),
-    ];
     let counts = [("COEFFICIENTS", K), ("MOST_LEVELS", MOST_LEVELS), ("MOST_HALVINGS", MOST_HALVINGS)];
-    let constants = constants(&flags, &counts, &[("UNIT", UNIT), ("ERROR", ERROR), ("FLOOR", FLOOR)]);
+    let constants = constants(FLAGS, &counts, &[("UNIT", UNIT), ("ERROR", ERROR), ("FLOOR", FLOOR)]);
     Shader {
         constants: constants + &Pair::wgsl() + &End::wgsl(),
         fragments: vec![fragment!("trig_quintic/poly.wgsl"), fragment!("trig_quintic/filter.wgsl")],

@@ -19,7 +19,7 @@ pub(super) struct TrigTable<'g> {
 }
 
 impl<'g> TrigTable<'g> {
-    pub fn new(grid: &'g Grid) -> Result<TrigTable<'g>> {
+    pub(super) fn new(grid: &'g Grid) -> Result<TrigTable<'g>> {
         chart_of(&TrigQuintic, grid)?;
         for (which, axis) in grid.axes().iter().enumerate() {
             check(which, axis.values()[0])?;

@@ -14,7 +14,7 @@ impl<const K: usize, const H: usize> Form<K, H> {
     /// A range as `middle + half · symbol`, exactly: every number of the range is that for some place of the symbol.
     ///
     /// The larger distance from the middle to an end is rounded once, by at most one unit; four units more cover that.
-    pub fn centred([low, high]: [f64; 2], symbol: usize) -> Form<K, H> {
+    pub(crate) fn centred([low, high]: [f64; 2], symbol: usize) -> Form<K, H> {
         let middle = 0.5 * low + 0.5 * high;
         let half = (high - middle).max(middle - low);
         let mut form = Form::ball(Ball { value: middle, error: 0.0 });
@@ -39,13 +39,13 @@ impl<const K: usize, const H: usize> Form<K, H> {
     }
 
     /// The sine of an angle whose value is from -3π/2 to 3π/2.
-    pub fn sine(&self) -> Form<K, H> {
+    pub(crate) fn sine(&self) -> Form<K, H> {
         let (sine, cosine) = signed(self.value);
         Form::turned(sine, cosine, &self.rest(), SIN_ERROR)
     }
 
     /// The cosine of such an angle.
-    pub fn cosine(&self) -> Form<K, H> {
+    pub(crate) fn cosine(&self) -> Form<K, H> {
         let (sine, cosine) = signed(self.value);
         Form::turned(cosine, -sine, &self.rest(), SIN_ERROR)
     }
@@ -54,7 +54,7 @@ impl<const K: usize, const H: usize> Form<K, H> {
     ///
     /// The cosine of the sum is taken from those of the angles: two products of numbers within 10 units each and a
     /// difference, all at most 1, are off by less than 44 units.
-    pub fn sine_of_sum(&self, other: &Form<K, H>) -> Form<K, H> {
+    pub(crate) fn sine_of_sum(&self, other: &Form<K, H>) -> Form<K, H> {
         let (x, y) = (self.value, other.value);
         let ((s0, c0), (s1, c1)) = (signed(x), signed(y));
         let value = if x + y < 0.0 { -sin_of_sum(-x, -y) } else { sin_of_sum(x, y) };

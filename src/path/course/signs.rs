@@ -13,13 +13,13 @@ const HALVINGS: usize = 60;
 /// Where a number changes its sign inside a piece, and numbers of the signs that it has beside both ends: 0 where it
 /// has none.
 #[derive(Debug)]
-pub struct Signs {
+pub(super) struct Signs {
     pub inside: Vec<f64>,
     pub ends: [f64; 2],
 }
 
 /// The sign of the curvature's slope.
-pub fn slope(piece: &Piece) -> Signs {
+pub(super) fn slope(piece: &Piece) -> Signs {
     match piece {
         Piece::PhQuintic(curve) => Signs { inside: curve.curvature_extrema(), ends: rise(curve) },
         Piece::Cubic(cubic) => {
@@ -36,7 +36,7 @@ pub fn slope(piece: &Piece) -> Signs {
 }
 
 /// The sign of the curvature.
-pub fn bend(piece: &Piece) -> Signs {
+pub(super) fn bend(piece: &Piece) -> Signs {
     match piece {
         Piece::PhQuintic(curve) => Signs { inside: curve.inflections(), ends: sides(curve) },
         Piece::Cubic(cubic) => {
@@ -56,7 +56,7 @@ pub fn bend(piece: &Piece) -> Signs {
 }
 
 /// The largest curvature by size; NaN where the piece stands still.
-pub fn greatest_curvature(piece: &Piece) -> f64 {
+pub(super) fn greatest_curvature(piece: &Piece) -> f64 {
     match piece {
         Piece::PhQuintic(curve) => {
             if curve.is_regular() {
@@ -75,8 +75,8 @@ pub fn greatest_curvature(piece: &Piece) -> f64 {
 
 /// Numbers of the sign of the curvature's slope at both ends: `σh' - 2hσ'`.
 fn rise(curve: &PhQuintic) -> [f64; 2] {
-    let ([s0, s1, _, s3, s4], [h0, h1, h2]) = (curve.speed_coefficients(), curve.turn_coefficients());
-    [s0 * (h1 - h0) - 4.0 * h0 * (s1 - s0), s4 * (h2 - h1) - 4.0 * h2 * (s4 - s3)]
+    let [first, .., last] = curve.slopes();
+    [first, last]
 }
 
 /// Where the curvature is 0 at an end, within rounding, it has the sign of its slope there: none on a line.
@@ -115,7 +115,7 @@ fn sampled([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> Signs {
 }
 
 /// Whether two numbers have opposite signs; 0 and NaN have none.
-pub fn opposite(a: f64, b: f64) -> bool {
+pub(super) fn opposite(a: f64, b: f64) -> bool {
     (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0)
 }
 

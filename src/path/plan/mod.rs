@@ -15,8 +15,8 @@ mod work;
 
 use super::{ROUNDINGS, Turn, check_joined, distance, finite};
 use crate::curve::PhQuintic;
+use crate::curve::vector::sub;
 use crate::error::{Error, Result};
-use crate::family::ph_path::bends_less;
 use obstacles::{Obstacles, to_segment};
 use open::open;
 use parted::parted;
@@ -24,7 +24,7 @@ use places::{Place, places};
 pub use proof::Clearance;
 use proof::clearance;
 use round::Polyline;
-use search::{Found, Limits, Search, Why};
+use search::{Limits, Search, SearchResult, Why};
 
 /// The clearance is enclosed to this share of the size of the scene.
 const TOLERANCE: f64 = 1e-9;
@@ -155,7 +155,8 @@ impl Scene {
         if away < self.limits().keep {
             let clearance = self.clearance;
             return fail(format!(
-                "`{name}` {point:?} is {away:?} away from obstacles[{i}]; it must be further than the clearance {clearance:?}"
+                "`{name}` {point:?} is {away:?} away from obstacles[{i}]; it must be further than the clearance \
+                 {clearance:?}"
             ));
         }
         Ok(())
@@ -171,7 +172,7 @@ impl Scene {
 }
 
 /// Plans a path among obstacles: a short polyline around their vertices whose corners are rounded by PH quintics
-/// ((15)-(21)).
+/// (Farouki et al., (15)-(21)).
 ///
 /// Each corner stands where the sharpest turn around its vertex would keep the clearance at the greatest curvature, or
 /// a part of that turn. Its curve is then as large as its legs and the obstacles allow. The polyline is the shortest
@@ -199,10 +200,9 @@ pub fn plan(scene: &Scene) -> Result<Plan> {
     let limits = scene.limits();
     let path = route(scene, &obstacles, limits)?;
     let points: Vec<[f64; 2]> = path.iter().map(|place| place.at).collect();
-    let turns = points.windows(3).map(|w| Turn::new(minus(w[1], w[0]), minus(w[2], w[1])));
+    let turns = points.windows(3).map(|w| Turn::new(sub(w[1], w[0]), sub(w[2], w[1])));
     // The search took the same turns.
-    let turns =
-        turns.collect::<Option<Vec<Turn>>>().ok_or_else(|| Error::Domain("plan: the path turns back".into()))?;
+    let turns = turns.collect::<Option<Vec<Turn>>>().ok_or_else(|| Error::invalid("plan: the path turns back"))?;
     let polyline = Polyline { points: &points, turns: &turns };
     let reaches = polyline.reaches(&limits, &obstacles);
     let spans = polyline.spans(&reaches)?;
@@ -264,8 +264,8 @@ fn bounded(i: usize, span: &PhQuintic, most: f64) -> Result<f64> {
     let close = value * (1.0 + 1e-9);
     match () {
         () if value == 0.0 && span.turn_coefficients() == [0.0; 3] => Ok(0.0),
-        () if close <= most && bends_less(span.preimage, close) => Ok(close),
-        () if bends_less(span.preimage, most) => Ok(most),
+        () if close <= most && span.bends_less(close) => Ok(close),
+        () if span.bends_less(most) => Ok(most),
         () => fail(format!("span {i} has a curvature of {value:?}; the greatest allowed, {most:?}, is not proved")),
     }
 }
@@ -288,18 +288,18 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
     let mut longest = f64::INFINITY;
     let sides = SIDES_LOOKED_AT[0] + SIDES_LOOKED_AT[1] * obstacles.sides().count();
     match search(limits, near.clone()).looking_at(sides).run().0 {
-        Found::Path(path, length) if length <= DETOUR * distance(ends[0], ends[1]) => return Ok(path),
-        Found::Path(path, length) => {
+        SearchResult::Path(path, length) if length <= DETOUR * distance(ends[0], ends[1]) => return Ok(path),
+        SearchResult::Path(path, length) => {
             shortest = Some(sharp());
-            if let Some(Found::Path(_, least)) = shortest
+            if let Some(SearchResult::Path(_, least)) = shortest
                 && length <= DETOUR * least
             {
                 return Ok(path);
             }
             (best, longest) = (Some(path), length);
         }
-        Found::None => {}
-        Found::GaveUp => gave_up = true,
+        SearchResult::None => {}
+        SearchResult::GaveUp => gave_up = true,
     }
     let [coarse, fine] = CLOSE.map(|close| open(obstacles, ends, &near, &limits, close));
     let wide = |all: &[f64]| [near.clone(), all.iter().flat_map(|wide| beside(limits, *wide)).collect()].concat();
@@ -312,7 +312,7 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
         let (found, rest) = search(limits, places).within(longest, left).run();
         left = rest;
         match found {
-            Found::Path(path, length) => {
+            SearchResult::Path(path, length) => {
                 (best, longest) = (Some(path), length);
                 // A path in the open alone may be long; but where places are too many for the first search, more work
                 // is in vain.
@@ -320,8 +320,8 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
                     left = left.min(MORE);
                 }
             }
-            Found::None => {}
-            Found::GaveUp => gave_up = true,
+            SearchResult::None => {}
+            SearchResult::GaveUp => gave_up = true,
         }
     }
     if let Some(path) = best {
@@ -329,7 +329,7 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
     }
     let beyond = if gave_up { "; the search gave up before it had tried all, so there may be one" } else { "" };
     match shortest.unwrap_or_else(sharp) {
-        Found::Path(path, _) => none(explain(&path, scene, obstacles, limits) + beyond),
+        SearchResult::Path(path, _) => none(explain(&path, scene, obstacles, limits) + beyond),
         _ => none(format!(
             "no path was found, though obstacles grown by the clearance {:?} do not part `start` from `goal`: \
              a way is too narrow for doubles so far from the origin, or has too many turns{beyond}",
@@ -341,7 +341,7 @@ fn route(scene: &Scene, obstacles: &Obstacles, limits: Limits) -> Result<Vec<Pla
 /// Why the corners of a path cannot be rounded: the one that lacks most.
 fn explain(path: &[Place], scene: &Scene, obstacles: &Obstacles, limits: Limits) -> String {
     let corner = |w: &[Place]| {
-        let (before, after) = (minus(w[1].at, w[0].at), minus(w[2].at, w[1].at));
+        let (before, after) = (sub(w[1].at, w[0].at), sub(w[2].at, w[1].at));
         let (turn, leg) = (Turn::new(before, after)?, before[0].hypot(before[1]).min(after[0].hypot(after[1])));
         Some((w[1], turn, limits.reach(&turn), leg))
     };
@@ -361,13 +361,9 @@ fn explain(path: &[Place], scene: &Scene, obstacles: &Obstacles, limits: Limits)
         place.vertex.map_or(String::new(), |v| format!(" around the vertex {:?} of obstacles[{}]", v.at, v.obstacle));
     let (at, angle, most) = (place.at, turn.angle().to_degrees(), scene.greatest_curvature);
     format!(
-        "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature {most:?} {why}; \
-         allow more curvature"
+        "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature {most:?} \
+         {why}; allow more curvature"
     )
-}
-
-fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-    [p[0] - q[0], p[1] - q[1]]
 }
 
 fn none<T>(why: String) -> Result<T> {
@@ -375,5 +371,5 @@ fn none<T>(why: String) -> Result<T> {
 }
 
 fn fail<T>(what: String) -> Result<T> {
-    Err(Error::Domain(format!("plan: {what}")))
+    Err(Error::invalid(format!("plan: {what}")))
 }

@@ -1,6 +1,7 @@
 //! Polygons among which a path is planned: checked once, their sides in a tree.
 
-use super::{fail, minus};
+use super::fail;
+use crate::curve::vector::sub;
 use crate::error::Result;
 use robust::{Coord, orient2d};
 use rstar::{AABB, Envelope, PointDistance, RTree, RTreeObject, SelectionFunction};
@@ -8,13 +9,13 @@ use std::cell::Cell;
 use std::collections::HashSet;
 
 /// Most vertices of all obstacles together: beyond them the search would take hours.
-pub const MOST_VERTICES: usize = 10_000;
+pub(super) const MOST_VERTICES: usize = 10_000;
 
 type Point = [f64; 2];
 
 /// A side of an obstacle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Side {
+pub(super) struct Side {
     pub ends: [Point; 2],
     /// The obstacle.
     pub obstacle: usize,
@@ -38,7 +39,7 @@ impl PointDistance for Side {
 
 /// Simple polygons, seen as their boundaries.
 #[derive(Debug)]
-pub struct Obstacles {
+pub(super) struct Obstacles {
     /// Vertices without repetition, counterclockwise; none of obstacles that do not matter.
     pub rings: Vec<Vec<Point>>,
     /// The largest coordinate.
@@ -50,7 +51,7 @@ pub struct Obstacles {
 
 impl Obstacles {
     /// Checks that every polygon has three different vertices at least and a boundary that does not meet itself.
-    pub fn new(polygons: &[Vec<Point>]) -> Result<Obstacles> {
+    pub(super) fn new(polygons: &[Vec<Point>]) -> Result<Obstacles> {
         let total: usize = polygons.iter().map(Vec::len).sum();
         if total > MOST_VERTICES {
             return fail(format!(
@@ -93,29 +94,29 @@ impl Obstacles {
     }
 
     /// All sides.
-    pub fn sides(&self) -> impl Iterator<Item = &Side> {
+    pub(super) fn sides(&self) -> impl Iterator<Item = &Side> {
         self.tree.iter()
     }
 
     /// Sides that may be within a distance of a segment: all that are, and some more.
-    pub fn near(&self, segment: [Point; 2], within: f64) -> impl Iterator<Item = &Side> {
+    pub(super) fn near(&self, segment: [Point; 2], within: f64) -> impl Iterator<Item = &Side> {
         self.tree
             .locate_with_selection_function(Near { segment, within })
             .inspect(|_| self.looks.set(self.looks.get() + 1))
     }
 
     /// How many sides [`Obstacles::near`] has given so far: what work is measured by where many sides nearly coincide.
-    pub fn looks(&self) -> usize {
+    pub(super) fn looks(&self) -> usize {
         self.looks.get()
     }
 
     /// The side nearest to a point, about.
-    pub fn nearest(&self, point: Point) -> Option<&Side> {
+    pub(super) fn nearest(&self, point: Point) -> Option<&Side> {
         self.tree.nearest_neighbor(point)
     }
 
     /// The obstacle that holds a point, boundary included: exact.
-    pub fn holding(&self, point: Point) -> Option<usize> {
+    pub(super) fn holding(&self, point: Point) -> Option<usize> {
         self.rings.iter().position(|ring| holds(ring, point))
     }
 
@@ -132,7 +133,8 @@ impl Obstacles {
                 };
                 if meet {
                     return fail(format!(
-                        "obstacles[{}] meets itself: the side from {:?} to {:?} and the one from {:?} to {:?}; split it into simple polygons",
+                        "obstacles[{}] meets itself: the side from {:?} to {:?} and the one from {:?} to {:?}; split it \
+                         into simple polygons",
                         side.obstacle, side.ends[0], side.ends[1], other.ends[0], other.ends[1]
                     ));
                 }
@@ -186,7 +188,7 @@ fn counterclockwise(ring: &mut [Point]) {
 }
 
 /// Positive for a point to the left of the line, negative to the right: the sign is exact.
-pub fn turn([a, b]: [Point; 2], c: Point) -> f64 {
+pub(super) fn turn([a, b]: [Point; 2], c: Point) -> f64 {
     let coord = |p: Point| Coord { x: p[0], y: p[1] };
     orient2d(coord(a), coord(b), coord(c))
 }
@@ -198,7 +200,7 @@ fn folds([a, b]: [Point; 2], c: Point) -> bool {
 }
 
 /// Whether two segments have a point in common: exact.
-pub fn cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+pub(super) fn cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let signs = [turn([a, b], c), turn([a, b], d), turn([c, d], a), turn([c, d], b)].map(sign);
     if signs == [0; 4] {
         // On one line: they meet where their boxes do.
@@ -233,33 +235,33 @@ fn holds(ring: &[Point], p: Point) -> bool {
 /// # Accuracy
 /// 16 units of 2^-53 of the largest distance among the three points: an error of the foot moves it along the segment by
 /// no more.
-pub fn to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (d, v, share) = (minus(b, a), minus(p, a), foot(p, [a, b]));
+pub(super) fn to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let (d, v, share) = (sub(b, a), sub(p, a), foot(p, [a, b]));
     (v[0] - share * d[0]).hypot(v[1] - share * d[1])
 }
 
 /// How far along a segment, as a share of it, its point nearest to p is: an error moves that along the segment.
-pub fn foot(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (d, v) = (minus(b, a), minus(p, a));
+pub(super) fn foot(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let (d, v) = (sub(b, a), sub(p, a));
     let square = d[0] * d[0] + d[1] * d[1];
     if square > 0.0 { ((d[0] * v[0] + d[1] * v[1]) / square).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// How far along the first line, as a share of the first segment, the second one crosses it, about; not finite for
 /// parallel ones.
-pub fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
-    let (p, q, r) = (minus(b, a), minus(d, c), minus(c, a));
+pub(super) fn meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
+    let (p, q, r) = (sub(b, a), sub(d, c), sub(c, a));
     (r[0] * q[1] - r[1] * q[0]) / (p[0] * q[1] - p[1] * q[0])
 }
 
 /// The point at a share of a segment; its ends exactly.
-pub fn along([a, b]: [Point; 2], share: f64) -> Point {
-    let d = minus(b, a);
+pub(super) fn along([a, b]: [Point; 2], share: f64) -> Point {
+    let d = sub(b, a);
     if share == 1.0 { b } else { [a[0] + share * d[0], a[1] + share * d[1]] }
 }
 
 /// Distance of two segments, as accurate as [`to_segment`]; whether they cross is exact.
-pub fn between(one: [Point; 2], two: [Point; 2]) -> f64 {
+pub(super) fn between(one: [Point; 2], two: [Point; 2]) -> f64 {
     let ends = [to_segment(one[0], two), to_segment(one[1], two), to_segment(two[0], one), to_segment(two[1], one)];
     let least = ends.into_iter().fold(f64::INFINITY, f64::min);
     if least > 0.0 && cross(one, two) { 0.0 } else { least }

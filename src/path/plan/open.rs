@@ -1,10 +1,10 @@
 //! Where a path may have corners away from all obstacles, which it needs when it must turn more gently than around
 //! vertices.
 
-use super::minus;
 use super::obstacles::Obstacles;
 use super::places::Place;
 use super::search::{Limits, is_clear};
+use crate::curve::vector::sub;
 use std::cmp::Reverse;
 
 type Point = [f64; 2];
@@ -18,7 +18,13 @@ const APART: f64 = 0.8;
 ///
 /// So there are no more than 7 for each `close` of a turn around either end, and 56 around everything, however crowded
 /// it is.
-pub fn open(obstacles: &Obstacles, ends: [Point; 2], beside: &[Place], limits: &Limits, close: f64) -> Vec<Place> {
+pub(super) fn open(
+    obstacles: &Obstacles,
+    ends: [Point; 2],
+    beside: &[Place],
+    limits: &Limits,
+    close: f64,
+) -> Vec<Place> {
     let ahead = ends.into_iter().flat_map(|end| ahead(obstacles, end, beside, limits, close));
     ahead.chain(around(obstacles, ends, limits.most)).map(|at| Place { at, vertex: None, wide: true }).collect()
 }
@@ -27,7 +33,7 @@ pub fn open(obstacles: &Obstacles, ends: [Point; 2], beside: &[Place], limits: &
 /// close directions in the one where it sees furthest.
 fn ahead(obstacles: &Obstacles, end: Point, beside: &[Place], limits: &Limits, close: f64) -> Vec<Point> {
     let clear = |at: Point| is_clear(obstacles, [end, at], limits.keep);
-    let seen = beside.iter().filter(|place| clear(place.at)).map(|place| minus(place.at, end));
+    let seen = beside.iter().filter(|place| clear(place.at)).map(|place| sub(place.at, end));
     let mut angles: Vec<f64> = seen.map(|d| d[1].atan2(d[0])).collect();
     angles.sort_by(f64::total_cmp);
     if angles.is_empty() {

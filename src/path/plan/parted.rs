@@ -48,7 +48,7 @@ impl Groups {
 /// Such a loop is nowhere as far as the clearance from obstacles, and it crosses the segment between the ends an odd
 /// number of times. Without such a loop there is a path, for the plane is simply connected. `slack` covers the
 /// roundings of distances.
-pub fn parted(obstacles: &Obstacles, ends: [Point; 2], clearance: f64, slack: f64) -> bool {
+pub(super) fn parted(obstacles: &Obstacles, ends: [Point; 2], clearance: f64, slack: f64) -> bool {
     let sides: Vec<&Side> = obstacles.sides().collect();
     let firsts = firsts(obstacles);
     let number = |side: &Side| firsts[side.obstacle] + side.index;

@@ -1,7 +1,7 @@
 //! Where a path may have its corners: beside the convex vertices of obstacles.
 
-use super::minus;
 use super::obstacles::{Obstacles, along, meet};
+use crate::curve::vector::sub;
 use crate::path::Turn;
 
 type Point = [f64; 2];
@@ -21,7 +21,7 @@ const GENTLE: f64 = 0.26;
 
 /// A vertex of an obstacle and its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Vertex {
+pub(super) struct Vertex {
     pub at: Point,
     pub obstacle: usize,
     before: Point,
@@ -30,7 +30,7 @@ pub struct Vertex {
 
 /// A point where a path may turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub(super) struct Place {
     pub at: Point,
     /// The vertex that it turns around; none at start and goal.
     pub vertex: Option<Vertex>,
@@ -47,9 +47,9 @@ const CELL: f64 = 1.0 / 65536.0;
 
 impl Place {
     /// The step of the lattice, and the cell in which the place and its vertex lie; none for places without a vertex.
-    pub fn cell(&self) -> Option<[u64; 5]> {
+    pub(super) fn cell(&self) -> Option<[u64; 5]> {
         let vertex = self.vertex?.at;
-        let far = minus(self.at, vertex);
+        let far = sub(self.at, vertex);
         // The power of 2 below it.
         let step = f64::from_bits((CELL * far[0].hypot(far[1])).to_bits() & EXPONENT);
         let [x, y, u, v] = [self.at[0], self.at[1], vertex[0], vertex[1]].map(|x| ((x / step).floor() + 0.0).to_bits());
@@ -58,15 +58,15 @@ impl Place {
 
     /// On which side of a line through the place its vertex is, when the obstacle's boundary stays there for a while: 1
     /// is left; 0 for start and goal. `None` when it does not: shortest paths do not turn there.
-    pub fn side(&self, along: Point) -> Option<i8> {
+    pub(super) fn side(&self, along: Point) -> Option<i8> {
         let Some(Vertex { at, before, after, .. }) = self.vertex else { return Some(0) };
-        let from = |p: Point| minus(p, self.at);
+        let from = |p: Point| sub(p, self.at);
         let across = |v: Point| along[0] * v[1] - along[1] * v[0];
         let vertex = from(at);
         // Places are not equally far off, so lines that come near a wall slowly must do.
         let awhile = 4.0 * vertex[0].hypot(vertex[1]);
         let wall = |p: Point| {
-            let leg = minus(p, at);
+            let leg = sub(p, at);
             let share = (awhile / leg[0].hypot(leg[1])).min(1.0);
             across([vertex[0] + share * leg[0], vertex[1] + share * leg[1]])
         };
@@ -86,7 +86,7 @@ impl Place {
 /// - `keep`: distance to keep.
 /// - `most`: greatest curvature.
 /// - `wide`: how much further off, in least radii.
-pub fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Place> {
+pub(super) fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Place> {
     let vertices = obstacles.rings.iter().enumerate().flat_map(|(obstacle, ring)| convex(obstacle, ring));
     vertices.flat_map(|v| beside(v, keep, most, wide)).collect()
 }
@@ -96,8 +96,7 @@ pub fn places(obstacles: &Obstacles, keep: f64, most: f64, wide: f64) -> Vec<Pla
 fn convex(obstacle: usize, ring: &[Point]) -> Vec<Vertex> {
     let n = ring.len();
     let at = |i: usize| ring[i % n];
-    let bend =
-        |i: usize| Turn::new(minus(at(i), at(i + n - 1)), minus(at(i + 1), at(i))).map_or(0.0, |turn| turn.angle());
+    let bend = |i: usize| Turn::new(sub(at(i), at(i + n - 1)), sub(at(i + 1), at(i))).map_or(0.0, |turn| turn.angle());
     let gentle = |bend: f64| bend > 0.0 && bend < GENTLE;
     let (mut all, mut first) = (vec![], 0);
     while first < n {
@@ -120,7 +119,7 @@ fn convex(obstacle: usize, ring: &[Point]) -> Vec<Vertex> {
 /// The corners of the offset polygon: one, and those that cut it off in two and three.
 fn beside(vertex: Vertex, keep: f64, most: f64, wide: f64) -> Vec<Place> {
     let Vertex { at, before, after, .. } = vertex;
-    let (incoming, outgoing) = (minus(at, before), minus(after, at));
+    let (incoming, outgoing) = (sub(at, before), sub(after, at));
     let Some(whole) = Turn::new(incoming, outgoing) else { return vec![] };
     let (angle, first) = (whole.angle(), incoming[1].atan2(incoming[0]) - std::f64::consts::FRAC_PI_2);
 

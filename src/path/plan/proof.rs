@@ -64,7 +64,7 @@ struct Search<'o> {
 ///
 /// A piece is no further than `|r''| Δt²/8` from its chord. Errors of points and distances, the roundings of both, are
 /// taken off twice.
-pub fn clearance(spans: &[PhQuintic], obstacles: &Obstacles, wanted: f64, tolerance: f64) -> Option<Clearance> {
+pub(super) fn clearance(spans: &[PhQuintic], obstacles: &Obstacles, wanted: f64, tolerance: f64) -> Option<Clearance> {
     let wanted = wanted.max(f64::MIN_POSITIVE);
     let spans: Vec<Span> = spans.iter().map(|curve| Span::new(curve, obstacles.size)).collect();
     let count = spans.len();

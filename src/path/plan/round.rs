@@ -10,7 +10,7 @@ use crate::path::{Turn, distance};
 const HALVINGS: usize = 12;
 
 /// A polyline with its turns.
-pub struct Polyline<'p> {
+pub(super) struct Polyline<'p> {
     pub points: &'p [[f64; 2]],
     pub turns: &'p [Turn],
 }
@@ -20,7 +20,7 @@ impl Polyline<'_> {
     /// are shorter.
     ///
     /// What the least reaches leave of a leg is halved between its corners.
-    pub fn reaches(&self, limits: &Limits, obstacles: &Obstacles) -> Vec<f64> {
+    pub(super) fn reaches(&self, limits: &Limits, obstacles: &Obstacles) -> Vec<f64> {
         let least: Vec<f64> = self.turns.iter().map(|turn| limits.reach(turn)).collect();
         let at = |i: Option<usize>| i.and_then(|i| least.get(i));
         let share = |corner: usize, other: Option<usize>, leg: usize| {
@@ -34,7 +34,7 @@ impl Polyline<'_> {
     }
 
     /// Lines and corner curves in turn.
-    pub fn spans(&self, reaches: &[f64]) -> Result<Vec<PhQuintic>> {
+    pub(super) fn spans(&self, reaches: &[f64]) -> Result<Vec<PhQuintic>> {
         let [first, .., last] = self.points else { return Ok(vec![]) };
         let Some(last_turn) = self.turns.last() else { return Ok(vec![PhQuintic::straight(*first, *last)]) };
         let mut spans: Vec<PhQuintic> = vec![];

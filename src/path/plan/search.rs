@@ -1,10 +1,10 @@
 //! The shortest polyline among places that can be rounded: a search over legs, since whether a path can turn depends on
 //! two of them.
 
-use super::minus;
 use super::obstacles::{Obstacles, between};
 use super::places::Place;
 use super::proof::{Clearance, clearance};
+use crate::curve::vector::sub;
 use crate::path::{Turn, distance};
 use crate::queue::Queue;
 use std::collections::HashSet;
@@ -15,19 +15,19 @@ const LEGS: usize = 1_000_000;
 /// A leg found takes as long as so many looks from one place to another.
 const LEG: usize = 4;
 /// So many sides looked at take as long as one look from one place to another.
-pub const SIDES: usize = 8;
+pub(super) const SIDES: usize = 8;
 /// And a corner curve that is looked at.
 const CURVE: usize = 20;
 /// Places this nearly on a line are passed without turning there: sine of the angle.
 const STRAIGHT: f64 = 1e-9;
 /// Corner curves take no more of a leg than this; between them remains a straight piece.
-pub const ROOM: f64 = 0.999;
+pub(super) const ROOM: f64 = 0.999;
 const START: usize = 0;
 const GOAL: usize = 1;
 
 /// What paths must keep.
 #[derive(Debug, Clone, Copy)]
-pub struct Limits {
+pub(super) struct Limits {
     /// Clearance.
     pub clearance: f64,
     /// A little more, so that rounding does not matter.
@@ -40,17 +40,17 @@ pub struct Limits {
 
 impl Limits {
     /// The least reach of a corner curve, a little more than doubles need to prove its curvature.
-    pub fn reach(&self, turn: &Turn) -> f64 {
+    pub(super) fn reach(&self, turn: &Turn) -> f64 {
         (turn.reach_for_curvature(self.most) * (1.0 + 1e-9) + 1e-14 / self.most).max(self.least_reach)
     }
 
     /// The same with turns as sharp as doubles can tell.
-    pub fn sharp(&self) -> Limits {
+    pub(super) fn sharp(&self) -> Limits {
         Limits { most: 1.0 / self.least_reach, ..*self }
     }
 
     /// What comes too near to a corner curve.
-    pub fn breach(&self, turn: &Turn, at: [f64; 2], reach: f64, obstacles: &Obstacles) -> Option<Why> {
+    pub(super) fn breach(&self, turn: &Turn, at: [f64; 2], reach: f64, obstacles: &Obstacles) -> Option<Why> {
         let Ok(curve) = turn.corner(at, reach) else { return Some(Why::Range) };
         // A curve through a side would be halved down to rounding before that is seen.
         let points: [_; 9] = std::array::from_fn(|i| curve.point(i as f64 * 0.125));
@@ -65,7 +65,7 @@ impl Limits {
 
 /// Why a corner curve will not do.
 #[derive(Debug, Clone, Copy)]
-pub enum Why {
+pub(super) enum Why {
     /// It comes too near.
     Near(Clearance),
     /// It leaves the range of doubles.
@@ -74,7 +74,7 @@ pub enum Why {
 
 /// How the search ended.
 #[derive(Debug)]
-pub enum Found {
+pub(super) enum SearchResult {
     /// Places from start to goal, and the length of the polyline.
     Path(Vec<Place>, f64),
     /// There is none.
@@ -108,7 +108,7 @@ struct Leg {
     before: Option<usize>,
 }
 
-pub struct Search<'o> {
+pub(super) struct Search<'o> {
     obstacles: &'o Obstacles,
     limits: Limits,
     /// Start, goal, and places beside obstacles.
@@ -130,7 +130,7 @@ pub struct Search<'o> {
 }
 
 impl<'o> Search<'o> {
-    pub fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
+    pub(super) fn new(obstacles: &'o Obstacles, limits: Limits, ends: [[f64; 2]; 2], beside: Vec<Place>) -> Search<'o> {
         let free =
             |place: &Place| place.at.iter().all(|x| x.is_finite()) && is_clear(obstacles, [place.at; 2], limits.keep);
         let ends = ends.map(|at| Place { at, vertex: None, wide: false }).into_iter();
@@ -156,12 +156,12 @@ impl<'o> Search<'o> {
     }
 
     /// Only paths shorter than this, and not for ever.
-    pub fn within(self, longest: f64, work: usize) -> Search<'o> {
+    pub(super) fn within(self, longest: f64, work: usize) -> Search<'o> {
         Search { longest, work, ..self }
     }
 
     /// And not past so many sides looked at.
-    pub fn looking_at(self, sides: usize) -> Search<'o> {
+    pub(super) fn looking_at(self, sides: usize) -> Search<'o> {
         Search { most_looks: self.looks + sides, ..self }
     }
 
@@ -169,16 +169,16 @@ impl<'o> Search<'o> {
     /// before.
     ///
     /// Also tells how much work is left.
-    pub fn run(mut self) -> (Found, usize) {
+    pub(super) fn run(mut self) -> (SearchResult, usize) {
         let found = self.find();
         (found, self.work)
     }
 
-    fn find(&mut self) -> Found {
+    fn find(&mut self) -> SearchResult {
         self.extend(None);
         while let Some((_, leg)) = self.waiting.pop() {
             if self.spent() {
-                return Found::GaveUp;
+                return SearchResult::GaveUp;
             }
             let Leg { places, index, turn, path, .. } = self.legs[leg];
             let takes = turn.map_or(0.0, |(_, reach)| reach);
@@ -187,12 +187,12 @@ impl<'o> Search<'o> {
             }
             self.taken[places[0]][index] = takes;
             if places[1] == GOAL {
-                return Found::Path(self.path(leg), path);
+                return SearchResult::Path(self.path(leg), path);
             }
             self.extend(Some(leg));
         }
         // What was seen last may not be all.
-        if self.spent() { Found::GaveUp } else { Found::None }
+        if self.spent() { SearchResult::GaveUp } else { SearchResult::None }
     }
 
     fn spent(&self) -> bool {
@@ -249,7 +249,7 @@ impl<'o> Search<'o> {
     fn turn(&self, leg: usize, next: &Seen) -> Option<(Turn, f64)> {
         let Leg { places: [from, at], length, side, turn: before, .. } = self.legs[leg];
         let [a, b, c] = [from, at, next.place].map(|i| self.places[i].at);
-        let (incoming, outgoing) = (minus(b, a), minus(c, b));
+        let (incoming, outgoing) = (sub(b, a), sub(c, b));
         let bend = incoming[0] * outgoing[1] - incoming[1] * outgoing[0];
         // In the open either side will do.
         let inward = if side == 0 { bend.abs() } else { bend * f64::from(side) };
@@ -293,7 +293,7 @@ impl<'o> Search<'o> {
 }
 
 /// Whether a segment keeps a distance from all sides, about.
-pub fn is_clear(obstacles: &Obstacles, segment: [[f64; 2]; 2], keep: f64) -> bool {
+pub(super) fn is_clear(obstacles: &Obstacles, segment: [[f64; 2]; 2], keep: f64) -> bool {
     obstacles.near(segment, keep).all(|side| between(segment, side.ends) >= keep)
 }
 
@@ -327,12 +327,12 @@ mod tests {
         let looks = obstacles.looks() - before;
         // What was allowed, and all that one place sees beyond it.
         assert!(looks <= SIDES * work + count * 240, "{looks} {count}");
-        assert!(matches!(found, Found::GaveUp) && left == 0, "{found:?} {left}");
+        assert!(matches!(found, SearchResult::GaveUp) && left == 0, "{found:?} {left}");
         // So many sides, those of one more look, and those of one more corner curve.
         let (before, most) = (obstacles.looks(), 50_000);
         let (found, _) = among(&obstacles).looking_at(most).run();
         let looks = obstacles.looks() - before;
-        assert!(matches!(found, Found::GaveUp) && looks <= most + count * 240, "{found:?} {looks}");
+        assert!(matches!(found, SearchResult::GaveUp) && looks <= most + count * 240, "{found:?} {looks}");
     }
 
     #[test]

@@ -7,7 +7,8 @@ use std::path::Path;
 /// An atlas of `any-spiral` whose outer axes have two and three nodes, and one plan.
 fn atlas_and_plan(folder: &Path, picture: &str) -> (crate::atlas::Atlas, PicturePlan) {
     use crate::atlas::{Spec, Writer};
-    let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = { values = [1, 2] }";
+    let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = { \
+                values = [1, 2] }";
     let text =
         format!("family = \"any-spiral\"\n[[atlas]]\nname = \"a\"\n[atlas.axes]\n{axes}\n[[atlas.picture]]\n{picture}");
     let recipe = Recipe::parse(&text).unwrap();
@@ -22,7 +23,7 @@ fn atlas_and_plan(folder: &Path, picture: &str) -> (crate::atlas::Atlas, Picture
 }
 
 /// Names and values with the numbers of their panels.
-fn told(captions: &[Caption]) -> Vec<String> {
+fn texts(captions: &[Caption]) -> Vec<String> {
     let values =
         |c: &Caption| c.values.iter().map(|(value, count)| format!("{value} {count}")).collect::<Vec<_>>().join(", ");
     captions.iter().map(|c| format!("{} {}", c.name, values(c))).collect()
@@ -44,8 +45,8 @@ fn values_of_slow_axes_stand_once() {
         "φ₁ = 10° 3, 40° 3, 10° 3, 40° 3",
         "k₁ = 1 1, 2 1, 3 1, 1 1, 2 1, 3 1, 1 1, 2 1, 3 1, 1 1, 2 1, 3 1",
     ];
-    assert_eq!(told(&captions(&axes, &chosen, false)), columns);
-    assert_eq!(told(&captions(&axes, &[(3, vec![0, 1])], true)), ["k₂ = 1.00002 1, 1.00001 1"]);
+    assert_eq!(texts(&captions(&axes, &chosen, false)), columns);
+    assert_eq!(texts(&captions(&axes, &[(3, vec![0, 1])], true)), ["k₂ = 1.00002 1, 1.00001 1"]);
 }
 
 #[test]
@@ -53,14 +54,14 @@ fn captions_tell_the_nodes_of_their_panels() {
     let folder = tempfile::tempdir().unwrap();
     let (atlas, plan) = atlas_and_plan(folder.path(), "kind = \"multiples\"\nx = \"k1\"\ny = \"k2\"");
     let figure = multiples(&Subject::of(&atlas).unwrap(), &plan).unwrap();
-    assert_eq!(told(&figure.rows), ["α = 0.5 1, −1 1"]);
-    assert_eq!(told(&figure.columns), ["β = 0.25 1, 0.75 1, 1.5 1"]);
+    assert_eq!(texts(&figure.rows), ["α = 0.5 1, −1 1"]);
+    assert_eq!(texts(&figure.columns), ["β = 0.25 1, 0.75 1, 1.5 1"]);
     assert_eq!((&figure.title[..], &figure.note[..]), ("a", "6 panels (2 of 2 α, 3 of 3 β), 24 nodes, each proved"));
     let more = "at = { beta = 0.75 }\ntitle = \"Mine\"";
     let (atlas, plan) = atlas_and_plan(folder.path(), &format!("kind = \"multiples\"\nx = \"k1\"\ny = \"k2\"\n{more}"));
     let figure = multiples(&Subject::of(&atlas).unwrap(), &plan).unwrap();
     assert!(figure.rows.is_empty() && figure.shape == [1, 2], "{figure:?}");
-    assert_eq!(told(&figure.columns), ["α = −1 1, 0.5 1"]);
+    assert_eq!(texts(&figure.columns), ["α = −1 1, 0.5 1"]);
     assert_eq!(figure.title, "Mine");
     let untitled = PicturePlan { look: Look::default(), ..plan };
     assert_eq!(multiples(&Subject::of(&atlas).unwrap(), &untitled).unwrap().title, "a: β = 0.75");

@@ -13,12 +13,12 @@ pub(super) struct Best<'r> {
 }
 
 impl<'r> Best<'r> {
-    pub fn new(request: &'r Request) -> Best<'r> {
+    pub(super) fn new(request: &'r Request) -> Best<'r> {
         Best { request, join: None, kept: 0 }
     }
 
     /// Of equal ones the first is kept.
-    pub fn offer(&mut self, pieces: Vec<Piece>) {
+    pub(super) fn offer(&mut self, pieces: Vec<Piece>) {
         let Request { objective, longest, most_pieces, greatest_curvature, .. } = *self.request;
         let join = Join::new(pieces, greatest_curvature);
         if join.pieces.len() > most_pieces || join.measures.length.is_nan() || join.measures.length > longest {

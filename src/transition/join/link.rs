@@ -23,7 +23,7 @@ pub(super) enum Node {
 }
 
 impl Node {
-    pub fn curvature(&self) -> f64 {
+    pub(super) fn curvature(&self) -> f64 {
         match self {
             Node::Line(_) => 0.0,
             Node::Arc { curvature, .. } => *curvature,
@@ -40,27 +40,27 @@ pub(super) struct Link {
 }
 
 impl Link {
-    pub fn direct(from: f64, to: f64, length: f64) -> Link {
+    pub(super) fn direct(from: f64, to: f64, length: f64) -> Link {
         Link { first: Spiral { from, to, length }, second: None, line: 0.0 }
     }
 
-    pub fn over_line([from, to]: [f64; 2], lengths: [f64; 2], line: f64) -> Link {
+    pub(super) fn over_line([from, to]: [f64; 2], lengths: [f64; 2], line: f64) -> Link {
         let first = Spiral { from, to: 0.0, length: lengths[0] };
         Link { first, second: Some(Spiral { from: 0.0, to, length: lengths[1] }), line }
     }
 
-    pub fn spirals(&self) -> impl Iterator<Item = Spiral> {
+    pub(super) fn spirals(&self) -> impl Iterator<Item = Spiral> {
         [Some(self.first), self.second].into_iter().flatten()
     }
 
     /// How far it turns.
-    pub fn angle(&self) -> f64 {
+    pub(super) fn angle(&self) -> f64 {
         self.spirals().map(|s| s.angle()).sum()
     }
 
     /// From the centre that it leaves to the centre that it reaches, for a start along (1, 0); where there is no
     /// centre, from or to the end of the line.
-    pub fn hop(&self, family: Family) -> Vector {
+    pub(super) fn hop(&self, family: Family) -> Vector {
         let mut end = self.first.step(family);
         if let Some(second) = self.second {
             let along = unit(self.first.angle());
@@ -74,7 +74,7 @@ impl Link {
     }
 
     /// With a line so long that centres are at a distance, if one is.
-    pub fn reaching(&self, family: Family, distance: f64) -> Option<Link> {
+    pub(super) fn reaching(&self, family: Family, distance: f64) -> Option<Link> {
         self.second?;
         let link = Link { line: 0.0, ..*self };
         // Seen along the line.
@@ -105,7 +105,7 @@ pub(super) struct Chain {
 
 impl Chain {
     /// Lines only at the ends, with one circle at least.
-    pub fn new(family: Family, nodes: &[Node], links: &[Link]) -> Chain {
+    pub(super) fn new(family: Family, nodes: &[Node], links: &[Link]) -> Chain {
         let leaves = |i: usize| match (&nodes[i], &nodes[i + 1]) {
             (Node::Line(pose), _) => pose.direction,
             (_, Node::Line(pose)) => pose.direction - links[i].angle(),
@@ -141,29 +141,29 @@ impl Chain {
     }
 
     /// Two spirals without an arc between, whose centre may be too far away to have digits.
-    pub fn corner(start: Pose, end: Vector, links: [Link; 2]) -> Chain {
+    pub(super) fn corner(start: Pose, end: Vector, links: [Link; 2]) -> Chain {
         Chain { start, end, links: links.to_vec(), arcs: vec![(links[0].first.to, 0.0)] }
     }
 
     /// Its spirals.
-    pub fn spirals(&self) -> impl Iterator<Item = Spiral> {
+    pub(super) fn spirals(&self) -> impl Iterator<Item = Spiral> {
         self.links.iter().flat_map(Link::spirals)
     }
 
     /// Its length, nearly.
-    pub fn length(&self, family: Family) -> f64 {
+    pub(super) fn length(&self, family: Family) -> f64 {
         let links = self.links.iter().map(|link| link.spirals().map(|s| s.stretched(family)).sum::<f64>() + link.line);
         links.sum::<f64>() + self.arcs.iter().map(|(k, round)| round / k.abs()).sum::<f64>()
     }
 
     /// How many pieces it has.
-    pub fn pieces(&self) -> usize {
+    pub(super) fn pieces(&self) -> usize {
         let links = self.links.iter().map(|link| link.spirals().count() + usize::from(link.line > 0.0));
         links.sum::<usize>() + self.arcs.iter().filter(|(_, round)| *round > 0.0).count()
     }
 
     /// What it costs, nearly.
-    pub fn cost(&self, family: Family, objective: Objective) -> f64 {
+    pub(super) fn cost(&self, family: Family, objective: Objective) -> f64 {
         let spirals = || self.spirals();
         match objective {
             Objective::Length => self.length(family),
@@ -177,7 +177,7 @@ impl Chain {
     }
 
     /// In pieces of the user's frame, in which `origin` is the origin here; or the spiral that is not to be had.
-    pub fn build(&self, request: &Request, origin: Vector) -> Result<std::result::Result<Vec<Piece>, Spiral>> {
+    pub(super) fn build(&self, request: &Request, origin: Vector) -> Result<std::result::Result<Vec<Piece>, Spiral>> {
         let Request { greatest_curvature: most, family, .. } = *request;
         let place = |v: Vector| add(origin, scale(v, 1.0 / most));
         let (mut at, mut pieces) = (Pose { at: place(self.start.at), ..self.start }, Vec::with_capacity(8));

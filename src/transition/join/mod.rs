@@ -9,14 +9,14 @@
 //! let from = State { point: [0.0, 0.0], direction: 0.0, curvature: 0.0 };
 //! let to = State { point: [8.0, 6.0], direction: 1.5, curvature: 0.1 };
 //! let found = join(&Request::new(from, to, 0.5))?;
-//! let path = found.join().expect("there is room");
+//! let path = found.expect("there is room");
 //! assert!(path.measures.greatest_curvature <= 0.5 && path.measures.length > 10.0);
 //!
 //! // From a straight line to a circle by one spiral.
 //! let line = End::Line { point: [0.0, 0.0], direction: 0.0 };
 //! let circle = End::Circle { centre: [0.0, 31.0], radius: 30.0, turn: Turn::Left };
 //! let found = join(&Request { most_pieces: 1, ..Request::new(line, circle, 1.0 / 30.0) })?;
-//! assert_eq!(found.join().map(|path| path.pieces.len()), Some(1));
+//! assert_eq!(found.map(|path| path.pieces.len()), Ok(1));
 //! # Ok::<(), spiral_atlas::Error>(())
 //! ```
 //!
@@ -44,12 +44,11 @@ mod states;
 mod turns;
 
 use crate::curve::vector::{length, scale, sub};
-use crate::error::{Error, Result};
-use crate::num::told;
+use crate::error::{Error, Result, written};
 use best::Best;
 
 pub use measure::Measures;
-pub use request::{End, Family, Join, Objective, Outcome, Request, State};
+pub use request::{End, Family, Join, Objective, Request, State};
 
 /// Ends farther apart, in least radii, would leave no digits for the spirals.
 const FARTHEST: f64 = 1e12;
@@ -65,11 +64,11 @@ const FARTHEST: f64 = 1e12;
 /// [`Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a
 /// line or a circle, where the ends are more than 1e12 least radii apart or circles larger than that, and where lengths
 /// leave the range of doubles. That there is no join is no error.
-pub fn join(request: &Request) -> Result<Outcome> {
+pub fn join(request: &Request) -> Result<std::result::Result<Join, String>> {
     request.check()?;
     let limit = request.greatest_curvature;
     if let Some(why) = beyond(request) {
-        return Ok(Outcome::None(why));
+        return Ok(Err(why));
     }
     let radii = |end: &End| if let End::Circle { radius, .. } = end { radius * limit } else { 0.0 };
     let apart = length(scale(sub(request.to.point(), request.from.point()), limit));
@@ -80,29 +79,29 @@ pub fn join(request: &Request) -> Result<Outcome> {
     ];
     if let Some((what, far)) = far.into_iter().find(|(_, far)| far.is_nan() || *far > FARTHEST) {
         let apart = if what == "the ends are" { " apart" } else { "" };
-        return Err(Error::Domain(format!(
+        return Err(Error::invalid(format!(
             "{what} {} least radii{apart}, where no join is sought: doubles have no digits left for spirals beyond 1e12 least radii (one \
              over the greatest curvature); check the unit of length",
-            told(far)
+            written(far)
         )));
     }
     let mut best = Best::new(request);
     let none = tried(request, &mut best)?;
     if let Some(join) = best.join {
-        return Ok(Outcome::Join(join));
+        return Ok(Ok(join));
     }
     let free = Request { longest: f64::INFINITY, most_pieces: Request::MOST_PIECES, ..*request };
     let mut best = Best::new(&free);
     if free != *request {
         tried(&free, &mut best)?;
     }
-    Ok(Outcome::None(match best.join {
+    Ok(Err(match best.join {
         Some(join) => format!(
             "no join found keeps to {} pieces and a length of {}; without these bounds one has {} pieces and is {} long",
             request.most_pieces,
-            told(request.longest),
+            written(request.longest),
             join.pieces.len(),
-            told(join.measures.length)
+            written(join.measures.length)
         ),
         None => none,
     }))

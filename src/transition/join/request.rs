@@ -4,7 +4,7 @@ use super::super::Turn;
 use super::super::piece::Piece;
 use super::super::stations::{Station, stations};
 use super::measure::{Measures, without_noise};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, above_zero, finite, positive};
 use serde::{Deserialize, Serialize};
 
 /// A place on a path: point, direction of travel and signed curvature, in the user's units and axes.
@@ -140,45 +140,29 @@ impl Request {
                 }
                 End::Line { point, direction } => (point, vec![("direction", direction)]),
                 End::Circle { centre, radius, .. } => {
-                    positive(&format!("the {name} radius"), radius)?;
+                    positive(format!("the {name} radius"), radius)?;
                     (centre, Vec::new())
                 }
             };
             for (what, value) in [("x", x), ("y", y)].into_iter().chain(rest) {
-                finite(&format!("{name} {what}"), value)?;
+                finite(format!("{name} {what}"), value)?;
             }
         }
         if matches!(self.from, End::State(_)) != matches!(self.to, End::State(_)) {
-            return Err(Error::Domain(
-                "one end is a state and the other is not; joined are two states, or two lines and circles".into(),
+            return Err(Error::invalid(
+                "one end is a state and the other is not; joined are two states, or two lines and circles",
             ));
         }
         positive("the greatest curvature", self.greatest_curvature)?;
         if !(1.0 / WIDEST..=WIDEST).contains(&self.greatest_curvature) {
-            return Err(Error::Domain(format!(
-                "the greatest curvature is {:?}; its square must be in the range of doubles (change the unit of length)",
-                self.greatest_curvature
-            )));
+            let most = Error::domain("the greatest curvature", self.greatest_curvature, "1e-150 to 1e150");
+            return Err(most.or("change the unit of length"));
         }
         if self.most_pieces == 0 {
-            return Err(Error::Domain("the most pieces are 0; a join has one at least".into()));
+            return Err(Error::invalid("the most pieces are 0; a join has one at least"));
         }
-        if self.longest.is_nan() || self.longest <= 0.0 {
-            return Err(Error::Domain(format!("the longest length is {:?}; it must be above 0", self.longest)));
-        }
-        Ok(())
+        above_zero("the longest length", self.longest).map(drop)
     }
-}
-
-pub(super) fn finite(name: &str, value: f64) -> Result<()> {
-    if value.is_finite() { Ok(()) } else { Err(Error::Domain(format!("{name} is {value}; it must be finite"))) }
-}
-
-pub(super) fn positive(name: &str, value: f64) -> Result<()> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    Err(Error::Domain(format!("{name} is {value:?}; it must be finite and above 0")))
 }
 
 /// A path of lines, arcs and proved spirals with continuous direction and curvature. As JSON it is a path: `length`,
@@ -208,38 +192,5 @@ impl Join {
             station.curvature = without_noise(station.curvature, self.measures.greatest_curvature);
         }
         Ok(all)
-    }
-}
-
-/// The join, or why there is none.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
-    /// It exists.
-    Join(Join),
-    /// Which condition excludes it, in words and numbers.
-    None(String),
-}
-
-impl Outcome {
-    /// The join, if there is one.
-    pub fn join(&self) -> Option<&Join> {
-        match self {
-            Outcome::Join(join) => Some(join),
-            Outcome::None(_) => None,
-        }
-    }
-}
-
-impl Serialize for Outcome {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Without<'a> {
-            pieces: Option<()>,
-            reason: &'a str,
-        }
-        match self {
-            Outcome::Join(join) => join.serialize(serializer),
-            Outcome::None(reason) => Without { pieces: None, reason }.serialize(serializer),
-        }
     }
 }

@@ -33,7 +33,7 @@ pub(super) struct Pose {
 
 impl Pose {
     /// The vector that (1, 0) is turned to.
-    pub fn along(&self) -> Vector {
+    pub(super) fn along(&self) -> Vector {
         unit(self.direction)
     }
 }
@@ -48,29 +48,29 @@ pub(super) struct Spiral {
 
 impl Spiral {
     /// How far it turns, with its sign.
-    pub fn angle(&self) -> f64 {
+    pub(super) fn angle(&self) -> f64 {
         0.5 * (self.from + self.to) * self.length
     }
 
     /// |dκ/ds|, were it a clothoid.
-    pub fn rate(&self) -> f64 {
+    pub(super) fn rate(&self) -> f64 {
         (self.to - self.from).abs() / self.length
     }
 
     /// ∫ κ² ds, were it a clothoid.
-    pub fn bending_energy(&self) -> f64 {
+    pub(super) fn bending_energy(&self) -> f64 {
         self.length * (self.from * self.from + self.from * self.to + self.to * self.to) / 3.0
     }
 
     /// Whether the family has a spiral between two curvatures, neither of them 0: of one sign, and apart by a factor at
     /// least. Nearer ones are no spirals but for arcs.
-    pub fn between_round(family: Family, from: f64, to: f64) -> bool {
+    pub(super) fn between_round(family: Family, from: f64, to: f64) -> bool {
         let (less, more) = (from.abs().min(to.abs()), from.abs().max(to.abs()));
         from * to > 0.0 && less <= APART * more && family != Family::TrigQuintic
     }
 
     /// The most that a spiral of [`Spiral::step`] between two curvatures turns, radians.
-    pub fn most(from: f64, to: f64) -> f64 {
+    pub(super) fn most(from: f64, to: f64) -> f64 {
         if from == 0.0 || to == 0.0 { 1.3 } else { 1.15 }
     }
 
@@ -107,12 +107,12 @@ impl Spiral {
     }
 
     /// How long it is, nearly.
-    pub fn stretched(&self, family: Family) -> f64 {
+    pub(super) fn stretched(&self, family: Family) -> f64 {
         self.length * self.shape(family)[0]
     }
 
     /// From its start to its end, for a start along (1, 0).
-    pub fn step(&self, family: Family) -> Vector {
+    pub(super) fn step(&self, family: Family) -> Vector {
         let (angle, side) = (self.angle().abs(), self.angle().signum());
         let (k0, k1) = (self.from.abs(), self.to.abs());
         let [x, y] = match family {
@@ -146,7 +146,7 @@ impl Spiral {
 
     /// The proved spiral in units of `1 / scale`, from a pose of the user's frame, with the pose where it ends; `None`
     /// where the family has none.
-    pub fn piece(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
+    pub(super) fn piece(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
         let direction = at.direction + self.angle();
         if family != Family::Involute && (self.from == 0.0 || self.to == 0.0) {
             let Some(piece) = self.straight_ended(family, at, scale_by)? else { return Ok(None) };

@@ -44,18 +44,18 @@ pub(super) struct Turn {
 
 impl Turn {
     /// Left in a direction, how far its arc goes round, radians from 0 to a full turn.
-    pub fn arc(&self, direction: f64) -> f64 {
+    pub(super) fn arc(&self, direction: f64) -> f64 {
         wrapped(self.curvature.signum() * (direction - self.exit.angle() - self.heading))
     }
 
     /// Left after an arc, its length, nearly.
-    pub fn length(&self, arc: f64) -> f64 {
+    pub(super) fn length(&self, arc: f64) -> f64 {
         let spirals = self.before.iter().flatten().chain([&self.exit]);
         spirals.map(|s| s.length).sum::<f64>() + arc / self.curvature.abs()
     }
 
     /// What it costs, nearly.
-    pub fn cost(&self, arc: f64, objective: Objective) -> f64 {
+    pub(super) fn cost(&self, arc: f64, objective: Objective) -> f64 {
         let spirals = || self.before.iter().flatten().chain([&self.exit]);
         match objective {
             Objective::Length => self.length(arc),
@@ -66,7 +66,7 @@ impl Turn {
     }
 
     /// How many pieces it has.
-    pub fn pieces(&self, arc: f64) -> usize {
+    pub(super) fn pieces(&self, arc: f64) -> usize {
         self.before.iter().flatten().count() + 1 + usize::from(arc > 0.0)
     }
 }

@@ -3,7 +3,7 @@
 use super::{Arc, Cubic, InvoluteBetween, Kind, Line, Piece, TrigPart};
 use crate::curve::vector::{add, length, sub};
 use crate::curve::{CubicBezier, PhQuintic, TrigBezier};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, above_zero};
 use crate::transition::Ends;
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -69,7 +69,7 @@ impl Serialize for PhQuintic {
 
 impl RawPiece {
     fn of(piece: &Piece) -> RawPiece {
-        let told = |kind: Kind| RawPiece {
+        let of = |kind: Kind| RawPiece {
             kind,
             start: None,
             end: None,
@@ -90,9 +90,9 @@ impl RawPiece {
             length: Some(piece.length()),
         };
         match piece {
-            Piece::Cubic(cubic) => RawPiece { legs: Some(cubic.legs.to_vec()), ..told(Kind::Cubic) },
+            Piece::Cubic(cubic) => RawPiece { legs: Some(cubic.legs.to_vec()), ..of(Kind::Cubic) },
             Piece::PhQuintic(PhQuintic { start, end, preimage }) => {
-                RawPiece { start: Some(*start), end: Some(*end), preimage: Some(*preimage), ..told(Kind::PhQuintic) }
+                RawPiece { start: Some(*start), end: Some(*end), preimage: Some(*preimage), ..of(Kind::PhQuintic) }
             }
             Piece::TrigQuintic(TrigPart { curve, from, to }) => RawPiece {
                 p: Some(curve.p),
@@ -100,7 +100,7 @@ impl RawPiece {
                 from: Some(*from),
                 to: Some(*to),
                 legs: Some(curve.sides.to_vec()),
-                ..told(Kind::TrigQuintic)
+                ..of(Kind::TrigQuintic)
             },
             Piece::Involute(InvoluteBetween { ends, turns, .. }) => {
                 let Ends { start, end, start_direction, end_direction, start_curvature, end_curvature } = *ends;
@@ -112,7 +112,7 @@ impl RawPiece {
                     start_curvature: Some(start_curvature),
                     end_curvature: Some(end_curvature),
                     turns: Some(*turns),
-                    ..told(Kind::Involute)
+                    ..of(Kind::Involute)
                 }
             }
             Piece::Line(Line { start, end }) => RawPiece {
@@ -120,27 +120,27 @@ impl RawPiece {
                 end: Some(*end),
                 direction: Some(piece.at(0.0).heading),
                 curvature: Some(0.0),
-                ..told(Kind::Line)
+                ..of(Kind::Line)
             },
             Piece::Arc(Arc { start, start_direction, curvature, .. }) => RawPiece {
                 start: Some(*start),
                 end: Some(piece.end()),
                 direction: Some(*start_direction),
                 curvature: Some(*curvature),
-                ..told(Kind::Arc)
+                ..of(Kind::Arc)
             },
         }
     }
 
     /// A field that the kind needs.
     fn needs<T>(&self, name: &str, field: Option<T>) -> Result<T> {
-        field.ok_or_else(|| Error::Domain(format!("a piece of the kind `{}` needs `{name}`", self.kind.name())))
+        field.ok_or_else(|| Error::invalid(format!("a piece of the kind `{}` needs `{name}`", self.kind.name())))
     }
 
     /// So many points of a list.
     fn all<const N: usize>(&self, name: &str, list: &[[f64; 2]]) -> Result<Points<N>> {
         let wrong = |_| {
-            Error::Domain(format!(
+            Error::invalid(format!(
                 "`{name}` has {} points; a piece of the kind `{}` has {N}",
                 list.len(),
                 self.kind.name()
@@ -174,7 +174,7 @@ impl RawPiece {
         let lists = self.legs.iter().flatten().chain(self.control_points.iter().flatten()).copied();
         let all = numbers.into_iter().chain(more).flatten().chain(points.chain(lists).flatten());
         if let Some(x) = all.into_iter().find(|x| !x.is_finite()) {
-            return Err(Error::Domain(format!("{x:?} is no number of a `{}`; all must be finite", self.kind.name())));
+            return Err(Error::invalid(format!("{x:?} is no number of a `{}`; all must be finite", self.kind.name())));
         }
         match self.kind {
             Kind::Cubic => {
@@ -192,7 +192,7 @@ impl RawPiece {
                     let what = format!(
                         "`from` is {from:?} and `to` is {to:?}; they must be 0 to 1, the first below the second"
                     );
-                    return Err(Error::Domain(what));
+                    return Err(Error::invalid(what));
                 }
                 let curve = TrigBezier { sides, ..TrigBezier::new(points, p, q)? };
                 Ok(Piece::TrigQuintic(TrigPart { curve, from, to }))
@@ -211,7 +211,7 @@ impl RawPiece {
             Kind::Line => {
                 let (start, end) = (self.needs("start", start)?, self.needs("end", end)?);
                 if start == end {
-                    return Err(Error::Domain(format!(
+                    return Err(Error::invalid(format!(
                         "`start` and `end` are both {start:?}; a line has two different ends"
                     )));
                 }
@@ -220,9 +220,7 @@ impl RawPiece {
             Kind::Arc => {
                 let (start, start_direction) = (self.needs("start", start)?, self.needs("direction", self.direction)?);
                 let (curvature, length) = (self.needs("curvature", curvature)?, self.needs("length", self.length)?);
-                if length <= 0.0 {
-                    return Err(Error::Domain(format!("`length` is {length:?}; that of an arc must be above 0")));
-                }
+                above_zero("`length` of an arc", length)?;
                 let piece = Piece::Arc(Arc { start, start_direction, curvature, length });
                 let reached = piece.end();
                 near("the arc leads", reached, "`end` is", end.unwrap_or(reached), &[start, [length, length]])?;
@@ -235,8 +233,8 @@ impl RawPiece {
 impl TryFrom<RawPiece> for Piece {
     type Error = Error;
 
-    fn try_from(told: RawPiece) -> Result<Piece> {
-        told.piece()
+    fn try_from(raw: RawPiece) -> Result<Piece> {
+        raw.piece()
     }
 }
 
@@ -244,7 +242,9 @@ impl TryFrom<RawPiece> for Piece {
 fn ph(start: [f64; 2], end: Option<[f64; 2]>, preimage: [[f64; 2]; 3]) -> Result<PhQuintic> {
     let curve = PhQuintic::new(start, preimage);
     if !curve.is_finite() {
-        return Err(Error::Domain(format!("it is not finite: it starts at {start:?} with the pre-image {preimage:?}")));
+        return Err(Error::invalid(format!(
+            "it is not finite: it starts at {start:?} with the pre-image {preimage:?}"
+        )));
     }
     let Some(end) = end else { return Ok(curve) };
     let size = preimage.iter().flatten().map(|x| x * x).sum::<f64>();
@@ -258,5 +258,5 @@ fn near(way: &str, reached: [f64; 2], name: &str, given: [f64; 2], sizes: &[[f64
     if length(sub(reached, given)) <= NEAR * size {
         return Ok(());
     }
-    Err(Error::Domain(format!("{name} {given:?}, but {way} to {reached:?}")))
+    Err(Error::invalid(format!("{name} {given:?}, but {way} to {reached:?}")))
 }

@@ -45,6 +45,16 @@ fn figure_2() {
     }
 }
 
+/// Where a function of opposite signs at both ends is 0, by bisection.
+fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let rising = f(high) > f(low);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *if (f(middle) < 0.0) == rising { &mut low } else { &mut high } = middle;
+    }
+    0.5 * (low + high)
+}
+
 /// An arc of the Cornu spiral; directions as in the figure, to a tenth of a degree: α ≈ -18.3°, β ≈ 188.4°.
 #[test]
 fn figure_4() {
@@ -58,7 +68,7 @@ fn figure_4() {
     near(star[1], -90.692, 2);
     // α so that Q comes out: by bisection around -18.3°.
     let value = |alpha: f64| (k1 + alpha.sin()) * (k2 - (2.0 * omega - alpha).sin()) + omega.sin().powi(2) - q;
-    let alpha = spiral_atlas::num::roots::find(value, (-18.35f64).to_radians(), (-18.25f64).to_radians(), 1e-15);
+    let alpha = root(value, (-18.35f64).to_radians(), (-18.25f64).to_radians());
     let beta = 2.0 * omega - alpha;
     near(degrees(beta), 188.4, 1);
     let (got, _, curve) = curve(alpha, beta - 2.0 * PI, k1, k2, [0, 1]);
@@ -121,7 +131,7 @@ fn figure_6() {
             let (sin, cos) = mu.sin_cos();
             let want = [(d[0] * cos + d[1] * sin) / c, (d[1] * cos - d[0] * sin) / c];
             // The same curvature is the same point: curvature is monotone.
-            let f = spiral_atlas::num::roots::find(|f| curve.at(f).curvature - k * c, 0.0, 1.0, 1e-16);
+            let f = root(|f| curve.at(f).curvature - k * c, 0.0, 1.0);
             let got = if i == 0 || i == 40 { curve.at(f64::from(i / 40)) } else { curve.at(f) };
             let off = (got.point[0] - want[0]).hypot(got.point[1] - want[1]);
             assert!(off < 1e-12, "{off} at {i} of {turns:?}");

@@ -7,7 +7,7 @@ use spiral_atlas::family::any_spiral::{EXISTS, INFLECTION, RISING};
 use std::cmp::Ordering;
 
 /// The flags in exact arithmetic.
-pub fn judge(datum: Datum) -> u8 {
+pub(super) fn judge(datum: Datum) -> u8 {
     let mut bits = 320;
     loop {
         match attempt(datum, bits) {
@@ -31,7 +31,7 @@ fn attempt(datum: Datum, bits: usize) -> Sure<u8> {
 }
 
 /// Q; from `4Q = k1 k2 (d² - (1/k1 - 1/k2)²)` with d the distance of the centres, or expanded where there is no circle.
-pub fn q([alpha, beta, k1, k2]: Datum, bits: usize) -> Iv {
+pub(super) fn q([alpha, beta, k1, k2]: Datum, bits: usize) -> Iv {
     let ((sin0, cos0), (sin1, cos1)) = (Iv::sin_cos(alpha, bits), Iv::sin_cos(beta, bits));
     let (k1, k2) = (Iv::new(k1, bits), Iv::new(k2, bits));
     let one = Iv::new(1.0, bits);

@@ -10,21 +10,21 @@ mod verdicts;
 
 use crate::oracle::{iv, random};
 
-pub use random::Random;
+pub(crate) use random::Random;
 use spiral_atlas::family::{Code, by_name};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 
 /// alpha, beta, k1, k2.
-pub type Datum = [f64; 4];
+pub(crate) type Datum = [f64; 4];
 
 /// One node in the chord's chart.
-pub fn grid_of(datum: Datum) -> Grid {
+pub(crate) fn grid_of(datum: Datum) -> Grid {
     let axis = |(name, x): (&str, f64)| Axis::new(name, Spacing::Values(vec![x])).expect("a finite value");
     Grid::new(["alpha", "beta", "k1", "k2"].into_iter().zip(datum).map(axis).collect()).expect("four axes")
 }
 
 /// What the f64 step and the interval step say.
-pub fn codes_of(datum: Datum) -> (Code, Code) {
+pub(crate) fn codes_of(datum: Datum) -> (Code, Code) {
     let grid = grid_of(datum);
     let table = by_name("any-spiral").expect("the family").table(&grid).expect("in the domain");
     let mut fast = [Code(0x5aa5)];
@@ -34,13 +34,13 @@ pub fn codes_of(datum: Datum) -> (Code, Code) {
 
 impl Random {
     /// Of either sign, ten to a uniform exponent.
-    pub fn signed_decades(&mut self, lo: f64, hi: f64) -> f64 {
+    pub(crate) fn signed_decades(&mut self, lo: f64, hi: f64) -> f64 {
         let sign = if self.below(2) == 0 { 1.0 } else { -1.0 };
         sign * 10f64.powf(self.uniform(lo, hi))
     }
 
     /// A datum for which spirals are common: k1 and k2 on the sides of the bound that ω asks for.
-    pub fn likely(&mut self) -> Datum {
+    pub(crate) fn likely(&mut self) -> Datum {
         use std::f64::consts::PI;
         let (alpha, beta) = (self.uniform(-PI, PI), self.uniform(-PI, PI));
         let side = if alpha + beta > 0.0 { 1.0 } else { -1.0 };

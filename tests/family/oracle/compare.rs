@@ -10,7 +10,7 @@ const FLAG_NAMES: [&str; 8] =
     ["SOLVABLE", "THEOREM31", "THEOREM31_ANY", "SPIRAL", "ANY_SPIRAL", "bit 5", "bit 6", "bit 7"];
 
 /// Every field in which a code differs from the verdict.
-pub fn code_faults(want: &Verdict, code: Code) -> Vec<String> {
+pub(crate) fn code_faults(want: &Verdict, code: Code) -> Vec<String> {
     let mut faults = vec![];
     for (bit, name) in FLAG_NAMES.iter().enumerate() {
         let (want, got) = (want.flags >> bit & 1, code.flags() >> bit & 1);
@@ -29,7 +29,7 @@ pub fn code_faults(want: &Verdict, code: Code) -> Vec<String> {
 
 /// The library's exact answer, taken apart so that it can be compared and, in tests of the comparison, falsified.
 #[derive(Debug, Clone)]
-pub struct Answer {
+pub(crate) struct Answer {
     pub flags: u8,
     pub roots: Vec<Root>,
     pub chosen: Option<Root>,
@@ -42,17 +42,17 @@ impl From<&Solutions> for Answer {
 }
 
 /// A verdict on a root in the library's own type.
-pub fn root_of(r: &RootVerdict) -> Root {
+pub(crate) fn root_of(r: &RootVerdict) -> Root {
     Root { f0: r.f0, f1: r.f1, theorem31: r.theorem31, spiral: r.spiral, margin: r.margin }
 }
 
 /// What `solve` promises of f0 and f1, absolute.
-pub const ROOT_ACCURACY: f64 = 1.0 / (1u64 << 34) as f64;
+pub(crate) const ROOT_ACCURACY: f64 = 1.0 / (1u64 << 34) as f64;
 /// What `solve` promises of the margin, absolute.
-pub const MARGIN_ACCURACY: f64 = 1.0 / (1u64 << 30) as f64;
+pub(crate) const MARGIN_ACCURACY: f64 = 1.0 / (1u64 << 30) as f64;
 
 /// Every field in which an answer differs from the verdict; the numbers may differ by what `solve` allows itself.
-pub fn answer_faults(want: &Verdict, got: &Answer) -> Vec<String> {
+pub(crate) fn answer_faults(want: &Verdict, got: &Answer) -> Vec<String> {
     let spirals = got.roots.iter().filter(|r| r.spiral).count() as u8;
     let mut faults = code_faults(want, Code::new(got.flags, got.roots.len() as u8 | spirals << 2));
     for (i, (want, got)) in want.roots.iter().zip(&got.roots).enumerate() {
@@ -78,7 +78,7 @@ pub fn answer_faults(want: &Verdict, got: &Answer) -> Vec<String> {
 }
 
 /// The scalars f0, f1 and margin of the chosen spiral that differ from the nearest singles.
-pub fn scalar_faults(want: &Verdict, got: [f32; 3]) -> Vec<String> {
+pub(crate) fn scalar_faults(want: &Verdict, got: [f32; 3]) -> Vec<String> {
     let best = want.chosen();
     let value = |of: fn(&RootVerdict) -> f64| best.map_or(NO_VALUE, |r| of(r) as f32);
     let want = [value(|r| r.f0), value(|r| r.f1), value(|r| r.margin)];
@@ -88,7 +88,7 @@ pub fn scalar_faults(want: &Verdict, got: [f32; 3]) -> Vec<String> {
 }
 
 /// The axes of one case: one value each, in the chart of its ends.
-pub fn grid_of(case: &Case) -> Grid {
+pub(crate) fn grid_of(case: &Case) -> Grid {
     let (names, ends) = match case.ends {
         Ends::Curvature { kappa0, kappa1 } => (["phi0", "phi1", "kappa0", "kappa1"], [kappa0, kappa1]),
         Ends::Normalised { a, k } => (["phi0", "phi1", "a", "k"], [a, k]),
@@ -99,15 +99,15 @@ pub fn grid_of(case: &Case) -> Grid {
 }
 
 /// The library's proved code of a case; `None` when it refuses the case.
-pub fn code_of(case: &Case) -> Option<Code> {
+pub(crate) fn code_of(case: &Case) -> Option<Code> {
     let grid = grid_of(case);
-    let table = by_name("cubic")?.table(&grid).ok()?;
+    let table = by_name("cubic").ok()?.table(&grid).ok()?;
     table.exact(0).ok().map(|(code, _)| code)
 }
 
 /// What was compared, and what was wrong.
 #[derive(Debug, Default)]
-pub struct Tally {
+pub(crate) struct Tally {
     pub nodes: usize,
     pub filtered: usize,
     pub abstained: usize,
@@ -119,7 +119,7 @@ pub struct Tally {
 
 impl Tally {
     /// Compares the filter, the interval step, the scalars and, for plain curvatures, the solver with the oracle.
-    pub fn case(&mut self, case: &Case) -> Verdict {
+    pub(crate) fn case(&mut self, case: &Case) -> Verdict {
         let want = judge_ends(case.phi0, case.phi1, case.ends);
         self.nodes += 1;
         self.spirals += usize::from(want.solutions() >> 2 > 0);
@@ -161,7 +161,7 @@ impl Tally {
     }
 
     /// Prints the line of a data set and fails when anything was wrong, or when nothing was compared.
-    pub fn finish(&self, name: &str, least: usize) {
+    pub(crate) fn finish(&self, name: &str, least: usize) {
         println!(
             "{name}: {} nodes ({} with a spiral, {} with several roots); filter proved {}, abstained {}; solved {}; wrong {}",
             self.nodes,

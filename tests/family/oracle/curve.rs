@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 /// What is asked at the ends, besides the angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Ends {
+pub(crate) enum Ends {
     /// Curvatures times half the chord.
     Curvature { kappa0: f64, kappa1: f64 },
     /// `a = κ0 d0² / (4 sin φ0)`, `k = κ1 d1² / (4 sin φ1)`, exactly.
@@ -14,7 +14,7 @@ pub enum Ends {
 }
 
 /// The angles: control points are `p0`, `p0 + x u`, `p3 - y v`, `p3` with `x = f0`, `y = f1`.
-pub struct Frame {
+pub(super) struct Frame {
     pub sin0: Iv,
     pub cos0: Iv,
     pub sin1: Iv,
@@ -35,7 +35,7 @@ fn cube(x: &Iv) -> Iv {
 }
 
 impl Frame {
-    pub fn new(phi0: f64, phi1: f64, bits: usize) -> Sure<Frame> {
+    pub(super) fn new(phi0: f64, phi1: f64, bits: usize) -> Sure<Frame> {
         let ((sin0, cos0), (sin1, cos1)) = (Iv::sin_cos(phi0, bits), Iv::sin_cos(phi1, bits));
         let sum = &(&sin0 * &cos1) + &(&cos0 * &sin1);
         let d0 = sin1.times(2.0).over(&sum)?;
@@ -47,7 +47,7 @@ impl Frame {
     }
 
     /// `(κ0, κ1)`.
-    pub fn curvatures(&self, ends: Ends) -> Sure<(Iv, Iv)> {
+    pub(super) fn curvatures(&self, ends: Ends) -> Sure<(Iv, Iv)> {
         let bits = self.d0.bits();
         match ends {
             Ends::Curvature { kappa0, kappa1 } => Ok((Iv::new(kappa0, bits), Iv::new(kappa1, bits))),
@@ -82,7 +82,7 @@ impl Frame {
     }
 
     /// Every `(f0, f1)` in (0, 3)² whose curve has the end curvatures, by increasing f0.
-    pub fn solve(&self, ends: Ends) -> Sure<Vec<(Iv, Iv)>> {
+    pub(super) fn solve(&self, ends: Ends) -> Sure<Vec<(Iv, Iv)>> {
         let [a, b, c, e] = self.equations(ends)?;
         // With a curvature that is not positive one of the equations needs a number of at least 3.
         if b.sign()?.is_le() || e.sign()?.is_le() {
@@ -117,7 +117,7 @@ impl Frame {
     /// `|P'|² d/dt(P' × P'') - 3 (P' × P'') (P' · P'')`, up to a positive factor: the numerator of κ'(t).
     ///
     /// In the oblique frame `u, v` the chord is `3u + 3v`, which keeps the parabola `x = y = 2` exact.
-    pub fn numerator(&self, x: &Iv, y: &Iv) -> Poly {
+    pub(super) fn numerator(&self, x: &Iv, y: &Iv) -> Poly {
         let leg = |f: &Iv| [f.clone(), (-f).plus(3.0), Iv::new(0.0, f.bits())];
         let along_u = hodograph(&leg(x));
         let mut backwards = leg(y);
@@ -139,7 +139,7 @@ impl Frame {
     }
 
     /// Kneser: whether the circle of curvature at the end lies strictly inside the one at the start.
-    pub fn nested(&self, kappa0: &Iv, kappa1: &Iv) -> Sure<(bool, f64)> {
+    pub(super) fn nested(&self, kappa0: &Iv, kappa1: &Iv) -> Sure<(bool, f64)> {
         let one = Iv::new(1.0, kappa0.bits());
         let (r0, r1) = (one.over(kappa0)?, one.over(kappa1)?);
         let across = &(&self.chord[0] - &(&r1 * &self.sin1)) - &(&r0 * &self.sin0);
@@ -151,7 +151,7 @@ impl Frame {
     }
 
     /// Kurnosenko's `Q = (κ0 - sin φ0)(κ1 - sin φ1) + sin²((φ1 - φ0)/2)`.
-    pub fn q(&self, kappa0: &Iv, kappa1: &Iv) -> (Iv, f64) {
+    pub(super) fn q(&self, kappa0: &Iv, kappa1: &Iv) -> (Iv, f64) {
         let product = &(kappa0 - &self.sin0) * &(kappa1 - &self.sin1);
         // sin²(δ/2) = sin²δ / (2 (1 + cos δ)), which cancels nowhere but in sin δ itself.
         let sine = &(&self.sin1 * &self.cos0) - &(&self.cos1 * &self.sin0);
@@ -164,7 +164,7 @@ impl Frame {
     }
 
     /// (A.9), the paper's discriminant from its own c0, c1, c2, λ, μ, and `κ1 > e0/3`.
-    pub fn solvable(&self, ends: Ends) -> Sure<(bool, f64)> {
+    pub(super) fn solvable(&self, ends: Ends) -> Sure<(bool, f64)> {
         let bits = self.d0.bits();
         let (first, four_lambda3, mu2) = match ends {
             Ends::Curvature { kappa0, kappa1 } => {
@@ -215,14 +215,14 @@ fn hodograph(leg: &[Iv; 3]) -> Poly {
 }
 
 /// `|part| / |whole|` as a double: how far a decision is from its boundary.
-pub fn share(part: &Iv, whole: &Iv) -> f64 {
+pub(super) fn share(part: &Iv, whole: &Iv) -> f64 {
     part.middle().over(&whole.middle()).map_or(0.0, |r| r.approx().abs())
 }
 
 /// Whether `q >= 0` on [0, 1]: no root inside at which it changes sign, and positive ends.
 ///
 /// The chain is complete only when `q` has no multiple root, so each root inside is a change of sign.
-pub fn non_negative(q: &Poly, bits: usize) -> Sure<bool> {
+pub(super) fn non_negative(q: &Poly, bits: usize) -> Sure<bool> {
     let (zero, one) = (Iv::new(0.0, bits), Iv::new(1.0, bits));
     if q.at(&zero).sign()? != Ordering::Greater || q.at(&one).sign()? != Ordering::Greater {
         return Ok(false);

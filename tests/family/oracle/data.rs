@@ -1,12 +1,12 @@
 //! Data to judge: a seeded generator and the places where verdicts are hard.
 
 use super::Ends;
-pub use super::random::Random;
+pub(crate) use super::random::Random;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Angles and end conditions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Case {
+pub(crate) struct Case {
     pub phi0: f64,
     pub phi1: f64,
     pub ends: Ends,
@@ -14,18 +14,18 @@ pub struct Case {
 
 impl Random {
     /// Ten to a uniform exponent.
-    pub fn decades(&mut self, lo: f64, hi: f64) -> f64 {
+    pub(crate) fn decades(&mut self, lo: f64, hi: f64) -> f64 {
         10f64.powf(self.uniform(lo, hi))
     }
 
     /// A few units in the last place away, mostly within `most`.
-    pub fn nudge(&mut self, x: f64, most: u64) -> f64 {
+    pub(crate) fn nudge(&mut self, x: f64, most: u64) -> f64 {
         let steps = self.below(2 * most + 1) as i64 - most as i64;
         f64::from_bits(x.to_bits().wrapping_add_signed(steps))
     }
 
     /// Angles with `φ0 + φ1 < π`, usually ordered, in one of several windows.
-    pub fn angles(&mut self) -> (f64, f64) {
+    pub(crate) fn angles(&mut self) -> (f64, f64) {
         let (a, b) = match self.below(4) {
             0 => (self.uniform(0.01, FRAC_PI_2), self.uniform(0.01, FRAC_PI_2)),
             1 => (self.uniform(0.01, 0.6), self.uniform(FRAC_PI_2, 2.5)),
@@ -40,7 +40,7 @@ impl Random {
 }
 
 /// The curvatures of the curve with these ends and this `(f0, f1)`, in doubles.
-pub fn curvatures(phi0: f64, phi1: f64, f0: f64, f1: f64) -> Ends {
+pub(crate) fn curvatures(phi0: f64, phi1: f64, f0: f64, f1: f64) -> Ends {
     let sum = (phi0 + phi1).sin();
     let (d0, d1) = (2.0 * phi1.sin() / sum, 2.0 * phi0.sin() / sum);
     Ends::Curvature {
@@ -50,12 +50,12 @@ pub fn curvatures(phi0: f64, phi1: f64, f0: f64, f1: f64) -> Ends {
 }
 
 /// The normalised ends `(a, k)` of `(f0, f1)`, in doubles.
-pub fn normalised(f0: f64, f1: f64) -> Ends {
+pub(crate) fn normalised(f0: f64, f1: f64) -> Ends {
     Ends::Normalised { a: (3.0 - f1) / (f0 * f0), k: (3.0 - f0) / (f1 * f1) }
 }
 
 /// Uniform data in windows around the paper's figures and far outside them.
-pub fn windows(r: &mut Random) -> Case {
+pub(crate) fn windows(r: &mut Random) -> Case {
     let (phi0, phi1) = r.angles();
     let ends = match r.below(4) {
         0 => Ends::Curvature { kappa0: r.uniform(0.0, 1.2), kappa1: r.uniform(0.0, 12.0) },
@@ -67,7 +67,7 @@ pub fn windows(r: &mut Random) -> Case {
 }
 
 /// Data of a curve drawn by its `(f0, f1)`: spirals are common, and so are `k <= 1/3` and several roots.
-pub fn drawn(r: &mut Random) -> Case {
+pub(crate) fn drawn(r: &mut Random) -> Case {
     let (phi0, phi1) = r.angles();
     let (f0, f1) = match r.below(3) {
         0 => (r.uniform(0.0, 3.0), r.uniform(0.0, 3.0)),
@@ -83,7 +83,7 @@ pub fn drawn(r: &mut Random) -> Case {
 }
 
 /// Two roots that almost or just not merge: `4 (3 - f0) (3 - f1) = f0 f1`, then a few units in the last place.
-pub fn near_double(r: &mut Random) -> Case {
+pub(crate) fn near_double(r: &mut Random) -> Case {
     let (phi0, phi1) = r.angles();
     let f0 = r.uniform(0.05, 2.98);
     let f1 = 4.0 * (3.0 - f0) / (4.0 - f0);
@@ -98,7 +98,7 @@ pub fn near_double(r: &mut Random) -> Case {
 }
 
 /// Around `a = k = 1/4`, the one exact tie that doubles have: there three roots are one, and the curve is a parabola.
-pub fn triple(r: &mut Random) -> Case {
+pub(crate) fn triple(r: &mut Random) -> Case {
     let equal = r.uniform(0.01, 1.5);
     let (phi0, phi1) = if r.below(6) == 0 { (equal, equal) } else { r.angles() };
     let near = [0, 1, 2, 8, 1 << 20, 1 << 40][r.below(6) as usize];
@@ -115,7 +115,7 @@ pub fn triple(r: &mut Random) -> Case {
 }
 
 /// Angles at the rim of their domain: tiny, equal but for the last bits, at right angles, adding up to π.
-pub fn rim_angles(r: &mut Random) -> (f64, f64) {
+pub(crate) fn rim_angles(r: &mut Random) -> (f64, f64) {
     let plain = r.uniform(0.05, 1.5);
     let (a, b) = match r.below(7) {
         0 => (r.decades(-300.0, 0.0), plain),
@@ -136,7 +136,7 @@ pub fn rim_angles(r: &mut Random) -> (f64, f64) {
 }
 
 /// Curvatures from 1e-300 to 1e300, and curvatures that make sense, at ordinary and at rim angles.
-pub fn extreme(r: &mut Random) -> Case {
+pub(crate) fn extreme(r: &mut Random) -> Case {
     let huge = r.below(2) == 0;
     let (phi0, phi1) = if huge && r.below(2) == 0 { r.angles() } else { rim_angles(r) };
     let sign = |r: &mut Random| if r.below(8) == 0 { -1.0 } else { 1.0 };

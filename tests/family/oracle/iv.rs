@@ -10,7 +10,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 pub struct Unsure;
 
 /// What is decided, or not yet.
-pub type Sure<T> = Result<T, Unsure>;
+pub(crate) type Sure<T> = Result<T, Unsure>;
 
 const DOWN: RoundingMode = RoundingMode::Down;
 const UP: RoundingMode = RoundingMode::Up;

@@ -7,7 +7,7 @@ use super::poly::{Poly, Sturm};
 /// The margin of the quintic `q`, rounded to the nearest double.
 ///
 /// The least value is at an end or at a root of `q'`, all of which are enclosed.
-pub fn margin(q: &Poly, bits: usize) -> Sure<f64> {
+pub(super) fn margin(q: &Poly, bits: usize) -> Sure<f64> {
     let (zero, one) = (Iv::new(0.0, bits), Iv::new(1.0, bits));
     let slope = q.derivative();
     let inside = if slope.0.len() < 2 { vec![] } else { Sturm::new(&slope)?.roots(&zero, &one)? };

@@ -4,37 +4,37 @@
 //! Everything is decided on outward-rounded intervals, from 320 bits on; whatever is still open starts again with twice
 //! as many. Source of the questions: Habib & Sakai (the flags), Kneser and Kurnosenko (any spiral at all).
 
-pub mod compare;
+pub(crate) mod compare;
 mod curve;
-pub mod data;
-pub mod iv;
+pub(crate) mod data;
+pub(crate) mod iv;
 mod margin;
-pub mod ph;
-pub mod ph_path;
-pub mod poly;
-pub mod random;
-pub mod reach;
-pub mod trig;
+pub(crate) mod ph;
+pub(crate) mod ph_path;
+pub(crate) mod poly;
+pub(crate) mod random;
+pub(crate) mod reach;
+pub(crate) mod trig;
 
-pub use curve::Ends;
+pub(crate) use curve::Ends;
 
 use curve::{Frame, non_negative, share};
 use iv::{Iv, Sure, Unsure};
 use margin::margin;
 use poly::Poly;
 
-pub const SOLVABLE: u8 = 1;
-pub const THEOREM31: u8 = 2;
-pub const THEOREM31_ANY: u8 = 4;
-pub const SPIRAL: u8 = 8;
-pub const ANY_SPIRAL: u8 = 16;
+pub(crate) const SOLVABLE: u8 = 1;
+pub(crate) const THEOREM31: u8 = 2;
+pub(crate) const THEOREM31_ANY: u8 = 4;
+pub(crate) const SPIRAL: u8 = 8;
+pub(crate) const ANY_SPIRAL: u8 = 16;
 
 const FIRST_BITS: usize = 320;
 const LAST_BITS: usize = 40960;
 
 /// One root `(f0, f1)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RootVerdict {
+pub(crate) struct RootVerdict {
     /// Nearest double.
     pub f0: f64,
     /// Nearest double.
@@ -47,7 +47,7 @@ pub struct RootVerdict {
 
 /// All that can be said of a datum.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Verdict {
+pub(crate) struct Verdict {
     pub flags: u8,
     /// By increasing f0.
     pub roots: Vec<RootVerdict>,
@@ -59,24 +59,24 @@ pub struct Verdict {
 
 impl Verdict {
     /// The `solutions` byte: roots, and spirals from bit 2 on.
-    pub fn solutions(&self) -> u8 {
+    pub(crate) fn solutions(&self) -> u8 {
         self.roots.len() as u8 | (self.roots.iter().filter(|r| r.spiral).count() as u8) << 2
     }
 
     /// The spiral with the largest margin, the first of equals.
-    pub fn chosen(&self) -> Option<&RootVerdict> {
+    pub(crate) fn chosen(&self) -> Option<&RootVerdict> {
         self.roots.iter().filter(|r| r.spiral).reduce(|best, r| if r.margin > best.margin { r } else { best })
     }
 }
 
 /// Whether the angles lie in the domain `0 < φ0, 0 < φ1, φ0 + φ1 < π`, the sum and π taken exactly.
-pub fn in_domain(phi0: f64, phi1: f64) -> bool {
+pub(crate) fn in_domain(phi0: f64, phi1: f64) -> bool {
     let under = |bits| (&(&Iv::pi(bits) - &Iv::new(phi0, bits)) - &Iv::new(phi1, bits)).positive();
     phi0.is_finite() && phi1.is_finite() && phi0 > 0.0 && phi1 > 0.0 && climb(under).0
 }
 
 /// Judges `(φ0, φ1, κ0, κ1)`, all taken as exact.
-pub fn judge(phi0: f64, phi1: f64, kappa0: f64, kappa1: f64) -> Verdict {
+pub(crate) fn judge(phi0: f64, phi1: f64, kappa0: f64, kappa1: f64) -> Verdict {
     judge_ends(phi0, phi1, Ends::Curvature { kappa0, kappa1 })
 }
 
@@ -84,14 +84,14 @@ pub fn judge(phi0: f64, phi1: f64, kappa0: f64, kappa1: f64) -> Verdict {
 ///
 /// # Panics
 /// Outside the domain, and when something is still open at the last precision.
-pub fn judge_ends(phi0: f64, phi1: f64, ends: Ends) -> Verdict {
+pub(crate) fn judge_ends(phi0: f64, phi1: f64, ends: Ends) -> Verdict {
     assert!(in_domain(phi0, phi1), "angles {phi0:?}, {phi1:?} are outside the domain");
     let (verdict, bits) = climb(|bits| attempt(phi0, phi1, ends, bits, false));
     Verdict { bits, ..verdict }
 }
 
 /// The same without the shortcut that end data in the wrong order have no spirals: every curve is examined.
-pub fn judge_thoroughly(phi0: f64, phi1: f64, ends: Ends) -> Verdict {
+pub(crate) fn judge_thoroughly(phi0: f64, phi1: f64, ends: Ends) -> Verdict {
     let (verdict, bits) = climb(|bits| attempt(phi0, phi1, ends, bits, true));
     Verdict { bits, ..verdict }
 }
@@ -188,7 +188,7 @@ fn in_s(q: &Poly, bits: usize) -> Vec<Iv> {
 }
 
 /// `H0 ..= H5` of a curve with a common positive factor, for comparison with printed values.
-pub fn h_values(phi0: f64, phi1: f64, f0: f64, f1: f64) -> [f64; 6] {
+pub(crate) fn h_values(phi0: f64, phi1: f64, f0: f64, f1: f64) -> [f64; 6] {
     let frame = Frame::new(phi0, phi1, FIRST_BITS).expect("enough bits");
     let q = frame.numerator(&Iv::new(f0, FIRST_BITS), &Iv::new(f1, FIRST_BITS));
     let h = in_s(&q, FIRST_BITS);

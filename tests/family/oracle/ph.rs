@@ -9,7 +9,7 @@ use super::{any_spiral, climb};
 
 /// One solution: nearest doubles.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Curve {
+pub(crate) struct Curve {
     pub a: f64,
     pub b: f64,
     pub length: f64,
@@ -22,24 +22,24 @@ pub struct Curve {
 
 /// All that can be said of a datum; solutions by increasing A.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Verdict {
+pub(crate) struct Verdict {
     pub flags: u8,
     pub curves: Vec<Curve>,
 }
 
 impl Verdict {
-    pub fn solutions(&self) -> u8 {
+    pub(crate) fn solutions(&self) -> u8 {
         self.curves.len() as u8 | (self.curves.iter().filter(|c| c.spiral).count() as u8) << 3
     }
 
     /// The spiral of least energy.
-    pub fn chosen(&self) -> Option<&Curve> {
+    pub(crate) fn chosen(&self) -> Option<&Curve> {
         self.curves.iter().filter(|c| c.spiral).reduce(|best, c| if c.energy < best.energy { c } else { best })
     }
 }
 
 /// Judges `(φ0, φ1, κ0, κ1)`, all taken as exact; not both curvatures 0.
-pub fn judge(datum: [f64; 4]) -> Verdict {
+pub(crate) fn judge(datum: [f64; 4]) -> Verdict {
     climb(|bits| attempt(datum, bits)).0
 }
 

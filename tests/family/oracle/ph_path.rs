@@ -9,14 +9,14 @@ const BITS: usize = 192;
 
 /// What is given besides the angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Given {
+pub(crate) enum Given {
     Length(f64),
     Speeds(f64, f64),
 }
 
 /// One solution's peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peak {
+pub(crate) struct Peak {
     pub most: f64,
     /// Where.
     pub at: f64,
@@ -210,7 +210,7 @@ fn peak(w: &[Complex; 3], paper: bool) -> Peak {
 }
 
 /// All solutions, those of the paper first.
-pub fn peaks(theta: [f64; 2], given: Given) -> Vec<Peak> {
+pub(crate) fn peaks(theta: [f64; 2], given: Given) -> Vec<Peak> {
     assert!(theta.iter().all(|t| t.abs() <= PI));
     let mut all = vec![];
     for paper in [true, false] {

@@ -5,23 +5,23 @@ use std::cmp::Ordering;
 
 /// Coefficients, constant first. The last one is never an exact zero, except that the zero polynomial is `[]`.
 #[derive(Debug, Clone)]
-pub struct Poly(pub Vec<Iv>);
+pub(crate) struct Poly(pub Vec<Iv>);
 
 impl Poly {
-    pub fn new(mut c: Vec<Iv>) -> Poly {
+    pub(crate) fn new(mut c: Vec<Iv>) -> Poly {
         while c.last().is_some_and(Iv::is_exact_zero) {
             c.pop();
         }
         Poly(c)
     }
 
-    pub fn add(&self, other: &Poly) -> Poly {
+    pub(crate) fn add(&self, other: &Poly) -> Poly {
         let (long, short) = if self.0.len() < other.0.len() { (other, self) } else { (self, other) };
         let sum = long.0.iter().enumerate().map(|(i, c)| short.0.get(i).map_or_else(|| c.clone(), |d| c + d));
         Poly::new(sum.collect())
     }
 
-    pub fn mul(&self, other: &Poly) -> Poly {
+    pub(crate) fn mul(&self, other: &Poly) -> Poly {
         let (Some(first), true) = (self.0.first(), !other.0.is_empty()) else { return Poly(vec![]) };
         let mut c = vec![Iv::new(0.0, first.bits()); self.0.len() + other.0.len() - 1];
         for (i, a) in self.0.iter().enumerate() {
@@ -32,15 +32,15 @@ impl Poly {
         Poly::new(c)
     }
 
-    pub fn times(&self, x: f64) -> Poly {
+    pub(crate) fn times(&self, x: f64) -> Poly {
         Poly::new(self.0.iter().map(|c| c.times(x)).collect())
     }
 
-    pub fn derivative(&self) -> Poly {
+    pub(crate) fn derivative(&self) -> Poly {
         Poly::new(self.0.iter().enumerate().skip(1).map(|(i, c)| c.times(i as f64)).collect())
     }
 
-    pub fn at(&self, x: &Iv) -> Iv {
+    pub(crate) fn at(&self, x: &Iv) -> Iv {
         self.0.iter().rev().fold(Iv::new(0.0, x.bits()), |sum, c| &(&sum * x) + c)
     }
 
@@ -69,12 +69,12 @@ impl Poly {
 }
 
 /// A Sturm chain: the polynomial, its derivative, and negated remainders down to the greatest common divisor.
-pub struct Sturm(Vec<Poly>);
+pub(crate) struct Sturm(Vec<Poly>);
 
 impl Sturm {
     /// # Errors
     /// When a leading coefficient's sign is open.
-    pub fn new(p: &Poly) -> Sure<Sturm> {
+    pub(crate) fn new(p: &Poly) -> Sure<Sturm> {
         let mut chain = vec![p.clone(), p.derivative()];
         while chain[chain.len() - 1].0.len() > 1 {
             let rest = chain[chain.len() - 2].remainder(&chain[chain.len() - 1])?;
@@ -90,17 +90,17 @@ impl Sturm {
         Ok(Sturm(chain))
     }
 
-    pub fn poly(&self) -> &Poly {
+    pub(crate) fn poly(&self) -> &Poly {
         &self.0[0]
     }
 
     /// Whether no root is multiple.
-    pub fn simple(&self) -> bool {
+    pub(crate) fn simple(&self) -> bool {
         self.0.last().is_some_and(|p| p.0.len() == 1)
     }
 
     /// Sign changes at a point that is no root.
-    pub fn changes(&self, x: &Iv) -> Sure<usize> {
+    pub(crate) fn changes(&self, x: &Iv) -> Sure<usize> {
         let mut signs = Vec::with_capacity(self.0.len());
         for p in &self.0 {
             signs.push(p.at(x).sign()?);
@@ -113,12 +113,12 @@ impl Sturm {
     }
 
     /// The number of different roots between two points that are no roots.
-    pub fn count(&self, lo: &Iv, hi: &Iv) -> Sure<usize> {
+    pub(crate) fn count(&self, lo: &Iv, hi: &Iv) -> Sure<usize> {
         Ok(self.changes(lo)? - self.changes(hi)?)
     }
 
     /// Encloses each root between `lo` and `hi`, lowest first, as narrowly as the precision allows.
-    pub fn roots(&self, lo: &Iv, hi: &Iv) -> Sure<Vec<Iv>> {
+    pub(crate) fn roots(&self, lo: &Iv, hi: &Iv) -> Sure<Vec<Iv>> {
         let (below, above) = (self.changes(lo)?, self.changes(hi)?);
         let mut open = vec![(lo.clone(), below, hi.clone(), above)];
         let mut roots = vec![];

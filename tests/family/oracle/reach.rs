@@ -7,17 +7,17 @@ use spiral_atlas::family::reach::Kind;
 
 /// A segment with its shape and what is true of it, as bits EXISTS, EXACT, THEOREM, PAPER.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shape {
+pub(crate) struct Shape {
     pub m: f64,
     pub q: f64,
     pub flags: u8,
 }
 
 /// The segments of cases 1 and 2, if any.
-pub type Verdict = [Option<Shape>; 2];
+pub(crate) type Verdict = [Option<Shape>; 2];
 
 /// Judges an end point with as many bits as it takes.
-pub fn judge(kind: Kind, theta: f64, xi: f64, eta: f64) -> Verdict {
+pub(crate) fn judge(kind: Kind, theta: f64, xi: f64, eta: f64) -> Verdict {
     [0, 1].map(|case| {
         let mut bits = 256;
         loop {

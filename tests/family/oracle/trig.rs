@@ -4,13 +4,13 @@
 use super::iv::{Iv, Sure, Unsure};
 use super::poly::{Poly, Sturm};
 
-pub const END_RISES: u8 = 1;
-pub const SPIRAL: u8 = 2;
-pub const PRINTED_RATIO: u8 = 4;
-pub const END_CURVATURE_AS_PRINTED: u8 = 8;
+pub(crate) const END_RISES: u8 = 1;
+pub(crate) const SPIRAL: u8 = 2;
+pub(crate) const PRINTED_RATIO: u8 = 4;
+pub(crate) const END_CURVATURE_AS_PRINTED: u8 = 8;
 
 /// The flags of `[ratio, θ, m, p, q]`, with as many bits as it takes.
-pub fn judge(shape: [f64; 5]) -> u8 {
+pub(crate) fn judge(shape: [f64; 5]) -> u8 {
     let mut bits = 256;
     loop {
         match at(shape, bits) {

@@ -7,7 +7,13 @@ use spiral_atlas::transition::{Ends, spiral};
 use std::f64::consts::PI;
 
 /// A spiral's ends in some position: turned, scaled and moved, mirrored and travelled backwards or not.
-pub fn ends([phi0, phi1, kappa0, kappa1]: [f64; 4], turned: f64, half: f64, mirrored: bool, reversed: bool) -> Ends {
+pub(super) fn ends(
+    [phi0, phi1, kappa0, kappa1]: [f64; 4],
+    turned: f64,
+    half: f64,
+    mirrored: bool,
+    reversed: bool,
+) -> Ends {
     let at = |x: f64| [3.0 + x * half * turned.cos(), -2.0 + x * half * turned.sin()];
     let side = if mirrored { -1.0 } else { 1.0 };
     let (first, last) = ((-side * phi0, side * kappa0 / half), (side * phi1, side * kappa1 / half));
@@ -33,7 +39,7 @@ pub fn ends([phi0, phi1, kappa0, kappa1]: [f64; 4], turned: f64, half: f64, mirr
 
 /// How far, relative to the curvature's own size, the curve is from its ends, and whether its curvature is monotone at
 /// 400 points.
-pub fn check(ends: &Ends, legs: &[[f64; 2]]) -> (f64, bool) {
+pub(super) fn check(ends: &Ends, legs: &[[f64; 2]]) -> (f64, bool) {
     let degree = legs.len() as f64;
     // The derivative, and the second, over the degree.
     let curvature = |t: f64| {

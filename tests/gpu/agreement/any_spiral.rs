@@ -4,7 +4,7 @@ use spiral_atlas::grid::Grid;
 use std::f64::consts::PI;
 
 /// The first grid has angles that are opposite but for a rounding, too close for f32.
-pub fn subject() -> Subject {
+pub(super) fn subject() -> Subject {
     Subject { family: &AnySpiral, grids: grids(), nodes: 2_000_000, rare: 300, flag: EXISTS, often: 10 }
 }
 

@@ -3,7 +3,7 @@ use spiral_atlas::family::cubic::{Cubic, Datum, SPIRAL, solve};
 use spiral_atlas::grid::Grid;
 
 /// More than ten million nodes in all: the family with the most work in its shader.
-pub fn subject() -> Subject {
+pub(super) fn subject() -> Subject {
     Subject { family: &Cubic, grids: grids(), nodes: 10_000_000, rare: 1000, flag: SPIRAL, often: 50 }
 }
 

@@ -3,7 +3,7 @@ use spiral_atlas::family::ph_path::{Kind, ONE_WAY, PhPath};
 use spiral_atlas::grid::{Axis, Grid};
 use std::f64::consts::PI;
 
-pub fn equal_length() -> Subject {
+pub(super) fn equal_length() -> Subject {
     let angles = |m: usize, n: usize| [lin("theta0", -3.0, 3.1, m), lin("theta1", -2.9, 3.0, n)];
     let with = |[a, b]: [Axis; 2], c: Axis| grid(vec![a, b, c]);
     let grids = vec![
@@ -23,7 +23,7 @@ pub fn equal_length() -> Subject {
     Subject { family: &PhPath(Kind::EqualLength), grids, nodes: 40_000, rare: 10, flag: ONE_WAY, often: 10 }
 }
 
-pub fn hermite() -> Subject {
+pub(super) fn hermite() -> Subject {
     let grids: Vec<(&'static str, Grid)> = vec![
         (
             "all directions",

@@ -2,7 +2,7 @@ use super::{Subject, grid, lin, log, values};
 use spiral_atlas::family::ph_quintic::{PhQuintic, SPIRAL};
 use spiral_atlas::grid::Grid;
 
-pub fn subject() -> Subject {
+pub(super) fn subject() -> Subject {
     Subject { family: &PhQuintic, grids: grids(), nodes: 500_000, rare: 100, flag: SPIRAL, often: 50 }
 }
 

@@ -3,11 +3,11 @@ use spiral_atlas::family::reach::{Kind, Reach};
 use spiral_atlas::grid::Grid;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-pub fn cubic() -> Subject {
+pub(super) fn cubic() -> Subject {
     subject(&Reach(Kind::Cubic), FRAC_PI_2)
 }
 
-pub fn ph() -> Subject {
+pub(super) fn ph() -> Subject {
     subject(&Reach(Kind::Ph), PI)
 }
 

@@ -4,7 +4,7 @@ use spiral_atlas::grid::Grid;
 use std::f64::consts::FRAC_PI_2;
 
 /// A polynomial of degree 37 brings more rounding than the other families have: 1 node in 25 may be open.
-pub fn subject() -> Subject {
+pub(super) fn subject() -> Subject {
     Subject { family: &TrigQuintic, grids: grids(), nodes: 67_000, rare: 25, flag: SPIRAL, often: 10 }
 }
 

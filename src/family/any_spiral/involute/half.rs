@@ -95,7 +95,7 @@ impl Half {
     }
 
     /// The place at `u = v/θ`, from 0 to 1.
-    pub fn at(&self, u: f64) -> Place {
+    pub(super) fn at(&self, u: f64) -> Place {
         let Half { side, near, far, angle, curvature, .. } = *self;
         if u == 0.0 {
             return Place { point: [-side, 0.0], direction: angle, curvature };
@@ -119,7 +119,7 @@ impl Half {
 
     /// Length for each unit of `y = ln(1 + w)`, and how far rounding may move it: about 8 units of the divisor's terms,
     /// twice.
-    pub fn speed(&self, u: f64) -> [f64; 2] {
+    pub(super) fn speed(&self, u: f64) -> [f64; 2] {
         let Seen { w, shrink, t, divisor, .. } = self.seen(u);
         let size = length(divisor);
         let speed = 4.0 * self.scale * t * (shrink / size).powi(2) / (1.0 + w);
@@ -128,12 +128,12 @@ impl Half {
     }
 
     /// Direction at u, followed from the end.
-    pub fn direction(&self, u: f64) -> f64 {
+    pub(super) fn direction(&self, u: f64) -> f64 {
         self.angle - self.side * self.theta * u - 2.0 * self.argument(u)
     }
 
     /// The argument of the divisor, followed from 0 at the end: its value up to full turns, and their number.
-    pub fn argument(&self, u: f64) -> f64 {
+    pub(super) fn argument(&self, u: f64) -> f64 {
         let [x, y] = self.seen(u).divisor;
         let principal = y.atan2(x);
         if self.theta * u < FRAC_PI_2 { self.on_short_arc(u, principal) } else { self.on_long_arc(u, principal) }
@@ -200,12 +200,12 @@ impl Half {
     }
 
     /// `y = ln(1 + w)`.
-    pub fn stretched(&self, u: f64) -> f64 {
+    pub(super) fn stretched(&self, u: f64) -> f64 {
         (self.reach * u).ln_1p()
     }
 
     /// u for y.
-    pub fn share(&self, y: f64) -> f64 {
+    pub(super) fn share(&self, y: f64) -> f64 {
         (y.exp_m1() / self.reach).min(1.0)
     }
 }

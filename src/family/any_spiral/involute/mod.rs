@@ -117,18 +117,17 @@ impl Spiral {
 pub fn involute(chord: &Datum, turns: [u32; 2]) -> Result<Spiral> {
     for (name, angle) in [("alpha", chord.alpha), ("beta", chord.beta)] {
         if angle.is_nan() || angle.abs() > PI {
-            return Err(Error::Domain(format!("{name} is {angle:?}; it must be -pi to pi (radians)")));
+            return Err(Error::angle(name, angle, "-pi to pi", "radians"));
         }
     }
     for (name, k) in [("k1", chord.k1), ("k2", chord.k2)] {
         if k.is_nan() || k.abs() > GREATEST {
-            return Err(Error::Domain(format!(
-                "{name} is {k:?}; it must be at most {GREATEST:?} in magnitude (times half the chord)"
-            )));
+            return Err(Error::domain(name, k, format!("at most {GREATEST:?} in magnitude (times half the chord)")));
         }
     }
     if let Some(n) = turns.iter().find(|n| **n > MOST_TURNS) {
-        return Err(Error::Domain(format!("{n} turns about an end are asked for; at most {MOST_TURNS} can be had")));
+        let limit = format!("at most {MOST_TURNS}");
+        return Err(Error::domain("the number of turns about an end", f64::from(*n), limit));
     }
     Ok(solve::solve(chord, turns)?.0)
 }
@@ -136,10 +135,13 @@ pub fn involute(chord: &Datum, turns: [u32; 2]) -> Result<Spiral> {
 impl fmt::Display for WhyNone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            WhyNone::SameCurvature => "the curvatures at both ends are the same, so that it could neither rise nor fall",
+            WhyNone::SameCurvature => {
+                "the curvatures at both ends are the same, so that it could neither rise nor \
+                                       fall"
+            }
             WhyNone::WrongSide => {
-                "omega, half the sum of the end directions and turns, has not the sign of k2 - k1: a spiral of rising curvature \
-                 bulges to the right at its start, and ever more to the left"
+                "omega, half the sum of the end directions and turns, has not the sign of k2 - k1: a spiral of rising \
+                 curvature bulges to the right at its start, and ever more to the left"
             }
             WhyNone::CirclesCross => {
                 "Q > 0: the circles of curvature at the ends cross, but those of a spiral lie apart or one in the other"

@@ -6,7 +6,7 @@ use super::half::Half;
 use super::track::Track;
 use super::turns::{Split, range};
 use super::{Image, Spiral, WhyNone};
-use crate::error::{Error, Result};
+use crate::error::{Result, samples};
 use crate::num::bernstein::Certain;
 use crate::num::{Interval, climb, formula};
 use serde::Serialize;
@@ -282,7 +282,7 @@ impl Involute {
         self.t0
     }
 
-    /// ρ and λ of the map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature decreases. A ρ
+    /// ρ and λ of Kurnosenko's map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature decreases. A ρ
     /// beyond the range of normal doubles is told as the nearest of them.
     pub fn map(&self) -> [f64; 2] {
         [self.rho, self.lambda]
@@ -358,11 +358,9 @@ impl Involute {
     /// As [`Involute::at_length`].
     ///
     /// # Errors
-    /// [`Error::Domain`] for fewer than 2 points.
+    /// [`crate::Error::Domain`] for fewer than 2 points.
     pub fn samples(&self, count: usize) -> Result<Vec<(f64, InvolutePoint)>> {
-        if count < 2 {
-            return Err(Error::Domain(format!("{count} samples of a curve; it needs at least 2, the ends")));
-        }
+        samples(count)?;
         let share = |i: usize| i as f64 / (count - 1) as f64;
         Ok((0..count).map(|i| (share(i) * self.length(), self.at_length(share(i)))).collect())
     }

@@ -1,7 +1,7 @@
 //! The length along a half of the curve, tabulated once.
 
 use super::half::Half;
-use crate::curve::gauss;
+use crate::curve::{gauss, parameter_of};
 
 /// A half in pieces on each of which one Gauss-Legendre rule gives the length.
 ///
@@ -27,7 +27,7 @@ const PIECE: f64 = 1.5;
 const DEPTH: u32 = 54;
 
 impl Track {
-    pub fn new(half: Half) -> Track {
+    pub(super) fn new(half: Half) -> Track {
         let last = half.stretched(1.0);
         // v by w.
         let unit = half.theta / half.reach;
@@ -70,46 +70,31 @@ impl Track {
     }
 
     /// The whole half's length.
-    pub fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.knots[self.knots.len() - 1][1]
     }
 
     /// How many pieces there are.
-    pub fn pieces(&self) -> usize {
+    pub(super) fn pieces(&self) -> usize {
         self.knots.len() - 1
     }
 
     /// Length from the half's end to `u`.
-    pub fn to(&self, u: f64) -> f64 {
+    pub(super) fn to(&self, u: f64) -> f64 {
         let y = self.half.stretched(u);
         let [from, before] = self.knots[self.knots.partition_point(|k| k[0] <= y) - 1];
         before + self.between(from, y)[0]
     }
 
     /// u at a length from the half's end: Newton's method on its piece, and halving where that leaves the bracket.
-    pub fn at(&self, length: f64) -> f64 {
+    pub(super) fn at(&self, length: f64) -> f64 {
         if length <= 0.0 {
             return 0.0;
         }
         let next = self.knots.partition_point(|k| k[1] < length).clamp(1, self.pieces());
-        let ([start, before], [end, _]) = (self.knots[next - 1], self.knots[next]);
-        let (mut low, mut high) = (start, end);
-        let mut y = start + (end - start) * ((length - before) / (self.knots[next][1] - before)).clamp(0.0, 1.0);
-        for _ in 0..60 {
-            let over = before + self.between(start, y)[0] - length;
-            if over > 0.0 {
-                high = y
-            } else {
-                low = y
-            }
-            let newton = y - over / self.half.speed(self.half.share(y))[0];
-            let ahead = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-            let settled = (ahead - y).abs() <= 2.0 * f64::EPSILON * y || over == 0.0;
-            y = ahead;
-            if settled {
-                break;
-            }
-        }
-        self.half.share(y)
+        let ([start, before], [end, after]) = (self.knots[next - 1], self.knots[next]);
+        let guess = start + (end - start) * ((length - before) / (after - before)).clamp(0.0, 1.0);
+        let at = |y: f64| [before + self.between(start, y)[0] - length, self.half.speed(self.half.share(y))[0]];
+        self.half.share(parameter_of(at, [start, end], guess, 0.0))
     }
 }

@@ -19,7 +19,7 @@ pub(super) struct Angles {
 
 impl Angles {
     /// `None` where the box leaves the domain, comes too near to its end, or is too wide for two orders.
-    pub fn new(phi0: [f64; 2], phi1: [f64; 2]) -> Option<Angles> {
+    pub(super) fn new(phi0: [f64; 2], phi1: [f64; 2]) -> Option<Angles> {
         (phi0[0] > 0.0 && phi1[0] > 0.0 && sum_below_pi(phi0[1], phi1[1])).then_some(())?;
         let (first, second) = (Four::centred(phi0, 0), Four::centred(phi1, 1));
         let (sin0, sin1) = (first.sine(), second.sine());

@@ -39,8 +39,8 @@ mod root;
 
 use super::poly::side;
 use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
-use crate::family::hermite::{clip, holds_box};
-use crate::family::outer_region::{any, fails_within_domain, rising};
+use crate::family::hermite::clip;
+use crate::family::outer_region::{any, facts, rising};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
 use crate::num::verdict::{and, or};
 use crate::num::{Form, Number, Verdict, formula};
@@ -90,18 +90,9 @@ impl Region for Cubic {
     }
 
     fn facts(&self, chart: usize, low: &[f64], high: &[f64], wanted: u8) -> Facts {
-        let (Ok(low), Ok(high)) = (<[f64; 4]>::try_from(low), <[f64; 4]>::try_from(high)) else {
-            return Facts::default();
-        };
-        let sides: [[f64; 2]; 4] = std::array::from_fn(|i| [low[i], high[i]]);
-        if holds_box(&sides) {
-            return prove(chart == 1, &sides, wanted);
-        }
-        let mut facts = Facts::default();
-        if chart == 0 && fails_within_domain(&sides) {
-            facts.note(wanted & (ANY_SPIRAL | SPIRAL | THEOREM31 | THEOREM31_ANY), Some(false));
-        }
-        facts
+        // Nothing follows for a and k from the corner that bounds the curvatures.
+        let none = if chart == 0 { wanted & (ANY_SPIRAL | SPIRAL | THEOREM31 | THEOREM31_ANY) } else { 0 };
+        facts(low, high, none, |sides| prove(chart == 1, sides, wanted))
     }
 }
 

@@ -59,29 +59,29 @@ impl Root {
     }
 
     /// A root of F' < 0, found from x = 0; anything that Newton's method leads to.
-    pub fn falling(a: &Four, k: &Four) -> Option<Root> {
+    pub(super) fn falling(a: &Four, k: &Four) -> Option<Root> {
         let root = enclose(a, k, settle(a.value, k.value, 0.0)?)?;
         (root.slope.low() > 0.0).then_some(root)
     }
 
     /// The left root: F' < 0 and `a x² < 1`.
-    pub fn left(a: &Four, k: &Four) -> Option<Root> {
+    pub(super) fn left(a: &Four, k: &Four) -> Option<Root> {
         let root = Root::falling(a, k)?;
         (formula!(a * (root.x * root.x)).high() < 1.0).then_some(root)
     }
 
     /// The right root, which is the left one with x and y exchanged.
-    pub fn right(a: &Four, k: &Four) -> Option<Root> {
+    pub(super) fn right(a: &Four, k: &Four) -> Option<Root> {
         Root::left(k, a).map(Root::swapped)
     }
 
     /// The only root of a datum that has one.
-    pub fn lone(a: &Four, k: &Four) -> Option<Root> {
+    pub(super) fn lone(a: &Four, k: &Four) -> Option<Root> {
         Root::falling(a, k).or_else(|| Root::falling(k, a).map(Root::swapped))
     }
 
     /// The middle root: F' > 0.
-    pub fn middle(a: &Four, k: &Four) -> Option<Root> {
+    pub(super) fn middle(a: &Four, k: &Four) -> Option<Root> {
         let root = enclose(a, k, settle(a.value, k.value, 1.0 / a.value.sqrt())?)?;
         (root.slope.high() < 0.0 && root.x.low() > 0.0).then_some(root)
     }

@@ -26,7 +26,7 @@ pub(super) struct Bounds {
 impl Bounds {
     /// From the constants of a pair; `None` when they are hardly known.
     #[inline(always)]
-    pub fn of(pair: &Pair<Ball>) -> Option<Bounds> {
+    pub(super) fn of(pair: &Pair<Ball>) -> Option<Bounds> {
         let relative = |x: &Ball| x.error / x.value;
         let constants = [&pair.sin, &pair.cos, &pair.right[0], &pair.right[1]];
         let mut input = constants.into_iter().fold(0.0, |most: f64, x| most.max(relative(x)));
@@ -76,12 +76,12 @@ const MOST_STEPS: usize = 40;
 
 impl<S: Simd> Equations<S> {
     #[inline(always)]
-    pub fn new(simd: S, curves: Curves<Lanes<S>>, bounds: Bounds) -> Equations<S> {
+    pub(super) fn new(simd: S, curves: Curves<Lanes<S>>, bounds: Bounds) -> Equations<S> {
         Equations { simd, curves, bounds }
     }
 
     #[inline(always)]
-    pub fn splat(&self, x: f64) -> S::f64s {
+    pub(super) fn splat(&self, x: f64) -> S::f64s {
         S::f64s::splat(self.simd, x)
     }
 
@@ -90,7 +90,13 @@ impl<S: Simd> Equations<S> {
     /// As in [`Cubic::height`] the residual r puts Z within `1 ± 1.05 |r|` for |r| < 1/64; 1.06 covers the roundings of
     /// the residual found.
     #[inline(always)]
-    pub fn height(&self, cubic: &Cubic<Lanes<S>>, right: S::f64s, guess: S::f64s, wanted: u64) -> (S::f64s, S::f64s) {
+    pub(super) fn height(
+        &self,
+        cubic: &Cubic<Lanes<S>>,
+        right: S::f64s,
+        guess: S::f64s,
+        wanted: u64,
+    ) -> (S::f64s, S::f64s) {
         let [c0, c1, c2] = [cubic.c[0].0, cubic.c[1].0, cubic.c[2].0];
         let mut z = guess;
         for _ in 0..MOST_STEPS {
@@ -109,14 +115,14 @@ impl<S: Simd> Equations<S> {
 
     /// A height from no guess: it is below what one of the terms alone would need.
     #[inline(always)]
-    pub fn lone_height(&self, cubic: &Cubic<Lanes<S>>, right: S::f64s, wanted: u64) -> (S::f64s, S::f64s) {
+    pub(super) fn lone_height(&self, cubic: &Cubic<Lanes<S>>, right: S::f64s, wanted: u64) -> (S::f64s, S::f64s) {
         let guess = (right / cubic.c[0].0).min((right / cubic.c[1].0).sqrt());
         self.height(cubic, right, guess, wanted)
     }
 
     /// Both curves at t; a guess of their heights helps.
     #[inline(always)]
-    pub fn knot(&self, t: f64, guess: Option<[S::f64s; 2]>, wanted: u64) -> Knot<S> {
+    pub(super) fn knot(&self, t: f64, guess: Option<[S::f64s; 2]>, wanted: u64) -> Knot<S> {
         let [first, second] = self.curves.at(&Lanes(self.splat(t)));
         let right = [self.curves.right[0].0, self.curves.right[1].0];
         let ((z0, off0), (z1, off1)) = match guess {
@@ -130,13 +136,13 @@ impl<S: Simd> Equations<S> {
     /// How far a gap may be off: 2.1 times the heights, for it changes by less than the logarithm of their ratio, and
     /// three roundings of a number up to 2; one more for taking this away from it.
     #[inline(always)]
-    pub fn gap_error(&self, knot: &Knot<S>) -> S::f64s {
+    pub(super) fn gap_error(&self, knot: &Knot<S>) -> S::f64s {
         knot.off * 2.1 + 8.0 * UNIT
     }
 
     /// How far slopes may be off, relative: numerator and denominator each change by no more than twice a height.
     #[inline(always)]
-    pub fn slope_error(&self, knot: &Knot<S>) -> S::f64s {
+    pub(super) fn slope_error(&self, knot: &Knot<S>) -> S::f64s {
         knot.off * 4.3 + self.bounds.slope
     }
 }

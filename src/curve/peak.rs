@@ -1,19 +1,19 @@
-//! The greatest |curvature| from one peak and its neighbourhood: what [`Arc::below`] alone proves only after many
+//! The greatest |curvature| from one peak and its neighbourhood: what [`Hodograph::below`] alone proves only after many
 //! halvings, because the curvature is level at a peak.
 //!
 //! With `|κ| = ±h/σ²` its slope is `N/σ³`, `N = ±(σh' - 2hσ')`, of degree 5. Around the peak, at t, a piece is taken
 //! on which h keeps its sign and N falls, as its Bernstein coefficients do. On one side of t the slope then points
 //! towards t throughout, and |κ| is at most |κ(t)|. On the other it is at most `|N(t)| / σ³`, so that |κ| exceeds
 //! |κ(t)| by no more than that times the length of the piece. At an end of the curve it is enough that N does not
-//! point inwards. All else must stay below |κ(t)|, by [`Arc::below`]: it is lower there by about the square of the
-//! piece's length.
+//! point inwards. All else must stay below |κ(t)|, by [`Hodograph::below`]: it is lower there by about the square of
+//! the piece's length.
 //!
 //! Only the value at t and N(t) take the precision of the datum; certificates are in doubles.
 
-use super::arc::{Arc, Bound, product};
+use super::hodograph::{Bound, Hodograph};
 use crate::num::bernstein::Certain;
 use crate::num::{Ball, Number, Real, formula};
-use std::cmp::Ordering::{Greater, Less};
+use std::cmp::Ordering::{Equal, Greater, Less};
 
 /// How far the piece reaches from the peak, in order of trial.
 const REACHES: [f64; 5] = [0.125, 0.03125, 0.00390625, 1.220703125e-4, 1e-6];
@@ -21,7 +21,7 @@ const REACHES: [f64; 5] = [0.125, 0.03125, 0.00390625, 1.220703125e-4, 1e-6];
 /// Covers the roundings of the few operations on bounds below, and of the place where a curve is split.
 const GROW: f64 = 1.0 + 1e-9;
 
-impl<N: Real> Arc<N> {
+impl<N: Real> Hodograph<N> {
     /// The greatest |κ|, if it is proved to be taken at t, near it, or not to exceed the value at t by more than the
     /// share `margin`.
     pub(super) fn only_peak(&self, t: &N, margin: &N) -> Option<N> {
@@ -38,7 +38,7 @@ impl<N: Real> Arc<N> {
                 let [before, after] = piece.split(first / last);
                 (piece, others[1]) = (after, Some(before));
             }
-            let Some(slopes) = piece.slopes() else { continue };
+            let Some(slopes) = piece.slopes_of_size() else { continue };
             let certain = |x: &Ball, side| x.certain_sign(0.0) == Some(side);
             let over = if at <= 0.0 && slopes.iter().all(|x| certain(x, Less))
                 || at >= 1.0 && slopes.iter().all(|x| certain(x, Greater))
@@ -59,9 +59,9 @@ impl<N: Real> Arc<N> {
     }
 }
 
-impl Arc<Ball> {
+impl Hodograph<Ball> {
     /// Both parts at t, inside.
-    fn split(&self, t: f64) -> [Arc<Ball>; 2] {
+    fn split(&self, t: f64) -> [Hodograph<Ball>; 2] {
         let mixed = |a: &Ball, b: &Ball| formula!(a + (b - a) * { t });
         let both = |[a, b, c]: [Ball; 3]| {
             let (left, right) = (mixed(&a, &b), mixed(&b, &c));
@@ -69,35 +69,15 @@ impl Arc<Ball> {
             [[a, left, middle], [middle, right, c]]
         };
         let ([x, y], turn) = ([0, 1].map(|k| both([0, 1, 2].map(|i| self.w[i][k]))), both(self.turn));
-        [0, 1].map(|half| Arc { w: [0, 1, 2].map(|i| [x[half][i], y[half][i]]), turn: turn[half] })
+        [0, 1].map(|half| Hodograph { w: [0, 1, 2].map(|i| [x[half][i], y[half][i]]), turn: turn[half] })
     }
 
     /// N as Bernstein coefficients times 10; `None` where h may change its sign.
-    fn slopes(&self) -> Option<[Ball; 6]> {
-        let sign = match self.turn[0].certain_sign(0.0)? {
-            Less => -1.0,
-            _ => 1.0,
-        };
-        let turn = self.turn.map(|h| h.times(sign));
-        if !turn.iter().all(|h| h.certain_sign(0.0) == Some(Greater)) {
-            return None;
-        }
-        // All as Bernstein coefficients times binomials.
-        let [h0, h1, h2] = turn;
-        let speed = self.speed();
-        let [s0, s1, s2, s3, s4] = &speed;
-        let rise = |a: &Ball, b: &Ball| formula!(2.0 * (b - a));
-        let bent = [rise(&h0, &h1), rise(&h1, &h2)];
-        // σ' from 1, 4, 6, 4, 1 times σ: `4 (σ1 - σ0)`, `12 (σ2 - σ1)` and so on.
-        let gain = [
-            formula!(s1 - 4.0 * s0),
-            formula!(2.0 * s2 - 3.0 * s1),
-            formula!(3.0 * s3 - 2.0 * s2),
-            formula!(4.0 * s4 - s3),
-        ];
-        let (up, down): ([Ball; 6], [Ball; 6]) = (product(&speed, &bent), product(&[h0, h1.times(2.0), h2], &gain));
-        let binomial = [10.0, 2.0, 1.0, 1.0, 2.0, 10.0];
-        Some(std::array::from_fn(|i| formula!((up[i] - 2.0 * down[i]) * { binomial[i] })))
+    fn slopes_of_size(&self) -> Option<[Ball; 6]> {
+        let side = self.turn[0].certain_sign(0.0)?;
+        let sign = if side == Less { -1.0 } else { 1.0 };
+        let keeps = side != Equal && self.turn.iter().all(|h| h.certain_sign(0.0) == Some(side));
+        keeps.then(|| self.slopes().map(|x| x.times(sign)))
     }
 
     /// Less than σ everywhere.

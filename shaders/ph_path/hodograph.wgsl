@@ -1,6 +1,7 @@
-// Paths of PH quintics in f32: which solution bends least, and how; twin of family/ph_path/arc.rs, with one error bound for all
-// coefficients of a piece. The fragment of a family adds `ends`. Guesses use / and sqrt. Proofs use + - * and comparisons, and / and sqrt only where a
-// thousandth more covers them; they count roundings per term, so they hold with fused multiply-adds and reassociated sums.
+// Paths of PH quintics in f32: which solution bends least, and how; twin of curve/hodograph.rs, with one error bound for
+// all coefficients of a piece. The fragment of a family adds `ends`. Guesses use / and sqrt. Proofs use + - * and
+// comparisons, and / and sqrt only where a thousandth more covers them; they count roundings per term, so they hold with
+// fused multiply-adds and reassociated sums.
 
 // Pre-image; each coefficient is off by at most `error`.
 struct Curve {
@@ -256,8 +257,8 @@ fn point(c: Curve, t: f32) -> Point {
     let slope = modulus(j.slope) + slope_off;
     let turn_error = 2.0 * (w * slope_off + slope * off) + 10.0 * UNIT * w * slope;
     return Point(
-        Near(2.0 * outer(j.w, j.slope), 1.01 * turn_error + TINY),
-        Near(dot(j.w, j.w), 1.01 * (2.0 * w * off + 6.0 * UNIT * w * w) + TINY),
+        Near(2.0 * outer(j.w, j.slope), COVER * turn_error + TINY),
+        Near(dot(j.w, j.w), COVER * (2.0 * w * off + 6.0 * UNIT * w * w) + TINY),
     );
 }
 

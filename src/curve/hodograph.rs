@@ -1,4 +1,5 @@
-//! The greatest |curvature| of a PH quintic, enclosed.
+//! Speed, bend and greatest |curvature| of a PH quintic or of a piece of one, over any kind of number: doubles for
+//! values and guesses, enclosed numbers for proofs.
 //!
 //! With pre-image w the curvature is `h/σ²`, `σ = |w|²`, `h = 2 Im(conj(w) w')`. It stays below v on a piece where both
 //! `v σ² - h` and `v σ² + h`, of degree 8, are positive: where their Bernstein coefficients are, or those of the
@@ -6,25 +7,31 @@
 //! and so are its errors), and of h, which is halved itself: from w on a short piece it would be a difference of almost
 //! equal products.
 
+use super::extrema::{self, product};
 use crate::num::bernstein::halve;
-use crate::num::{Ball, Interval, Real, formula};
+use crate::num::{Ball, Number, Real, formula};
 use num_complex::Complex64;
 use std::cmp::Ordering::{Greater, Less};
 
 /// A complex number.
-pub(super) type Complex<N> = [N; 2];
+pub(crate) type Complex<N> = [N; 2];
 
-/// A piece of a curve, as Bernstein coefficients.
+/// A curve or a piece of one, wherever it lies, as Bernstein coefficients.
 #[derive(Debug, Clone)]
-pub(super) struct Arc<N> {
+pub(crate) struct Hodograph<N> {
     /// The pre-image.
     pub w: [Complex<N>; 3],
     /// h of the whole curve's parameter.
     pub turn: [N; 3],
 }
 
+/// Three complex numbers.
+pub(crate) fn complex(w: &[Complex<f64>; 3]) -> [Complex64; 3] {
+    w.map(|[re, im]| Complex64::new(re, im))
+}
+
 /// How a curve compares with a curvature.
-pub(super) enum Bound {
+pub(crate) enum Bound {
     /// It stays below.
     Below,
     /// It does not, at this parameter of the piece.
@@ -43,31 +50,22 @@ enum Compared {
     Hopeless,
 }
 
-/// Whether |κ| stays below `most` on a curve, proved; false also where that is not.
-pub(crate) fn bends_less(preimage: [[f64; 2]; 3], most: f64) -> bool {
-    fn proved<N: Real>(preimage: [[f64; 2]; 3], most: f64, bits: usize) -> bool {
-        let arc = Arc::new(preimage.map(|z| z.map(|x| N::of(x, bits))));
-        matches!(arc.below(&N::of(most, bits), 0), Bound::Below)
-    }
-    proved::<Ball>(preimage, most, 53) || proved::<Interval>(preimage, most, 256)
-}
-
 /// `Re(conj(a) b)`.
-pub(super) fn re<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
+pub(crate) fn re<N: Number>(a: &Complex<N>, b: &Complex<N>) -> N {
     formula!(a[0] * b[0] + a[1] * b[1])
 }
 
 /// `Im(conj(a) b)`.
-fn im<N: Real>(a: &Complex<N>, b: &Complex<N>) -> N {
+fn im<N: Number>(a: &Complex<N>, b: &Complex<N>) -> N {
     formula!(a[0] * b[1] - a[1] * b[0])
 }
 
-fn mean<N: Real>(a: &Complex<N>, b: &Complex<N>) -> Complex<N> {
+fn mean<N: Number>(a: &Complex<N>, b: &Complex<N>) -> Complex<N> {
     [0, 1].map(|i| formula!(0.5 * (a[i] + b[i])))
 }
 
 /// The absolute value, if its number is certainly not 0.
-pub(super) fn size<N: Real>(x: &N) -> Option<N> {
+pub(crate) fn size<N: Real>(x: &N) -> Option<N> {
     match x.certain_sign(0.0)? {
         Greater => Some(x.clone()),
         Less => Some(x.times(-1.0)),
@@ -75,54 +73,42 @@ pub(super) fn size<N: Real>(x: &N) -> Option<N> {
     }
 }
 
-/// Of polynomials as Bernstein coefficients times binomials: those of the product are the plain convolution.
-pub(super) fn product<N: Real, const A: usize, const B: usize, const C: usize>(a: &[N; A], b: &[N; B]) -> [N; C] {
-    std::array::from_fn(|k| {
-        let terms = (k.saturating_sub(B - 1)..=k.min(A - 1)).map(|i| a[i].mul(&b[k - i]));
-        terms.reduce(|sum, x| sum.add(&x)).unwrap_or_else(|| a[0].clone())
-    })
-}
-
-impl<N: Real> Arc<N> {
-    fn bits(&self) -> usize {
-        self.w[0][0].bits()
-    }
-
+impl<N: Number> Hodograph<N> {
     /// A whole curve.
-    pub fn new(w: [Complex<N>; 3]) -> Arc<N> {
+    pub(crate) fn new(w: [Complex<N>; 3]) -> Hodograph<N> {
         let [w0, w1, w2] = &w;
         let turn = [im(w0, w1).times(4.0), im(w0, w2).times(2.0), im(w1, w2).times(4.0)];
-        Arc { w, turn }
+        Hodograph { w, turn }
     }
 
     /// σ as Bernstein coefficients times binomials.
-    pub fn speed(&self) -> [N; 5] {
+    pub(crate) fn speed(&self) -> [N; 5] {
         let [w0, w1, w2] = &self.w;
         let middle = formula!(2.0 * (2.0 * re(w1, w1) + re(w0, w2)));
         [re(w0, w0), re(w0, w1).times(4.0), middle, re(w1, w2).times(4.0), re(w2, w2)]
     }
 
-    /// `σ²` and h as polynomials of degree 8, times binomials.
-    fn sides(&self) -> ([N; 9], [N; 9]) {
-        let speed = self.speed();
-        let [h0, h1, h2] = self.turn.clone();
-        let ones = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0].map(|x| N::of(x, self.bits()));
-        (product(&speed, &speed), product(&[h0, h1.times(2.0), h2], &ones))
+    /// Bernstein coefficients of `σh' - 2hσ'`, times 10.
+    pub(crate) fn slopes(&self) -> [N; 6] {
+        extrema::slopes(&self.speed(), &self.turn, 2.0)
     }
 
-    pub fn halves(&self) -> [Arc<N>; 2] {
+    pub(crate) fn halves(&self) -> [Hodograph<N>; 2] {
         let [w0, w1, w2] = &self.w;
         let (left, right) = (mean(w0, w1), mean(w1, w2));
         let middle = mean(&left, &right);
         let (first, last) = halve(&self.turn);
-        [Arc { w: [w0.clone(), left, middle.clone()], turn: first }, Arc { w: [middle, right, w2.clone()], turn: last }]
+        [
+            Hodograph { w: [w0.clone(), left, middle.clone()], turn: first },
+            Hodograph { w: [middle, right, w2.clone()], turn: last },
+        ]
     }
 
     /// The same the other way.
-    pub fn reversed(self) -> Arc<N> {
+    pub(crate) fn reversed(self) -> Hodograph<N> {
         let ([w0, w1, w2], [h0, h1, h2]) = (self.w, self.turn);
         // Its sign does not matter.
-        Arc { w: [w2, w1, w0], turn: [h2, h1, h0] }
+        Hodograph { w: [w2, w1, w0], turn: [h2, h1, h0] }
     }
 
     /// σ, σ' and σ'' at t, and h, h' and h''.
@@ -141,16 +127,30 @@ impl<N: Real> Arc<N> {
         [[both(&x, &x, &y, &y), rise, lift], jet([0, 1, 2].map(|k| &self.turn[k]))]
     }
 
-    /// |κ| at t; `None` where it may be 0 or infinite.
-    pub fn curvature(&self, t: &N) -> Option<N> {
-        let [[speed, ..], [turn, ..]] = self.jets(t);
-        size(&turn.over(&speed.mul(&speed))?)
-    }
-
     /// `σh' - 2hσ'` at t.
-    pub fn slope(&self, t: &N) -> N {
+    pub(crate) fn slope(&self, t: &N) -> N {
         let [[speed, rise, _], [turn, bent, _]] = self.jets(t);
         formula!(speed * bent - 2.0 * (turn * rise))
+    }
+}
+
+impl<N: Real> Hodograph<N> {
+    fn bits(&self) -> usize {
+        self.w[0][0].bits()
+    }
+
+    /// `σ²` and h as polynomials of degree 8, times binomials.
+    fn sides(&self) -> ([N; 9], [N; 9]) {
+        let speed = self.speed();
+        let [h0, h1, h2] = self.turn.clone();
+        let ones = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0].map(|x| N::of(x, self.bits()));
+        (product(&speed, &speed), product(&[h0, h1.times(2.0), h2], &ones))
+    }
+
+    /// |κ| at t; `None` where it may be 0 or infinite.
+    pub(crate) fn curvature(&self, t: &N) -> Option<N> {
+        let [[speed, ..], [turn, ..]] = self.jets(t);
+        size(&turn.over(&speed.mul(&speed))?)
     }
 
     /// An extremum of the curvature near t by Newton's method on `σh' - 2hσ'`: a guess.
@@ -177,18 +177,18 @@ impl<N: Real> Arc<N> {
     /// orders of their difference are exactly 0 there.
     ///
     /// Doubles are tried first, whatever the precision: for most curvatures they suffice.
-    pub fn below(&self, v: &N, touching: usize) -> Bound {
+    pub(crate) fn below(&self, v: &N, touching: usize) -> Bound {
         let by_doubles =
             if self.bits() > 53 { self.rough().halved_below(&Ball::enclosing(v), touching) } else { Bound::Open };
         match by_doubles {
             Bound::Open => self.halved_below(v, touching),
-            told => told,
+            decided => decided,
         }
     }
 
     /// The same in doubles.
-    pub fn rough(&self) -> Arc<Ball> {
-        Arc {
+    pub(crate) fn rough(&self) -> Hodograph<Ball> {
+        Hodograph {
             w: [0, 1, 2].map(|i| [0, 1].map(|k| Ball::enclosing(&self.w[i][k]))),
             turn: [0, 1, 2].map(|i| Ball::enclosing(&self.turn[i])),
         }
@@ -241,14 +241,16 @@ impl<N: Real> Arc<N> {
         }
     }
 
-    /// In doubles.
-    pub fn plain(&self) -> Plain {
-        let w = [0, 1, 2].map(|i| Complex64::new(self.w[i][0].approx(), self.w[i][1].approx()));
-        Plain { w, turn: [0, 1, 2].map(|i| self.turn[i].approx()) }
+    /// In doubles, for guesses.
+    pub(crate) fn plain(&self) -> Hodograph<f64> {
+        Hodograph {
+            w: [0, 1, 2].map(|i| [0, 1].map(|k| self.w[i][k].approx())),
+            turn: [0, 1, 2].map(|i| self.turn[i].approx()),
+        }
     }
 
     /// Where the curvature is greatest, and how great: a guess.
-    pub fn guess(&self) -> (f64, f64) {
+    pub(crate) fn guess(&self) -> (f64, f64) {
         let plain = self.plain();
         let inside =
             (1..16).map(|i| f64::from(i) / 16.0).chain(plain.slow().into_iter().filter(|t| *t > 0.0 && *t < 1.0));
@@ -257,7 +259,7 @@ impl<N: Real> Arc<N> {
     }
 
     /// `2 ∫ v²` with `w = u + iv`: by how much the curve is longer than its chord, where that is along the first axis.
-    pub fn beyond_chord(&self) -> N {
+    pub(crate) fn beyond_chord(&self) -> N {
         let [a, b, c] = [0, 1, 2].map(|i| &self.w[i][1]);
         let inner = formula!(2.0 * (b * b) + a * c);
         let outer = formula!(a * a + a * b + b * c + c * c);
@@ -266,14 +268,14 @@ impl<N: Real> Arc<N> {
     }
 
     /// From t up to the next peak, and how great that is: a guess.
-    pub fn climbed(&self, t: f64) -> (f64, f64) {
+    pub(crate) fn climbed(&self, t: f64) -> (f64, f64) {
         self.plain().climbed(t)
     }
 
     /// The greatest |κ|; `None` where the precision does not suffice.
     ///
     /// `margin` is how much more than the value at the peak is proved, relative.
-    pub fn greatest(&self, guess: f64, margin: &N) -> Option<N> {
+    pub(crate) fn greatest(&self, guess: f64, margin: &N) -> Option<N> {
         let peak = self.polished(guess);
         if let Some(value) = self.only_peak(&peak, margin) {
             return Some(value);
@@ -310,47 +312,34 @@ fn better(best: (f64, f64), next: (f64, f64)) -> (f64, f64) {
     if next.1 > best.1 { next } else { best }
 }
 
-/// A piece in doubles, for guesses.
-pub(super) struct Plain {
-    w: [Complex64; 3],
-    turn: [f64; 3],
-}
+impl Hodograph<f64> {
+    /// Bernstein coefficients of σ.
+    pub(crate) fn speed_coefficients(&self) -> [f64; 5] {
+        let [s0, s1, s2, s3, s4] = self.speed();
+        [s0, s1 / 4.0, s2 / 6.0, s3 / 4.0, s4]
+    }
 
-impl Plain {
     /// The real parts of the roots of w: near them the curve is slow, and bends most.
-    pub fn slow(&self) -> [f64; 2] {
-        let [c, w1, w2] = self.w;
+    pub(crate) fn slow(&self) -> [f64; 2] {
+        let [c, w1, w2] = complex(&self.w);
         let (a, b) = (w2 - 2.0 * w1 + c, w1 - c);
         let root = (b * b - a * c).sqrt();
         [((root - b) / a).re, ((-root - b) / a).re]
     }
 
-    /// w, w', w'' and h, h', h''.
-    fn jets(&self, t: f64) -> ([Complex64; 3], [f64; 3]) {
-        let ([w0, w1, w2], [h0, h1, h2]) = (self.w, self.turn);
-        let (first, last) = (2.0 * (w1 - w0), 2.0 * (w2 - w1));
-        let (a, b) = (w0 * (1.0 - t) + w1 * t, w1 * (1.0 - t) + w2 * t);
-        let (rise, fall) = (2.0 * (h1 - h0), 2.0 * (h2 - h1));
-        let (c, d) = (h0 * (1.0 - t) + h1 * t, h1 * (1.0 - t) + h2 * t);
-        let w = [a * (1.0 - t) + b * t, first * (1.0 - t) + last * t, last - first];
-        (w, [c * (1.0 - t) + d * t, rise * (1.0 - t) + fall * t, fall - rise])
-    }
-
     /// |κ|; infinite where the curve stands still.
-    pub fn bend(&self, t: f64) -> f64 {
-        let ([w, ..], [turn, ..]) = self.jets(t);
-        let size = turn.abs() / w.norm_sqr().powi(2);
+    pub(crate) fn bend(&self, t: f64) -> f64 {
+        let [[speed, ..], [turn, ..]] = self.jets(&t);
+        let size = turn.abs() / speed.powi(2);
         if size.is_nan() { f64::INFINITY } else { size }
     }
 
     /// From t up to a local maximum of |κ|: Newton's method, as long as it climbs.
-    pub fn climbed(&self, from: f64) -> (f64, f64) {
+    pub(crate) fn climbed(&self, from: f64) -> (f64, f64) {
         let (mut t, mut best) = (from, self.bend(from));
         let mut reach = 1.0 / 32.0;
         for _ in 0..40 {
-            let ([z, v, a], [turn, bent, bend]) = self.jets(t);
-            let (speed, rise) = (z.norm_sqr(), 2.0 * (z.conj() * v).re);
-            let lift = 2.0 * (v.norm_sqr() + (z.conj() * a).re);
+            let [[speed, rise, lift], [turn, bent, bend]] = self.jets(&t);
             let f = (speed * bent - 2.0 * turn * rise) * turn.signum();
             let slope = (speed * bend - rise * bent - 2.0 * turn * lift) * turn.signum();
             // Up the slope where the curve is not concave.
