@@ -316,7 +316,10 @@ fn reasons_and_bad_input() {
     assert!(message(chord(4.0, 0.0, 0.0, 1.0), [0, 0]).contains("alpha is 4"));
     assert!(message(chord(0.0, f64::NAN, 0.0, 1.0), [0, 0]).contains("beta is NaN"));
     assert!(message(chord(0.0, 0.0, f64::INFINITY, 1.0), [0, 0]).contains("k1 is inf"));
-    assert!(message(chord(0.0, 0.1, 0.0, 1.0), [0, 1001]).contains("1001 turns"));
+    assert!(
+        message(chord(0.0, 0.1, 0.0, 1.0), [0, 1001])
+            .contains("the number of turns about an end is 1001; it must be at most 1000")
+    );
     for why in [WhyNone::SameCurvature, WhyNone::WrongSide, WhyNone::CirclesCross, WhyNone::CirclesTouch] {
         assert!(why.to_string().len() > 40);
     }
