@@ -139,13 +139,15 @@ def ph_quintic(phi0: Array, phi1: Array, kappa0: Array, kappa1: Array) -> Flags:
             z = z - (value(z, whole) - right[0] - right[1]) / slope(z, whole)
         return z, value(z, first) - right[0]
 
-    count = 56
-    places = jnp.tan(jnp.linspace(0, 0.5 * math.pi, count + 2)[1:-1])
+    count = 40
+    angles = np.linspace(0, 0.5 * math.pi, count + 2)[1:-1]
+    places, shrinks = jnp.tan(angles), jnp.cos(angles[1:]) ** 2 / jnp.cos(angles[:-1]) ** 2
 
-    def scan(carry: tuple[Array, ...], place: Array) -> tuple[tuple[Array, ...], None]:
+    def scan(carry: tuple[Array, ...], place: tuple[Array, Array]) -> tuple[tuple[Array, ...], None]:
         z, before, last, t0, t1, t2, z0, z1, z2 = carry
-        t = place * scale
-        z, off = level(t, z, 2)
+        t = place[0] * scale
+        # A^2 + B^2 changes little.
+        z, off = level(t, z * place[1], 1)
         change = (off > 0) != (before > 0)
         between = last + (t - last) * before / (before - off)
         new = [(t2, t1), (t1, t0), (t0, between), (z2, z1), (z1, z0), (z0, z)]
@@ -155,11 +157,12 @@ def ph_quintic(phi0: Array, phi1: Array, kappa0: Array, kappa1: Array) -> Flags:
     zero = 0 * (al + be)
     first = places[0] * scale
     z, off = level(first, zero + 3, 12)
-    found, _ = lax.scan(scan, (z, off, first, *(6 * (zero,))), places[1:])
+    found, _ = lax.scan(scan, (z, off, first, *(6 * (zero,))), (places[1:], shrinks), unroll=4)
 
-    def judged(t: Array, z: Array) -> Array:
+    def judged(t: Array, z: Array) -> tuple[Array, Array]:
+        """Whether there is a solution nearby, and whether it is a spiral."""
         there = t > 0
-        for _ in range(4):
+        for _ in range(5):
             t2 = t * t
             first, second = sides(t)
             # Derivatives by t, term by term.
@@ -167,11 +170,13 @@ def ph_quintic(phi0: Array, phi1: Array, kappa0: Array, kappa1: Array) -> Flags:
             start = [0, 9 * be * t2, 12 * be * be * t2 * t2 * t]
             end = [6 * t, 3 * al, 0]
             by0, by1 = ([m + c * e for m, e in zip(both, side, strict=True)] for side in (end, start))
-            f0, f1 = value(z, first) - right[0], value(z, second) - right[1]
-            a, b, d, e = value(z, by0), slope(z, first), value(z, by1), slope(z, second)
-            det = a * e - b * d
-            t, z = t - (f0 * e - f1 * b) / det, z - (a * f1 - d * f0) / det
-        there &= (t > 0) & (z > 0) & (jnp.abs(f0) + jnp.abs(f1) < 1e-6 * (right[0] + right[1]))
+            # In logarithms both are graphs of concave functions.
+            f0, f1 = value(z, first), value(z, second)
+            a, b = t * value(z, by0) / f0, z * slope(z, first) / f0
+            d, e = t * value(z, by1) / f1, z * slope(z, second) / f1
+            off0, off1, det = jnp.log(f0 / right[0]), jnp.log(f1 / right[1]), a * e - b * d
+            t, z = t * jnp.exp((off1 * b - off0 * e) / det), z * jnp.exp((d * off0 - a * off1) / det)
+        there &= jnp.abs(off0) + jnp.abs(off1) < 1e-4
         t2, cos = t * t, 0.5 * c
         u, v = be * t2 * t, al
         cross, square = cos * t, u * (u + 2 * cos * v) + v * v
@@ -186,11 +191,12 @@ def ph_quintic(phi0: Array, phi1: Array, kappa0: Array, kappa1: Array) -> Flags:
             ]
 
         b, e = near(turn, speed), near(turn[::-1], speed[::-1])
-        return there & rises([*b, *(-x for x in reversed(e))], 20)
+        return there, there & rises([*b, *(-x for x in reversed(e))], 20)
 
     t0, t1, t2, z0, z1, z2 = found[3:]
-    spiral = judged(t0, z0) | judged(t1, z1) | judged(t2, z2)
-    return {"SPIRAL": spiral & outer(phi0, phi1, kappa0, kappa1)}
+    found = [judged(t0, z0), judged(t1, z1), judged(t2, z2)]
+    there, spiral = (functools.reduce(jnp.logical_or, flags) for flags in zip(*found, strict=True))
+    return {"SOLVABLE": there, "SPIRAL": spiral & outer(phi0, phi1, kappa0, kappa1)}
 
 
 def any_spiral(alpha: Array, beta: Array, k1: Array, k2: Array) -> Flags:
@@ -375,11 +381,10 @@ def bending(w0: Complex, w1: Complex, w2: Complex) -> tuple[Array, Array, Array]
     return most, ends, one_way
 
 
-def least_bending(first: Complex, lasts: Complex) -> Flags:
-    """The flags of the solution that bends least, of those with either sign of w2 and of the root."""
+def least_bending(ends: list[tuple[Complex, Complex]]) -> Flags:
+    """The flags of the solution that bends least: of w0 and w2 with w2 of either sign, the paper's first, either root."""
     best = None
-    for paper in (True, False):
-        last = lasts if paper else (-lasts[0], -lasts[1])
+    for paper, (first, last) in zip((True, False), ends, strict=True):
         re = 120 - 15 * (first[0] ** 2 - first[1] ** 2 + last[0] ** 2 - last[1] ** 2)
         re += 10 * (first[0] * last[0] - first[1] * last[1])
         im = 10 * (first[0] * last[1] + first[1] * last[0]) - 30 * (first[0] * first[1] + last[0] * last[1])
@@ -404,17 +409,23 @@ def ph_hermite(theta0: Array, theta1: Array, l0: Array, l1: Array) -> Flags:
     """Four solutions in closed form, their curvature at some points, then Newton's method for the peak."""
     a, b = jnp.sqrt(l0), jnp.sqrt(l1)
     first = a * jnp.cos(0.5 * theta0), a * jnp.sin(0.5 * theta0)
-    return least_bending(first, (b * jnp.cos(0.5 * theta1), b * jnp.sin(0.5 * theta1)))
+    last = b * jnp.cos(0.5 * theta1), b * jnp.sin(0.5 * theta1)
+    return least_bending([(first, last), (first, (-last[0], -last[1]))])
 
 
 def ph_equal_length(theta0: Array, theta1: Array, length: Array) -> Flags:
     """The same; the ends' speed follows from the length in closed form (Farouki et al.)."""
-    c0, s0, c1, s1 = jnp.cos(0.5 * theta0), jnp.sin(0.5 * theta0), jnp.cos(0.5 * theta1), jnp.sin(0.5 * theta1)
+    c0, s0 = jnp.cos(0.5 * theta0), jnp.sin(0.5 * theta0)
     p, q = 60 * (length + 1), 60 * (length - 1)
-    g = 5 * (c0 * s1 + c1 * s0 - 3 * (c0 * s0 + c1 * s1))
-    a, b = (u * (5 * (x - y) ** 2 + 10 * (x * x + y * y)) for u, x, y in ((p, s0, s1), (q, c0, c1)))
-    z = jnp.sqrt(2 * p * q / (a + b + jnp.hypot(a - b, 2 * g * jnp.sqrt(p * q))))
-    return least_bending((z * c0, z * s0), (z * c1, z * s1))
+
+    def ends(sign: float) -> tuple[Complex, Complex]:
+        c1, s1 = sign * jnp.cos(0.5 * theta1), sign * jnp.sin(0.5 * theta1)
+        g = 5 * (c0 * s1 + c1 * s0 - 3 * (c0 * s0 + c1 * s1))
+        a, b = (u * (5 * (x - y) ** 2 + 10 * (x * x + y * y)) for u, x, y in ((p, s0, s1), (q, c0, c1)))
+        z = jnp.sqrt(2 * p * q / (a + b + jnp.sqrt((a - b) ** 2 + 4 * g * g * p * q)))
+        return (z * c0, z * s0), (z * c1, z * s1)
+
+    return least_bending([ends(1), ends(-1)])
 
 
 PEERS: dict[str, Callable[..., Flags]] = {
@@ -429,7 +440,8 @@ PEERS: dict[str, Callable[..., Flags]] = {
 }
 
 
-@functools.partial(jax.jit, static_argnums=0)
+# XLA takes half the width of a vector unless it is told otherwise.
+@functools.partial(jax.jit, static_argnums=0, compiler_options={"xla_cpu_prefer_vector_width": 512})
 def evaluate(peer: Callable[..., Flags], axes: list[Array]) -> Flags:
     """All nodes of a grid, a few values of the first axis at a time."""
     rest = [jnp.expand_dims(axis, [j for j in range(len(axes) - 1) if j != i]) for i, axis in enumerate(axes[1:])]
