@@ -113,15 +113,18 @@ fn leave(
     }
     // Each core goes through the whole grid, as often as some hundredths of a second hold.
     let cores = std::thread::available_parallelism()?.get();
-    let rounds = (5e4 * rate / codes.len() as f64).ceil() as usize;
-    let start = Instant::now();
-    std::thread::scope(|scope| {
-        for _ in 0..cores {
-            let mut own = codes.to_vec();
-            scope.spawn(move || (0..rounds).for_each(|_| table.filter(0, black_box(&mut own))));
-        }
-    });
-    let all = (cores * rounds * codes.len()) as f64 / (start.elapsed().as_secs_f64() * 1e6);
+    let rounds = (2e4 * rate / codes.len() as f64).ceil() as usize;
+    let mut all = 0f64;
+    for _ in 0..3 {
+        let start = Instant::now();
+        std::thread::scope(|scope| {
+            for _ in 0..cores {
+                let mut own = codes.to_vec();
+                scope.spawn(move || (0..rounds).for_each(|_| table.filter(0, black_box(&mut own))));
+            }
+        });
+        all = all.max((cores * rounds * codes.len()) as f64 / (start.elapsed().as_secs_f64() * 1e6));
+    }
     let about = family.about();
     let axes: Vec<&[f64]> = grid.axes().iter().map(Axis::values).collect();
     let flags: Vec<&str> = about.flags.iter().map(|flag| flag.name).collect();
