@@ -85,6 +85,8 @@ def finer(axes: list[np.ndarray]) -> list[np.ndarray]:
 
 def main() -> None:
     """Prints the table."""
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     print(f"JAX {jax.__version__}, float64, {os.cpu_count()} cores; million nodes a second, and nodes that differ")
     print(f"{'':16}{'JAX':>10}{'ours, all cores':>18}{'one thread':>12}{'ratio':>8}   differ")
