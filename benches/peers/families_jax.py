@@ -25,7 +25,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
-
 from jax_paths import ph_equal_length, ph_hermite
 from jax_segments import reach_cubic, reach_ph, trig_quintic
 from jax_spirals import Flags, any_spiral, cubic, ph_quintic

@@ -3,7 +3,6 @@
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
-
 from jax_spirals import Flags
 
 Complex = tuple[Array, Array]

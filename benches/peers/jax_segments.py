@@ -5,7 +5,6 @@ import math
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
-
 from jax_spirals import Flags, rises
 
 
