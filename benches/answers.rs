@@ -5,12 +5,18 @@
 //! by halving the way between two random data. The line `dense` is the f64 step over a dense grid of the usual domain,
 //! in million nodes a second, and how many nodes it leaves to intervals. A low rate there shows vector operations that
 //! became calls. Arguments choose families by a part of their names.
+//!
+//! Where the environment variable `SPIRAL_ATLAS_DENSE` names a folder, each family's grid, codes and rates are left
+//! there, for `peers/families_jax.py`.
 
 use spiral_atlas::Result;
-use spiral_atlas::family::{Code, Family, all, verdict};
+use spiral_atlas::family::{Code, Family, Table, all, verdict};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 use std::hint::black_box;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+type Outcome<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Random data of each family.
 const USUAL: usize = 1500;
@@ -19,14 +25,15 @@ const HARD: usize = 300;
 /// Halvings towards a border: 2^-24 of the way are left.
 const HALVINGS: u32 = 24;
 
-fn main() -> Result<()> {
+fn main() -> Outcome<()> {
+    let folder = std::env::var_os("SPIRAL_ATLAS_DENSE").map(PathBuf::from);
     let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     println!("{:16} {:6} {:>10} {:>10} {:>10} {:>10}   microseconds", "", "", "answer", "99 %", "verdict", "99 %");
     for family in all().iter().copied() {
         if !wanted.is_empty() && !wanted.iter().any(|word| family.about().name.contains(word.as_str())) {
             continue;
         }
-        let (rate, left) = dense(family)?;
+        let (rate, left) = dense(family, folder.as_deref())?;
         println!("{:16} dense {rate:59.3} million nodes a second, {left} left", family.about().name);
         let mut noise = Noise(7);
         let usual: Vec<Vec<f64>> = (0..USUAL).map(|_| datum(family.about().name, &mut noise)).collect();
@@ -61,7 +68,7 @@ fn times(data: &[Vec<f64>], work: impl Fn(&[f64]) -> Result<()>) -> Result<(f64,
 }
 
 /// Nodes a microsecond of the f64 step, the best of three rounds, and how many it leaves undecided.
-fn dense(family: &dyn Family) -> Result<(f64, usize)> {
+fn dense(family: &dyn Family, folder: Option<&Path>) -> Outcome<(f64, usize)> {
     // Some 30,000 nodes, many along the last axis.
     let names = family.about().charts[0].axes;
     let counts: &[usize] = match names.len() {
@@ -85,7 +92,49 @@ fn dense(family: &dyn Family) -> Result<(f64, usize)> {
         table.filter(0, black_box(&mut codes));
         best = best.min(start.elapsed().as_secs_f64() * 1e6);
     }
-    Ok((codes.len() as f64 / best, codes.iter().filter(|code| **code == Code::UNDECIDED).count()))
+    let (rate, left) = (codes.len() as f64 / best, codes.iter().filter(|code| **code == Code::UNDECIDED).count());
+    if let Some(folder) = folder {
+        leave(folder, family, &grid, &*table, &mut codes, rate)?;
+    }
+    Ok((rate, left))
+}
+
+/// Leaves a grid, the flags of its nodes and the rates in a folder: `NAME.json` and, a byte a node, `NAME.flags`.
+fn leave(
+    folder: &Path,
+    family: &dyn Family,
+    grid: &Grid,
+    table: &dyn Table,
+    codes: &mut [Code],
+    rate: f64,
+) -> Outcome<()> {
+    for (node, code) in codes.iter_mut().enumerate().filter(|(_, code)| **code == Code::UNDECIDED) {
+        *code = table.exact(node as u64)?.0;
+    }
+    // Each core goes through the whole grid, as often as some hundredths of a second hold.
+    let cores = std::thread::available_parallelism()?.get();
+    let rounds = (2e4 * rate / codes.len() as f64).ceil() as usize;
+    let mut all = 0f64;
+    for _ in 0..3 {
+        let start = Instant::now();
+        std::thread::scope(|scope| {
+            for _ in 0..cores {
+                let mut own = codes.to_vec();
+                scope.spawn(move || (0..rounds).for_each(|_| table.filter(0, black_box(&mut own))));
+            }
+        });
+        all = all.max((cores * rounds * codes.len()) as f64 / (start.elapsed().as_secs_f64() * 1e6));
+    }
+    let about = family.about();
+    let axes: Vec<&[f64]> = grid.axes().iter().map(Axis::values).collect();
+    let flags: Vec<&str> = about.flags.iter().map(|flag| flag.name).collect();
+    let told = serde_json::json!({
+        "family": about.name, "names": about.charts[0].axes, "values": axes, "flags": flags,
+        "rate": rate, "cores": cores, "rate_of_all": all,
+    });
+    std::fs::write(folder.join(format!("{}.json", about.name)), told.to_string())?;
+    let bytes: Vec<u8> = codes.iter().map(|code| code.flags()).collect();
+    Ok(std::fs::write(folder.join(format!("{}.flags", about.name)), bytes)?)
 }
 
 /// Both sides of a border between two data, where their codes differ.
