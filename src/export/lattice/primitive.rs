@@ -25,10 +25,14 @@ impl Primitive {
 
     /// Of its lines.
     pub fn straight_length(&self) -> f64 {
-        self.pieces.iter().filter(|piece| matches!(piece, Piece::Line(_))).map(Piece::length).sum()
+        self.pieces
+            .iter()
+            .filter(|piece| matches!(piece, Piece::Line(_)))
+            .map(Piece::length)
+            .fold(0.0, |sum, length| sum + length)
     }
 
-    /// Greatest |κ|, in 1 / m: at an end of a piece, since the curvature of each is monotone.
+    /// Greatest |κ|, in 1 / m, to 1e-12: at an end of a piece, since the curvature of each is monotone.
     pub fn greatest_curvature(&self) -> f64 {
         self.curvatures().fold(0.0, |most, k| most.max(k.abs()))
     }
