@@ -106,7 +106,8 @@ fn the_loader_understands_the_file() {
 #[test]
 fn the_loaders_rules_catch_mistakes() {
     let text = lattice(&usual()).unwrap().to_json().unwrap();
-    let mistaken: [(&str, &dyn Fn(&mut Value)); 7] = [
+    type Change<'a> = (&'a str, &'a dyn Fn(&mut Value));
+    let mistaken: [Change; 7] = [
         ("number of trajectories", &|v| drop(v["primitives"].as_array_mut().unwrap().pop())),
         ("lists", &|v| {
             v["primitives"].as_array_mut().unwrap().retain(|p| p["start_angle_index"] != 5);
@@ -132,7 +133,7 @@ fn the_loaders_rules_catch_mistakes() {
 fn primitives_are_straight_at_both_ends_and_keep_the_limit() {
     for family in FAMILIES {
         // Involutes take a hundred times as long, and a coarse grid has fewer.
-        let resolution = if family == Family::Involute { 0.25 } else { 0.1 };
+        let resolution = if family == Family::Involute { 0.5 } else { 0.1 };
         let options = LatticeOptions { family, ..LatticeOptions::new(0.5, resolution) };
         let found = lattice(&options).unwrap();
         assert!(found.primitives.iter().any(|p| p.pieces.len() > 3) && found.primitives.len() == 144, "{family:?}");
@@ -155,7 +156,7 @@ fn checked(lattice: &Lattice, primitive: &Primitive) -> Result<(), String> {
     check_told(&request, &told)?;
     // To one side only.
     let side = if primitive.left_turn() { 1.0 } else { -1.0 };
-    let stations = primitive.stations(1000).unwrap();
+    let stations = primitive.stations(40).unwrap();
     if stations.iter().any(|s| s.curvature * side < -1e-9) {
         return Err("it turns to both sides".into());
     }
@@ -312,7 +313,7 @@ fn options_out_of_range_are_refused() {
 #[test]
 fn each_heading_leads_to_all_within_a_quarter_turn() {
     for options in [
-        LatticeOptions { headings: 64, ..LatticeOptions::new(0.5, 0.1) },
+        LatticeOptions { headings: 40, ..LatticeOptions::new(0.5, 0.1) },
         LatticeOptions { headings: 32, ..LatticeOptions::new(1.0, 1.0) },
     ] {
         let found = lattice(&options).unwrap();
