@@ -1,7 +1,10 @@
 //! `export`: paths as files of other programs.
 
+mod lattice;
+
 use super::path::Source;
 use super::{Outcome, numbers, output};
+use lattice::LatticeArgs;
 use spiral_atlas::Result;
 use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::files::write_file;
@@ -22,6 +25,7 @@ pub(super) struct Args {
 #[derive(clap::Subcommand)]
 enum Format {
     Opendrive(RoadArgs),
+    Lattice(LatticeArgs),
 }
 
 /// ASAM OpenDRIVE 1.7: a road for each path, whose reference line the path is, with one driving lane to the right.
@@ -50,7 +54,13 @@ struct RoadArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<Outcome> {
-    let Format::Opendrive(args) = &args.format;
+    match &args.format {
+        Format::Opendrive(args) => road(args),
+        Format::Lattice(args) => lattice::run(args),
+    }
+}
+
+fn road(args: &RoadArgs) -> Result<Outcome> {
     let options = OpenDrive { lane_width: args.lane_width, tolerance: args.tolerance };
     let paths: Vec<Course> = args.source.courses()?.into_iter().map(|(_, course)| course).collect();
     let (text, fit) = opendrive(&paths, &options).map_err(|e| args.source.blame(e))?;

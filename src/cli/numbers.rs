@@ -1,5 +1,8 @@
 //! Numbers on the command line, with sentences where they are none.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use serde::de::DeserializeOwned;
+
 type Parsed<T> = std::result::Result<T, String>;
 
 /// A number.
@@ -16,4 +19,11 @@ pub(super) fn count<const LEAST: u32, const MOST: u32>(text: &str) -> Parsed<u32
 /// How many samples of a curve.
 pub(super) fn samples(text: &str) -> Parsed<u32> {
     count::<2, 1_000_000>(text)
+}
+
+/// One of the names that a type is read from.
+pub fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
+    names: &[&'static str],
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(names.iter().copied()).try_map(|name| serde_json::from_value(name.into()))
 }

@@ -1,4 +1,4 @@
-//! Paths as files of other programs. What stands in the files is judged by `tests/opendrive`.
+//! Paths as files of other programs. What stands in the files is judged by `tests/opendrive` and `tests/join`.
 
 use super::{Folder, fine, run};
 
@@ -47,5 +47,49 @@ fn what_no_road_can_be_is_refused_and_leaves_no_file() {
         assert_eq!(said.code, Some(2), "{text} {more:?}");
         assert!(words.iter().all(|word| said.err.contains(word)), "{more:?}: {}", said.err);
         assert!(!folder.at("road.xodr").exists());
+    }
+}
+
+#[test]
+fn a_lattice_goes_to_a_file_or_to_standard_output() {
+    let folder = Folder::new("");
+    let (out, figure) = (folder.text("lattice.json"), folder.text("lattice.png"));
+    let options = ["export", "lattice", "--turning-radius", "0.4", "--grid-resolution", "0.1"];
+    let printed = fine(options);
+    assert!(printed.err.is_empty(), "{}", printed.err);
+    let told = printed.json();
+    assert_eq!(told["lattice_metadata"]["num_of_headings"], 16);
+    assert_eq!(told["lattice_metadata"]["number_of_trajectories"], told["primitives"].as_array().unwrap().len());
+    let silent = fine(options.iter().chain(&["--out", &out, "--figure", &figure]));
+    assert!(silent.out.is_empty() && std::fs::read_to_string(out).unwrap() == printed.out);
+    assert!(std::fs::read(figure).unwrap().starts_with(b"\x89PNG"));
+    let more = ["--headings", "24", "--distinctness", "0.5", "--family", "ph-quintic"];
+    let other = fine(options.iter().chain(&more)).json();
+    assert_eq!(other["lattice_metadata"]["heading_angles"].as_array().unwrap().len(), 24);
+}
+
+#[test]
+fn what_no_lattice_can_be_is_refused_and_leaves_no_file() {
+    let folder = Folder::new("");
+    let out = folder.text("lattice.json");
+    let cases: [(&str, &str, &[&str], &str); 11] = [
+        ("0", "0.05", &[], "turning radius is 0.0"),
+        ("NaN", "0.05", &[], "turning radius is NaN"),
+        ("-0.5", "0.05", &[], "turning radius is -0.5"),
+        ("half", "0.05", &[], "no number"),
+        ("0.5", "inf", &[], "grid resolution is inf"),
+        ("0.5", "0.6", &[], "larger than the turning radius"),
+        ("0.5", "0.0001", &[], "coarser grid"),
+        ("0.5", "0.05", &["--headings", "7"], "multiple of 8"),
+        ("0.5", "0.05", &["--headings", "8"], "from 16"),
+        ("0.5", "0.05", &["--distinctness", "-1"], "distinctness is -1.0"),
+        ("0.5", "0.05", &["--figure", "lattice.pdf"], ".png"),
+    ];
+    for (radius, resolution, more, words) in cases {
+        let options = ["export", "lattice", "--turning-radius", radius, "--grid-resolution", resolution, "--out", &out];
+        let said = run(options.iter().chain(more));
+        assert_eq!(said.code, Some(2), "{words}");
+        assert!(said.err.contains(words), "{words}: {}", said.err);
+        assert!(!folder.at("lattice.json").exists());
     }
 }

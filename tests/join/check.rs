@@ -30,7 +30,11 @@ struct Seen {
 }
 
 pub(crate) fn check(request: &Request, join: &Join) -> Result<Checked, String> {
-    let told = serde_json::to_value(join).unwrap();
+    check_told(request, &serde_json::to_value(join).unwrap())
+}
+
+/// The same of a path as JSON: `pieces`, `length`, `greatest_curvature`.
+pub(crate) fn check_told(request: &Request, told: &Value) -> Result<Checked, String> {
     let limit = request.greatest_curvature;
     let pieces: Vec<Seen> = told["pieces"].as_array().unwrap().iter().map(seen).collect();
     let far = |p: Vector| p.iter().fold(0.0f64, |m, x| m.max(x.abs()));

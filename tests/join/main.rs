@@ -2,6 +2,7 @@
 
 mod check;
 mod dubins;
+mod lattice;
 mod shapes;
 
 use check::{Checked, check};

@@ -38,11 +38,17 @@ typedef struct SpiralAnswer SpiralAnswer;
 // An atlas file, mapped into memory.
 typedef struct SpiralAtlas SpiralAtlas;
 
+// The outline of a property in a slice.
+typedef struct SpiralBoundary SpiralBoundary;
+
 // A file of certified cells, mapped into memory.
 typedef struct SpiralCells SpiralCells;
 
 // A curve of one or more pieces.
 typedef struct SpiralCurve SpiralCurve;
+
+// All that is known of a property along one coordinate.
+typedef struct SpiralRanges SpiralRanges;
 
 // One end of a curve, in the user's unit of length.
 typedef struct {
@@ -65,6 +71,16 @@ typedef struct {
     // Signed curvature.
     double curvature;
 } SpiralStation;
+
+// An interval of a coordinate in which a property holds.
+typedef struct {
+    // The property holds at these numbers, and at their neighbours outside it does not.
+    double ends[2];
+    // It holds at each number from the first to the second: proved.
+    double inner[2];
+    // Below the first and above the second it fails up to the next range or open interval: proved.
+    double outer[2];
+} SpiralRange;
 
 #ifdef __cplusplus
 extern "C" {
@@ -341,6 +357,109 @@ SpiralStatus spiral_curve_control_points(const SpiralCurve *curve,
 // # Safety
 // `curve` is null or open; `out` has room for `count` stations.
 SpiralStatus spiral_curve_stations(const SpiralCurve *curve, SpiralStation *out, size_t count);
+
+// All intervals of the coordinate number `axis`, from `from` to `to`, in which a property holds; in `datum` that
+// coordinate does not matter. `flag` is the property's name; null stands for the flag that says that a spiral exists.
+// Families with proofs over boxes answer: cubic, ph-quintic, any-spiral, reach-cubic, reach-ph. Close the ranges with
+// spiral_ranges_close.
+//
+// # Safety
+// `family`, `chart` and `flag` are null or texts that end with a zero byte (a null `chart` is the family's first);
+// `datum` holds as many numbers as the chart has axes; `ranges` is null or valid for a write.
+SpiralStatus spiral_ranges(const char *family,
+                           const char *chart,
+                           const char *flag,
+                           const double *datum,
+                           size_t axis,
+                           double from,
+                           double to,
+                           SpiralRanges **ranges);
+
+// Closes ranges. Null is allowed.
+//
+// # Safety
+// `ranges` comes from spiral_ranges and is not used any more, nor are pointers that it gave.
+void spiral_ranges_close(SpiralRanges *ranges);
+
+// The ranges in increasing order, and the intervals of which it is not known whether the property holds there; outside
+// of both it is proved to fail. All live as long as the handle.
+//
+// # Safety
+// `ranges` is null or open; each of the others is null, when it is not wanted, or valid for a write.
+SpiralStatus spiral_ranges_data(const SpiralRanges *ranges,
+                                const SpiralRange **all,
+                                size_t *count,
+                                const double (**open)[2],
+                                size_t *open_count);
+
+// The nearest datum that has a property, of those with coordinates up to 1e6: the datum, its distance, and a proved
+// bound: no datum with the property is nearer than `at_least`. The distance is the root of the sum of squares of
+// weight times difference; null `weights` are 1, and an infinite one keeps its coordinate. SPIRAL_NONE where no datum
+// was found; then `at_least` alone is written, infinite where there is none at all.
+//
+// # Safety
+// `family`, `chart`, `flag` and `datum` as for spiral_ranges; `weights` is null or holds as many numbers as the datum;
+// `nearest` is null, when it is not wanted, or has room for as many; `distance` and `at_least` are null, when they are
+// not wanted, or valid for a write.
+SpiralStatus spiral_nearest(const char *family,
+                            const char *chart,
+                            const char *flag,
+                            const double *datum,
+                            const double *weights,
+                            double *nearest,
+                            double *distance,
+                            double *at_least);
+
+// The outline of a property in a slice: the coordinates with the numbers `axes[0]` and `axes[1]` vary, each from
+// `within[i][0]` to `within[i][1]`, in `cells` cells along each side: a power of two up to 4096. In `datum` these two
+// do not matter. Close the outline with spiral_boundary_close.
+//
+// # Safety
+// `family`, `chart`, `flag` and `datum` as for spiral_ranges; `axes` and `within` are null or hold two numbers and two
+// pairs; `boundary` is null or valid for a write.
+SpiralStatus spiral_boundary(const char *family,
+                             const char *chart,
+                             const char *flag,
+                             const double *datum,
+                             const size_t *axes,
+                             const double (*within)[2],
+                             size_t cells,
+                             SpiralBoundary **boundary);
+
+// Closes an outline. Null is allowed.
+//
+// # Safety
+// `boundary` comes from spiral_boundary and is not used any more, nor are pointers that it gave.
+void spiral_boundary_close(SpiralBoundary *boundary);
+
+// How many polylines the outline has; 0 for a null pointer.
+//
+// # Safety
+// `boundary` is null or open.
+size_t spiral_boundary_lines(const SpiralBoundary *boundary);
+
+// A polyline of the outline: its points, and 1 where the last joins the first, 0 where it ends at the border of the
+// slice. The points live as long as the handle.
+//
+// # Safety
+// `boundary` is null or open; each of the others is null, when it is not wanted, or valid for a write.
+SpiralStatus spiral_boundary_line(const SpiralBoundary *boundary,
+                                  size_t index,
+                                  const double (**xy)[2],
+                                  size_t *count,
+                                  uint8_t *closed);
+
+// Cells, as their least and greatest corners, in which the property may change although no line passes; and the sides
+// of a cell, two numbers. It is proved to change in no other cell but those that a line passes. The cells live as long
+// as the handle.
+//
+// # Safety
+// `boundary` is null or open; `open` and `count` are null, when they are not wanted, or valid for a write; `cell` is
+// null, when it is not wanted, or has room for two numbers.
+SpiralStatus spiral_boundary_open(const SpiralBoundary *boundary,
+                                  const double (**open)[2][2],
+                                  size_t *count,
+                                  double *cell);
 
 // In a sentence, what was wrong with the last call of this thread that did not return SPIRAL_OK. It stays valid until
 // the thread's next such call; it is never null.

@@ -335,4 +335,6 @@ inline std::optional<Curve> join(const End &start, const End &end, double greate
 
 } // namespace spiral_atlas
 
+#include "spiral_atlas_questions.hpp"
+
 #endif

@@ -12,7 +12,7 @@ pub struct SpiralAnswer(Answer);
 ///
 /// # Safety
 /// Both are null or texts that end with a zero byte.
-unsafe fn known(family: *const c_char, chart: *const c_char) -> Result<(&'static dyn Family, usize)> {
+pub(crate) unsafe fn known(family: *const c_char, chart: *const c_char) -> Result<(&'static dyn Family, usize)> {
     // SAFETY: the caller's promise.
     let name = unsafe { text(family, "family")? };
     let family = family::by_name(name)?;

@@ -7,12 +7,14 @@ mod answer;
 mod atlas;
 mod cells;
 mod curve;
+mod question;
 mod status;
 
 pub use answer::*;
 pub use atlas::*;
 pub use cells::*;
 pub use curve::*;
+pub use question::*;
 pub use status::*;
 
 use std::ffi::{CStr, c_char};

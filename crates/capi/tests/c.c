@@ -154,6 +154,72 @@ static void joins(void) {
     CHECK(spiral_join(&start, &end, 0.0166, "arc", INFINITY, &curve) == SPIRAL_DOMAIN && says("`arc`"));
 }
 
+static void questions(void) {
+    const double datum[4] = {0.7, 1.4, 0.4, 0}, outside[4] = {0.7, 1.4, 1, 2};
+    SpiralRanges *ranges = NULL;
+    CHECK(spiral_ranges("cubic", NULL, NULL, datum, 3, 0, 100, &ranges) == SPIRAL_OK);
+    const SpiralRange *all = NULL;
+    const double(*open)[2] = NULL;
+    size_t count = 0, open_count = 9;
+    CHECK(spiral_ranges_data(ranges, &all, &count, &open, &open_count) == SPIRAL_OK && count == 1 && open_count == 0);
+    /* The ends have the property, and their neighbours do not. */
+    uint8_t mask = 0, flags[4];
+    CHECK(spiral_family_flag("cubic", "SPIRAL", &mask) == SPIRAL_OK);
+    const double low = all[0].ends[0], high = all[0].ends[1];
+    const double edges[4] = {nextafter(low, 0), low, high, nextafter(high, 1000)};
+    double rows[16];
+    for (size_t i = 0; i < 4; i++) {
+        memcpy(rows + 4 * i, datum, sizeof datum);
+        rows[4 * i + 3] = edges[i];
+    }
+    CHECK(spiral_solve_batch("cubic", NULL, rows, 4, 1, flags, NULL) == SPIRAL_OK);
+    for (size_t i = 0; i < 4; i++) CHECK(((flags[i] & mask) != 0) == (i == 1 || i == 2));
+    CHECK(all[0].outer[0] <= all[0].inner[0] && all[0].inner[0] < all[0].inner[1] && all[0].inner[1] <= all[0].outer[1]);
+    CHECK(spiral_ranges_data(ranges, NULL, NULL, NULL, NULL) == SPIRAL_OK);
+    CHECK(spiral_ranges_data(NULL, &all, NULL, NULL, NULL) == SPIRAL_ARGUMENT && says("`ranges`"));
+    spiral_ranges_close(ranges);
+    spiral_ranges_close(NULL);
+    ranges = NULL;
+    CHECK(spiral_ranges("cubic", NULL, NULL, datum, 4, 0, 100, &ranges) == SPIRAL_DOMAIN && says("number 4"));
+    CHECK(spiral_ranges("cubic", NULL, NULL, datum, 3, 0, NAN, &ranges) == SPIRAL_DOMAIN && says("NaN"));
+    CHECK(spiral_ranges("cubic", NULL, "SPIRALS", datum, 3, 0, 100, &ranges) == SPIRAL_DOMAIN && says("`SPIRALS`"));
+    CHECK(spiral_ranges("trig-quintic", NULL, "SPIRAL", datum, 3, 0, 100, &ranges) == SPIRAL_DOMAIN && says("boxes"));
+    CHECK(spiral_ranges("cubic", NULL, NULL, NULL, 3, 0, 100, &ranges) == SPIRAL_ARGUMENT && says("`datum`"));
+    CHECK(spiral_ranges("cubic", NULL, NULL, datum, 3, 0, 100, NULL) == SPIRAL_ARGUMENT && ranges == NULL);
+
+    const double weights[4] = {INFINITY, INFINITY, 1, 1}, fixed[4] = {INFINITY, INFINITY, INFINITY, INFINITY};
+    double nearest[4] = {0}, distance = 0, at_least = 0;
+    CHECK(spiral_nearest("cubic", NULL, NULL, outside, weights, nearest, &distance, &at_least) == SPIRAL_OK);
+    CHECK(nearest[0] == 0.7 && nearest[1] == 1.4 && at_least > 0 && at_least <= distance && distance < 1.01 * at_least);
+    CHECK(fabs(hypot(nearest[2] - 1, nearest[3] - 2) - distance) < 1e-12);
+    CHECK(spiral_solve_batch("cubic", NULL, nearest, 1, 1, flags, NULL) == SPIRAL_OK && (flags[0] & mask) != 0);
+    CHECK(spiral_nearest("cubic", NULL, NULL, outside, NULL, NULL, &distance, NULL) == SPIRAL_OK && distance > 0);
+    at_least = 0;
+    CHECK(spiral_nearest("cubic", NULL, NULL, outside, fixed, nearest, &distance, &at_least) == SPIRAL_NONE && says("SPIRAL"));
+    CHECK(isinf(at_least));
+    CHECK(spiral_nearest("cubic", NULL, NULL, outside, datum, nearest, &distance, NULL) == SPIRAL_DOMAIN && says("weight"));
+
+    const size_t axes[2] = {2, 3}, twice[2] = {2, 2};
+    const double within[2][2] = {{0, 0.8}, {0, 20}};
+    SpiralBoundary *boundary = NULL;
+    CHECK(spiral_boundary("cubic", NULL, NULL, datum, axes, within, 64, &boundary) == SPIRAL_OK);
+    CHECK(spiral_boundary_lines(boundary) > 0 && spiral_boundary_lines(NULL) == 0);
+    const double(*xy)[2] = NULL;
+    uint8_t closed = 9;
+    CHECK(spiral_boundary_line(boundary, 0, &xy, &count, &closed) == SPIRAL_OK && count > 10 && closed <= 1);
+    for (size_t i = 0; i < count; i++) CHECK(xy[i][0] >= 0 && xy[i][0] <= 0.8 && xy[i][1] >= 0 && xy[i][1] <= 20);
+    CHECK(spiral_boundary_line(boundary, 99, &xy, &count, &closed) == SPIRAL_DOMAIN && says("line 99"));
+    double cell[2] = {0};
+    const double(*cells_open)[2][2] = NULL;
+    CHECK(spiral_boundary_open(boundary, &cells_open, &count, cell) == SPIRAL_OK && cell[0] == 0.0125 && cell[1] == 0.3125);
+    spiral_boundary_close(boundary);
+    spiral_boundary_close(NULL);
+    boundary = NULL;
+    CHECK(spiral_boundary("cubic", NULL, NULL, datum, twice, within, 64, &boundary) == SPIRAL_DOMAIN);
+    CHECK(spiral_boundary("cubic", NULL, NULL, datum, axes, within, 63, &boundary) == SPIRAL_DOMAIN && says("63"));
+    CHECK(spiral_boundary("cubic", NULL, NULL, datum, NULL, within, 64, &boundary) == SPIRAL_ARGUMENT && boundary == NULL);
+}
+
 int main(int count, char **arguments) {
     CHECK(count == 3 && strlen(spiral_version()) > 4 && strlen(spiral_last_error()) == 0);
     atlases(arguments[1]);
@@ -161,6 +227,7 @@ int main(int count, char **arguments) {
     answers();
     curves();
     joins();
+    questions();
     puts("C: all as it should be");
     return 0;
 }

@@ -82,5 +82,19 @@ int main(int, char **arguments) {
     CHECK(ramp && ramp->kind() == "path" && std::abs(ramp->stations(3)[2].y - 150) < 1e-9);
     CHECK(!sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166, "cubic", 100, &reason));
     throws(SPIRAL_DOMAIN, "NaN", [] { sa::fit({std::nan(""), 0, 0, 0}, {1, 0, 0, 0}); });
+
+    const auto spirals = sa::ranges("cubic", datum, 3, {0, 100});
+    CHECK(spirals.ranges.size() == 1 && spirals.open.empty() && spirals.ranges[0].ends[0] < 4 && 4 < spirals.ranges[0].ends[1]);
+    throws(SPIRAL_ARGUMENT, "3 numbers", [] { sa::ranges("cubic", std::vector<double>(3), 3, {0, 100}); });
+    const double inf = std::numeric_limits<double>::infinity(), weights[] = {inf, inf, 1, 1}, outside[] = {0.7, 1.4, 1, 2};
+    const auto nearest = sa::nearest("cubic", outside, weights);
+    CHECK(nearest.point && (*nearest.point)[0] == 0.7 && nearest.at_least <= nearest.distance && nearest.at_least > 0);
+    CHECK(sa::nearest("cubic", datum).distance == 0);
+    const auto none = sa::nearest("cubic", outside, std::vector<double>(4, inf));
+    CHECK(!none.point && none.at_least == inf);
+    throws(SPIRAL_ARGUMENT, "weight", [&] { sa::nearest("cubic", outside, std::vector<double>(2, 1.0)); });
+    const auto outline = sa::boundary("cubic", datum, {2, 3}, {{{0, 0.8}, {0, 20}}}, 64);
+    CHECK(!outline.lines.empty() && outline.lines[0].points.size() > 10 && outline.cell[1] == 0.3125);
+    throws(SPIRAL_DOMAIN, "`NONE`", [&] { sa::boundary("cubic", datum, {2, 3}, {{{0, 0.8}, {0, 20}}}, 64, "NONE"); });
     std::puts("C++: all as it should be");
 }

@@ -67,10 +67,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     greatest_curvature: Option<f64>,
     /// What kind of spirals.
-    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = parse::named::<Family>(&["cubic", "ph-quintic", "involute", "trig-quintic"]))]
+    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&["cubic", "ph-quintic", "involute", "trig-quintic"]))]
     family: Family,
     /// What is to be least; a rate is |dκ/ds|, how fast the steering must turn.
-    #[arg(long, value_name = "NAME", default_value = "length", value_parser = parse::named::<Objective>(&OBJECTIVES))]
+    #[arg(long, value_name = "NAME", default_value = "length", value_parser = numbers::named::<Objective>(&OBJECTIVES))]
     objective: Objective,
     /// A join longer than this counts as none; in your unit of length.
     #[arg(long, value_name = "LENGTH", value_parser = numbers::number, default_value_t = f64::INFINITY, hide_default_value = true, allow_hyphen_values = true)]

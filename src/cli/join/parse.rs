@@ -1,7 +1,5 @@
 //! Ends as they are typed, and as rows of a table have them.
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use serde::de::DeserializeOwned;
 use spiral_atlas::recipe::parse_angle;
 use spiral_atlas::transition::Turn;
 use spiral_atlas::transition::join::{End, State};
@@ -21,13 +19,6 @@ pub(crate) fn states(cells: &[&str]) -> Result<[State; 2]> {
         Ok(State { point: [number(i)?, number(i + 1)?], direction: angle(i + 2)?, curvature: number(i + 3)? })
     };
     Ok([state(0)?, state(4)?])
-}
-
-/// One of the names that a type is read from.
-pub(crate) fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
-    names: &[&'static str],
-) -> impl TypedValueParser<Value = T> {
-    PossibleValuesParser::new(names.iter().copied()).try_map(|name| serde_json::from_value(name.into()))
 }
 
 type Parsed<T> = std::result::Result<T, String>;
