@@ -22,7 +22,7 @@ pub(super) fn samples(text: &str) -> Parsed<u32> {
 }
 
 /// One of the names that a type is read from.
-pub fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
+pub(super) fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
     names: &[&'static str],
 ) -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(names.iter().copied()).try_map(|name| serde_json::from_value(name.into()))

@@ -24,7 +24,7 @@ const STEPS: usize = 200;
 #[command(
     after_help = "Example:\n  spiral-atlas export lattice --turning-radius 0.5 --grid-resolution 0.05 --out lattice.json"
 )]
-pub struct LatticeArgs {
+pub(super) struct LatticeArgs {
     /// Least radius in metres.
     #[arg(long, value_name = "METRES", value_parser = numbers::number, allow_hyphen_values = true)]
     turning_radius: f64,
@@ -50,7 +50,7 @@ pub struct LatticeArgs {
 }
 
 /// Runs the command.
-pub fn run(args: &LatticeArgs) -> Result<Outcome> {
+pub(super) fn run(args: &LatticeArgs) -> Result<Outcome> {
     output::check_figure(args.figure.as_deref())?;
     let found = lattice(&LatticeOptions {
         headings: args.headings as usize,

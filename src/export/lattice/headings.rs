@@ -14,7 +14,7 @@ pub(super) struct Headings {
 
 impl Headings {
     /// `count` directions: a multiple of 8.
-    pub fn new(count: usize) -> Headings {
+    pub(super) fn new(count: usize) -> Headings {
         let reach = (count / 8) as i64;
         let side = (-reach..reach).map(|along| [reach, along]);
         let mut steps: Vec<[i64; 2]> = side.collect();
@@ -26,27 +26,27 @@ impl Headings {
         Headings { steps }
     }
 
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.steps.len()
     }
 
     /// So many places are a quarter turn.
-    pub fn quarter(&self) -> usize {
+    pub(super) fn quarter(&self) -> usize {
         self.count() / 4
     }
 
     /// The place of a direction, so many places to the left of another.
-    pub fn beside(&self, place: usize, left: i64) -> usize {
+    pub(super) fn beside(&self, place: usize, left: i64) -> usize {
         (place as i64 + left).rem_euclid(self.count() as i64) as usize
     }
 
     /// Of a direction, as a vector of cells.
-    pub fn step(&self, place: usize) -> [i64; 2] {
+    pub(super) fn step(&self, place: usize) -> [i64; 2] {
         self.steps[place]
     }
 
     /// The same vector, shortened to the first point of the grid.
-    pub fn first_point(&self, place: usize) -> [i64; 2] {
+    pub(super) fn first_point(&self, place: usize) -> [i64; 2] {
         let [x, y] = self.steps[place];
         let (mut a, mut b) = (x.abs(), y.abs());
         while b != 0 {
@@ -56,7 +56,7 @@ impl Headings {
     }
 
     /// A direction in radians, from 0 up to and without a full turn.
-    pub fn angle(&self, place: usize) -> f64 {
+    pub(super) fn angle(&self, place: usize) -> f64 {
         let angle = angle_of(metres(self.steps[place], 1.0));
         if angle < 0.0 { angle + TAU } else { angle }
     }

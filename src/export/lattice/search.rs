@@ -25,7 +25,7 @@ pub(super) struct Search<'t> {
 }
 
 impl<'t> Search<'t> {
-    pub fn new(turns: &'t Turns, heading: usize) -> Search<'t> {
+    pub(super) fn new(turns: &'t Turns, heading: usize) -> Search<'t> {
         let headings = &turns.headings;
         let gaps = (1..=headings.count() / 8).map(|i| headings.angle(i) - headings.angle(i - 1));
         let least = gaps.fold(f64::INFINITY, f64::min) * turns.options.turning_radius;
@@ -34,7 +34,7 @@ impl<'t> Search<'t> {
     }
 
     /// The straight primitive.
-    pub fn straight(&mut self) -> Primitive {
+    pub(super) fn straight(&mut self) -> Primitive {
         let [x, y] = self.turns.headings.first_point(self.heading);
         let times = (self.first + x.abs().max(y.abs()) - 1) / x.abs().max(y.abs());
         let cell = [x * times, y * times];
@@ -49,7 +49,7 @@ impl<'t> Search<'t> {
     ///
     /// # Errors
     /// Those of joins.
-    pub fn side(&mut self, side: i64) -> Result<Vec<Primitive>> {
+    pub(super) fn side(&mut self, side: i64) -> Result<Vec<Primitive>> {
         let headings = &self.turns.headings;
         let ends: Vec<usize> =
             (1..=headings.quarter() as i64).map(|n| headings.beside(self.heading, side * n)).collect();

@@ -52,7 +52,7 @@ pub(super) struct Turns<'o> {
 impl Turns<'_> {
     /// # Errors
     /// Those of [`join`].
-    pub fn new(options: &LatticeOptions) -> Result<Turns<'_>> {
+    pub(super) fn new(options: &LatticeOptions) -> Result<Turns<'_>> {
         let headings = Headings::new(options.headings);
         let mut shapes = BTreeMap::new();
         for from in 0..headings.quarter() {
@@ -87,7 +87,7 @@ impl Turns<'_> {
 
     /// From a direction at the origin to a pose: as wide as the corner of the two lines leaves room for. Of the shapes
     /// that keep the limit, the one that steers most slowly.
-    pub fn fit(&self, heading: usize, to: Pose) -> Option<Fit> {
+    pub(super) fn fit(&self, heading: usize, to: Pose) -> Option<Fit> {
         let [u, v] = [heading, to.heading].map(|place| self.headings.step(place));
         let turned = cross(u, v);
         let shapes = self.shapes.get(&key(&self.headings, heading, to.heading))?;
@@ -112,7 +112,7 @@ impl Turns<'_> {
     }
 
     /// Whether a straight line or a turn leads from one pose to another.
-    pub fn leads(&self, from: Pose, to: Pose) -> bool {
+    pub(super) fn leads(&self, from: Pose, to: Pose) -> bool {
         let cell = [to.cell[0] - from.cell[0], to.cell[1] - from.cell[1]];
         if from.heading == to.heading {
             let step = self.headings.step(from.heading);
@@ -122,7 +122,7 @@ impl Turns<'_> {
     }
 
     /// The straight line to a cell ahead.
-    pub fn straight(&self, heading: usize, cell: [i64; 2]) -> Primitive {
+    pub(super) fn straight(&self, heading: usize, cell: [i64; 2]) -> Primitive {
         let end = metres(cell, self.options.grid_resolution);
         Primitive { start: heading, end: heading, cell, pieces: vec![Line { start: [0.0, 0.0], end }.into()] }
     }
@@ -131,7 +131,7 @@ impl Turns<'_> {
     ///
     /// # Errors
     /// Those of [`join`], and [`Error::Domain`] where the join is not that of the shape.
-    pub fn turn(&self, heading: usize, to: Pose, fit: &Fit) -> Result<Primitive> {
+    pub(super) fn turn(&self, heading: usize, to: Pose, fit: &Fit) -> Result<Primitive> {
         let end = metres(to.cell, self.options.grid_resolution);
         let line = |point, place: usize| End::Line { point, direction: self.headings.angle(place) };
         let request = Request {
