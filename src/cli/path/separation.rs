@@ -79,6 +79,6 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let output = Output { minimum: args.minimum, verdict, pairs };
     let least = found.iter().map(|(_, _, f)| f.closest.at_most).fold(f64::INFINITY, f64::min);
     let title = format!("{} vehicles, {} pairs, least separation {least:.6}", motions.len(), found.len());
-    let done = args.files.finish(&output, || figure::separations(&motions, args.minimum, title))?;
+    let done = args.files.finish(&output, || figure::separations(&motions, &found, args.minimum, title))?;
     Ok(if verdict == Verdict::Kept { done } else { Outcome::Bad })
 }
