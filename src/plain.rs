@@ -2,6 +2,9 @@
 //!
 //! Serde's messages have few forms and speak of Rust's types; tests hold the sentences to them.
 
+mod name;
+
+pub use name::{name, names};
 use std::ops::Range;
 
 /// Most characters of a value that are quoted.
@@ -30,17 +33,16 @@ pub fn json(path: &str, error: &serde_json::Error) -> String {
     }
 }
 
-/// A complaint of TOML's reader about the text: what the reader says, with the line and column of the bytes that are to
-/// blame.
+/// A complaint of TOML's reader about the text: what is wrong, with the line and column of the bytes that are to blame.
 pub fn toml(text: &str, at: Option<Range<usize>>, message: &str) -> String {
-    let what = syntax(message);
-    match at.and_then(|at| text.get(..at.start)) {
-        None => format!("it is not TOML: {what}"),
-        Some(before) => {
-            let (line, column) = place(before);
-            format!("it is not TOML (line {line}, column {column}): {what}")
-        }
-    }
+    let at = at.unwrap_or(0..0);
+    let (line, column) = place(text.get(..at.start).unwrap_or_default());
+    format!("it is not TOML (line {line}, column {column}): {}", toml_syntax(text, &at, message))
+}
+
+/// So many of something that takes an s, one of it without.
+pub fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 /// Line and column of what follows a text.
@@ -48,22 +50,45 @@ pub fn place(before: &str) -> (usize, usize) {
     (before.matches('\n').count() + 1, before.chars().rev().take_while(|c| *c != '\n').count() + 1)
 }
 
-/// What is wrong with a text that is not of its language.
-pub fn syntax(message: &str) -> &str {
+/// What is wrong with a text that is not JSON.
+fn syntax(message: &str) -> &str {
     match message {
         "expected ident" => "there is a word that is none of true, false and null",
         "expected value" => "a value is missing there, or is none",
+        "expected `:`" => "a colon is missing after a name",
+        "expected `,` or `}`" | "expected `,` or `]`" => "a comma is missing, or the closing bracket",
         "key must be a string" => "a name must stand in quotation marks",
         "trailing comma" => "nothing follows after a comma",
         "trailing characters" => "something follows after its end",
         "invalid number" => "there is a number that JSON does not know",
         "invalid escape" => "there is a backslash in a text that JSON does not know",
-        "recursion limit exceeded" | "cannot recurse further; max recursion depth met" => {
-            "lists are in each other too deep"
-        }
-        "duplicate key" => "a name is given twice",
+        "recursion limit exceeded" => DEEP,
         other => other,
     }
+}
+
+const DEEP: &str = "lists are in each other too deep";
+
+/// What is wrong with a text that is not TOML, of which the reader blames these bytes.
+pub fn toml_syntax(text: &str, at: &Range<usize>, message: &str) -> String {
+    let given = cut(text.get(at.clone()).unwrap_or_default().lines().next().unwrap_or_default().trim());
+    let what = message.split(", expected").next().unwrap_or_default();
+    let quoted = |given: &str| format!("`{given}` is no number; a text stands in quotation marks: \"{given}\"");
+    match what {
+        "string values must be quoted" => return quoted(&given),
+        _ if what.starts_with("invalid") && what.ends_with(" number") => return quoted(&given),
+        "invalid key-value pair" => "a `=` is missing after a name, or a name before it",
+        "missing value for key" | "missing value" => "a value is missing",
+        "missing opening quote" => "a text lacks its opening quotation mark",
+        "invalid basic string" | "invalid literal string" => "a text lacks its closing quotation mark",
+        "missing comma between array elements" | "missing comma between key-value pairs" => "a comma is missing",
+        "extra comma in array" | "extra comma in inline table" => "there is a comma too many",
+        "cannot recurse further; max recursion depth met" => DEEP,
+        "duplicate key" => "a name is given twice",
+        _ if given.is_empty() => what,
+        _ => return format!("{what}, at `{given}`"),
+    }
+    .into()
 }
 
 /// A complaint about a value at a path, in serde's words: what must be there, and what is.
@@ -78,10 +103,10 @@ pub fn value(path: &str, message: &str) -> String {
         }
     }
     if let Some((count, takes)) = message.strip_prefix("invalid length ").and_then(expected) {
-        let s = if count == "1" { "" } else { "s" };
-        return match &takes[..] {
-            "fewer elements in array" => format!("{whose} has more values than belong there: {count}"),
-            takes => format!("{whose} must be {}; it has {count} value{s}", must_be(takes)),
+        return match (&takes[..], count.parse().map(|n| self::count(n, "value"))) {
+            ("fewer elements in array", _) => format!("{whose} has more values than belong there: {count}"),
+            (takes, Ok(values)) => format!("{whose} must be {}; it has {values}", must_be(takes)),
+            (takes, Err(_)) => format!("{whose} must be {}; it has {count}", must_be(takes)),
         };
     }
     let quoted = |form: &str| message.strip_prefix(form)?.split_once('`');

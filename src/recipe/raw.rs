@@ -1,6 +1,7 @@
 //! A recipe as TOML has it, before anything is looked up.
 
 use crate::error::{Error, Result};
+use crate::num::told;
 use crate::plain;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -194,4 +195,18 @@ pub fn parse_angle(text: &str) -> Result<f64> {
             "{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`"
         ))),
     }
+}
+
+/// Checks an angle that was given as a number of radians, as [`parse_angle`] does where there is no unit.
+///
+/// # Errors
+/// [`Error::Domain`] when it is more than a full turn. What is not finite is for others to refuse, by its name.
+pub fn bare_angle(radians: f64) -> Result<f64> {
+    if !radians.is_finite() || radians.abs() <= TAU {
+        return Ok(radians);
+    }
+    let number = told(radians);
+    Err(Error::Domain(format!(
+        "{number} is more than a full turn in radians; say which unit is meant: \"{number}deg\" or \"{number}rad\""
+    )))
 }

@@ -25,8 +25,8 @@ const ROOMS: [(&str, &[&str]); 20] = [
     ("atlas", &["eval", "recipe", "family", "grid", "num", "files", "plain", "error"]),
     ("cells", &["atlas", "family", "grid", "files", "error"]),
     ("question", &["family", "num", "queue", "error"]),
-    ("transition", &["family", "curve", "num", "error"]),
-    ("path", &["transition", "family", "curve", "num", "queue", "steps", "error"]),
+    ("transition", &["family", "curve", "num", "plain", "error"]),
+    ("path", &["transition", "family", "curve", "num", "queue", "steps", "plain", "error"]),
     ("export", &["path", "transition", "curve", "error"]),
     ("picture", &["cells", "atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
     (

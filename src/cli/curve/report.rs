@@ -55,6 +55,21 @@ impl Path {
             bending_energy.unwrap_or_default()
         )))
     }
+
+    /// Points at equal lengths. The curvature of an end that is straight by the question is 0: there the first two sides
+    /// of the polygon, or the first two numbers of the pre-image, are multiples of each other, and what their roundings
+    /// in the user's frame show is none of the curve's. It is a few units in the last place of the quotient of these
+    /// two lengths, over the length of the first: -1.3e-18 for a curve of some 20 units.
+    fn stations(&self, count: u32, found: &impl Found) -> Result<Vec<Station>> {
+        let mut all = self.course.stations(count as usize)?;
+        let last = all.len() - 1;
+        for (place, straight) in [0, last].into_iter().zip(found.straight()) {
+            if straight {
+                all[place].curvature = 0.0;
+            }
+        }
+        Ok(all)
+    }
 }
 
 /// What is asked of a curve whatever its family.
@@ -95,8 +110,7 @@ impl<'f, F: Found> Report<'f, F> {
         };
         let unsure = found.ends().filter(|_| wish.advice && reason.is_some());
         let others = unsure.map(|ends| Others::new(ends, wish));
-        let samples =
-            wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.course.stations(n as usize)));
+        let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.stations(n, found)));
         Ok(Report { found, paths, reason, others, samples: samples.transpose()? })
     }
 
@@ -107,8 +121,8 @@ impl<'f, F: Found> Report<'f, F> {
     /// Prints all of it in words.
     pub fn text(&self) -> Result<()> {
         let mut text = match &self.reason {
-            Some(reason) if self.found.spirals().is_ok() => format!("{reason}\n"),
-            _ => self.found.text(),
+            Some(reason) if self.found.spirals().is_ok() => reason.clone(),
+            _ => self.found.text().trim_end().to_owned(),
         };
         text += &self.others.as_ref().map_or(String::new(), Others::advice);
         output::stream(|out| {

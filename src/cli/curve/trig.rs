@@ -50,6 +50,12 @@ impl Found for Answer {
         }
     }
 
+    fn straight(&self) -> [bool; 2] {
+        let line = |template| matches!(template, Some(EndCircle::Line { .. }));
+        let circles = &self.outcome.path().circles;
+        [line(circles.first()), line(circles.get(1))]
+    }
+
     fn text(&self) -> String {
         let mut text = match &self.outcome {
             Outcome::Spirals(path) => {

@@ -43,10 +43,13 @@ mod spiral;
 mod states;
 mod turns;
 
+use super::piece::principal;
 use crate::curve::vector::{length, scale, sub};
 use crate::error::{Error, Result};
 use crate::num::told;
+use crate::plain::count;
 use best::Best;
+use std::f64::consts::TAU;
 
 pub use measure::Measures;
 pub use request::{End, Family, Join, Objective, Outcome, Request, State};
@@ -59,7 +62,8 @@ const FARTHEST: f64 = 1e12;
 /// # Accuracy
 /// Each spiral is proved to have monotone curvature, so |κ| stays within the limit. Pieces meet to 1e-12 in position,
 /// direction and curvature, relative to the extent of coordinates in least radii; given points are met exactly. The
-/// join is the best of those tried, not of all.
+/// join is the best of those tried, not of all. So a given curvature of less than 1e-12 of the limit counts as 0: the
+/// path is straight there.
 ///
 /// # Errors
 /// [`Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a
@@ -71,6 +75,7 @@ pub fn join(request: &Request) -> Result<Outcome> {
     if let Some(why) = beyond(request) {
         return Ok(Outcome::None(why));
     }
+    let request = &reckoned(request);
     let radii = |end: &End| if let End::Circle { radius, .. } = end { radius * limit } else { 0.0 };
     let apart = length(scale(sub(request.to.point(), request.from.point()), limit));
     let far = [
@@ -97,15 +102,30 @@ pub fn join(request: &Request) -> Result<Outcome> {
         tried(&free, &mut best)?;
     }
     Ok(Outcome::None(match best.join {
-        Some(join) => format!(
-            "no join found keeps to {} pieces and a length of {}; without these bounds one has {} pieces and is {} long",
-            request.most_pieces,
-            told(request.longest),
-            join.pieces.len(),
-            told(join.measures.length)
-        ),
+        Some(join) => {
+            let (most, longest) = (count(request.most_pieces, "piece"), told(request.longest));
+            let bounds = if request.longest.is_finite() { format!("{most} and a length of {longest}") } else { most };
+            let (pieces, length) = (count(join.pieces.len(), "piece"), told(join.measures.length));
+            format!("no join found keeps to {bounds}; without that bound one has {pieces} and is {length} long")
+        }
         None => none,
     }))
+}
+
+/// The same to the accuracy of joins, in numbers that are reckoned with: a curvature of less than 1e-12 of the limit is
+/// 0, and a direction of more than a full turn is the same one within half a turn.
+fn reckoned(request: &Request) -> Request {
+    let reduced = |direction: f64| if direction.abs() > TAU { principal(direction) } else { direction };
+    let end = |end: &End| match *end {
+        End::State(State { point, direction, curvature }) => {
+            let straight = curvature.abs() * FARTHEST < request.greatest_curvature;
+            let curvature = if straight { 0.0 } else { curvature };
+            End::State(State { point, direction: reduced(direction), curvature })
+        }
+        End::Line { point, direction } => End::Line { point, direction: reduced(direction) },
+        circle => circle,
+    };
+    Request { from: end(&request.from), to: end(&request.to), ..*request }
 }
 
 /// Offers all joins that are tried, and says why there is none, should there be none.
