@@ -384,3 +384,6 @@ fn mark(raw: &Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>, axes: [&Axis;
         Number::Plain(_) => Err(Fault::new(label.span(), "the label of a mark is a text")),
     }
 }
+
+#[cfg(test)]
+mod tests;

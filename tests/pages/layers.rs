@@ -21,7 +21,7 @@ const ROOMS: [(&str, &[&str]); 20] = [
     ("curve", &["num", "steps", "error"]),
     ("family", &["curve", "grid", "num", "steps", "error"]),
     ("eval", &["family", "grid", "num", "error"]),
-    ("recipe", &["family", "grid", "num", "files", "plain", "error"]),
+    ("recipe", &["family", "grid", "num", "files", "plain", "steps", "error"]),
     ("atlas", &["eval", "recipe", "family", "grid", "num", "files", "plain", "error"]),
     ("cells", &["atlas", "family", "grid", "files", "error"]),
     ("question", &["family", "num", "queue", "error"]),
