@@ -54,7 +54,7 @@ use std::f64::consts::TAU;
 pub use measure::Measures;
 pub use request::{End, Family, Join, Objective, Outcome, Request, State};
 
-/// Ends farther apart, in least radii, would leave no digits for the spirals.
+/// Ends farther apart or from the origin, in least radii, would leave no digits for the spirals.
 const FARTHEST: f64 = 1e12;
 
 /// The best join found.
@@ -67,8 +67,8 @@ const FARTHEST: f64 = 1e12;
 ///
 /// # Errors
 /// [`Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a
-/// line or a circle, where the ends are more than 1e12 least radii apart or circles larger than that, and where lengths
-/// leave the range of doubles. That there is no join is no error.
+/// line or a circle, where the ends are more than 1e12 least radii apart or from the origin or circles are larger than
+/// that, and where lengths leave the range of doubles. That there is no join is no error.
 pub fn join(request: &Request) -> Result<Outcome> {
     request.check()?;
     let limit = request.greatest_curvature;
@@ -77,16 +77,17 @@ pub fn join(request: &Request) -> Result<Outcome> {
     }
     let request = &reckoned(request);
     let radii = |end: &End| if let End::Circle { radius, .. } = end { radius * limit } else { 0.0 };
-    let apart = length(scale(sub(request.to.point(), request.from.point()), limit));
+    let [from, to] = [&request.from, &request.to].map(|end| scale(end.point(), limit));
     let far = [
-        ("the ends are", apart),
-        ("the start radius is", radii(&request.from)),
-        ("the end radius is", radii(&request.to)),
+        ("the ends are", " apart", length(sub(to, from))),
+        ("the start is", " from the origin", length(from)),
+        ("the end is", " from the origin", length(to)),
+        ("the start radius is", "", radii(&request.from)),
+        ("the end radius is", "", radii(&request.to)),
     ];
-    if let Some((what, far)) = far.into_iter().find(|(_, far)| far.is_nan() || *far > FARTHEST) {
-        let apart = if what == "the ends are" { " apart" } else { "" };
+    if let Some((what, whence, far)) = far.into_iter().find(|(.., far)| far.is_nan() || *far > FARTHEST) {
         return Err(Error::Domain(format!(
-            "{what} {} least radii{apart}, where no join is sought: doubles have no digits left for spirals beyond 1e12 least radii (one \
+            "{what} {} least radii{whence}, where no join is sought: doubles have no digits left for spirals beyond 1e12 least radii (one \
              over the greatest curvature); check the unit of length",
             told(far)
         )));
