@@ -71,24 +71,58 @@ const DEEP: &str = "lists are in each other too deep";
 
 /// What is wrong with a text that is not TOML, of which the reader blames these bytes.
 pub fn toml_syntax(text: &str, at: &Range<usize>, message: &str) -> String {
-    let given = cut(text.get(at.clone()).unwrap_or_default().lines().next().unwrap_or_default().trim());
+    let given = cut(word(text, at));
     let what = message.split(", expected").next().unwrap_or_default();
-    let quoted = |given: &str| format!("`{given}` is no number; a text stands in quotation marks: \"{given}\"");
+    let number = what.starts_with("invalid ")
+        && [" number", "float", "mantissa", "fraction", "exponent", "date-time", "date", "time"]
+            .iter()
+            .any(|end| what.ends_with(end));
     match what {
-        "string values must be quoted" => return quoted(&given),
-        _ if what.starts_with("invalid") && what.ends_with(" number") => return quoted(&given),
-        "invalid key-value pair" => "a `=` is missing after a name, or a name before it",
-        "missing value for key" | "missing value" => "a value is missing",
+        "string values must be quoted" | "missing value for key" | "missing value" if given.is_empty() => {
+            "a value is missing"
+        }
+        "string values must be quoted"
+        | "integer number overflowed"
+        | "unexpected leading zero"
+        | "unexpected sign" => {
+            return no_number(&given);
+        }
+        _ if number => return no_number(&given),
+        "invalid boolean" => return format!("`{given}` is neither `true` nor `false`, nor a text in quotation marks"),
+        "key with no value" | "invalid key-value pair" => "a name has no value; write `name = value`",
+        "unquoted keys cannot be empty" => "a name is missing before the `=`",
+        "invalid unquoted key" => return format!("the name `{given}` must stand in quotation marks"),
         "missing opening quote" => "a text lacks its opening quotation mark",
         "invalid basic string" | "invalid literal string" => "a text lacks its closing quotation mark",
-        "missing comma between array elements" | "missing comma between key-value pairs" => "a comma is missing",
+        "missing escaped value" => "a text has a backslash alone; write two",
+        "missing comma between array elements"
+        | "missing comma between key-value pairs"
+        | "extra assignment between key-value pairs" => "a comma is missing",
         "extra comma in array" | "extra comma in inline table" => "there is a comma too many",
+        "extra `=`" | "unexpected `=` in array" => "there is a `=` too many",
+        "unexpected key or value" | "unexpected content" => "something follows after a value; begin a new line",
+        "unclosed table" | "unclosed array of tables" | "unclosed array" | "unclosed inline table" => {
+            "a bracket is not closed"
+        }
         "cannot recurse further; max recursion depth met" => DEEP,
         "duplicate key" => "a name is given twice",
         _ if given.is_empty() => what,
         _ => return format!("{what}, at `{given}`"),
     }
     .into()
+}
+
+fn no_number(given: &str) -> String {
+    format!("`{given}` is no number; a text stands in quotation marks: \"{given}\"")
+}
+
+/// The word at some bytes of a text, all of it.
+fn word<'t>(text: &'t str, at: &Range<usize>) -> &'t str {
+    let ends = |c: char| c.is_control() || ",=[]{}#".contains(c);
+    let (Some(before), Some(from)) = (text.get(..at.start), text.get(at.start..)) else { return "" };
+    let start = before.rfind(ends).map_or(0, |i| i + before[i..].chars().next().map_or(0, char::len_utf8));
+    let end = from.find(ends).map_or(text.len(), |i| at.start + i);
+    text[start..end].trim()
 }
 
 /// A complaint about a value at a path, in serde's words: what must be there, and what is.
@@ -252,5 +286,39 @@ mod tests {
             toml("a = 1\nb = ", Some(10..10), "duplicate key"),
             "it is not TOML (line 2, column 5): a name is given twice"
         );
+    }
+
+    #[cfg(feature = "recipe")]
+    #[test]
+    fn what_toml_says_becomes_a_sentence() {
+        for (text, told) in [
+            ("a = cubic", "`cubic` is no number; a text stands in quotation marks: \"cubic\""),
+            ("a = {b = [1, 40deg ]}", "`40deg` is no number; a text stands in quotation marks: \"40deg\""),
+            ("a = 1.2.3", "`1.2.3` is no number"),
+            ("a = 07", "`07` is no number"),
+            ("a = 1-2", "`1-2` is no number"),
+            ("a = 0x", "`0x` is no number"),
+            ("a = True", "`True` is neither `true` nor `false`"),
+            ("a = \"b", "a text lacks its closing quotation mark"),
+            ("a = 'b", "a text lacks its closing quotation mark"),
+            ("a = b\"", "a text lacks its opening quotation mark"),
+            ("a = \"b\\q\"", "a text has a backslash alone; write two"),
+            ("a b", "a name has no value; write `name = value`"),
+            ("a = ", "a value is missing"),
+            ("= 1", "a name is missing before the `=`"),
+            ("ä = 1", "the name `ä` must stand in quotation marks"),
+            ("a = [1, 2", "a bracket is not closed"),
+            ("[a", "a bracket is not closed"),
+            ("a = {b = 1 c = 2}", "a comma is missing"),
+            ("a = [\"b\" \"c\"]", "a comma is missing"),
+            ("a = [1,,2]", "there is a comma too many"),
+            ("a == 1", "there is a `=` too many"),
+            ("a = 1 b = 2", "is no number"),
+            ("a = \"b\" c", "something follows after a value; begin a new line"),
+        ] {
+            let error = toml::from_str::<toml::Table>(text).unwrap_err();
+            let said = super::toml(text, error.span(), error.message());
+            assert!(said.contains(told), "{text}: {said} ({})", error.message());
+        }
     }
 }

@@ -96,7 +96,7 @@ pub fn symbol(name: &str) -> String {
 
 /// A number with at most four decimals, or of four digits in scientific form where decimals would say nothing or fill
 /// lines.
-pub(crate) fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     let size = x.abs();
     let text = if !(1e-4..1e15).contains(&size) { format!("{x:.3e}") } else { format!("{x:.4}") };
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, ""));

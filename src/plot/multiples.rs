@@ -267,7 +267,7 @@ mod tests {
     /// As many panels as a recipe may ask for, and values as long as axes give them.
     #[test]
     fn every_caption_is_told_whole() {
-        let axis = || AxisView { name: "k".into(), label: "k".into(), values: vec![0.0, 1.0], log: false };
+        let axis = || AxisView { name: "k".into(), label: "k".into(), values: vec![0.0125, 0.0375], log: false };
         let panel = Slice {
             title: String::new(),
             x: axis(),
@@ -304,7 +304,7 @@ mod tests {
             }
             // Where no number has room beside a panel, the ends of the axis stand in its name.
             for (name, side) in layout.names(&canvas, &figure.panels[0], &panels[0]).iter().zip([1, 0]) {
-                assert_eq!(name, if shape[side] >= 12 { "k: 0 to 1" } else { "k" }, "{shape:?}");
+                assert_eq!(name, if shape[side] >= 12 { "k: 0.0125 to 0.0375" } else { "k" }, "{shape:?}");
             }
         }
     }

@@ -220,9 +220,8 @@ fn plan(raw: RawAtlas, family: &'static dyn Family, scalars: Vec<usize>) -> Resu
     }
     // Before any axis is made: the values of a large one take seconds.
     check_nodes(spaced.iter().map(|(.., spacing)| spacing.count())).map_err(|e| Fault::new(raw.axes.span(), e))?;
-    let made = |(name, at, spacing): (&&str, Range<usize>, Spacing)| {
-        Axis::new(name, spacing).map_err(|e| Fault::new(at, e))
-    };
+    let made =
+        |(name, at, spacing): (&&str, Range<usize>, Spacing)| Axis::new(name, spacing).map_err(|e| Fault::new(at, e));
     let axes = spaced.into_iter().map(made).collect::<Result<_, _>>()?;
     let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
     if cells.is_some() {

@@ -273,9 +273,10 @@ fn a_no_is_a_no_for_what_reads_paths() {
     let no = curve("cubic", &ENDS.map(|arg| if arg == "0.04" { "0.005" } else { arg }), &["--json"]);
     let join = run(["join", "--from", "0,0,0,1", "--to", "9,0,0", "--greatest-curvature", "0.5"]);
     let row = run(["join", "--from", "0,0,0,1", "--to", "9,0,0", "--greatest-curvature", "0.5"]).json();
-    let rows = format!("{}\n{}\n", json!({ "pieces": null, "reason": row["reason"] }), json!({ "line": 3, "error": "bad" }));
+    let rows =
+        format!("{}\n{}\n", json!({ "pieces": null, "reason": row["reason"] }), json!({ "line": 3, "error": "bad" }));
     for (input, what) in [
-        (&no.out, "standard input has no path: no cubic spiral: "),
+        (&no.out, "standard input has no path: no spiral of any kind joins these ends"),
         (&join.out, "standard input has no path: the start curvature 1.0 is beyond"),
         (&rows, "lines 1, 2 of standard input have no path; the reason stands there"),
     ] {
@@ -303,8 +304,12 @@ fn straight_ends_have_no_curvature() {
                 other => other,
             });
             let found = curve(family, &asked, &["--samples", "3", "--json"]).json();
-            let [straight, round] = if base == "line" { [0, 2] } else { [2, 0] }.map(|i: usize| row(&found["samples"][i])[4]);
-            assert!(straight.to_bits() == 0 && (round.abs() - 0.05).abs() < 1e-12, "{family} {asked:?}: {straight} {round}");
+            let [straight, round] =
+                if base == "line" { [0, 2] } else { [2, 0] }.map(|i: usize| row(&found["samples"][i])[4]);
+            assert!(
+                straight.to_bits() == 0 && (round.abs() - 0.05).abs() < 1e-12,
+                "{family} {asked:?}: {straight} {round}"
+            );
         }
     }
     let line = curve("trig-quintic", ASKED[5].1, &["--samples", "3", "--json"]).json();
@@ -332,7 +337,12 @@ fn extreme_shapes_have_an_answer() {
         let asked = ASKED[5].1.iter().map(|arg| if *arg == "1" { m } else { arg }).collect::<Vec<_>>();
         let said = curve("trig-quintic", &asked, &[]);
         let told = said.code == Some(1) && said.out.contains("not a spiral");
-        assert!(told || said.code == Some(2) && said.err.contains("range of doubles"), "{m}: {} {}", said.out, said.err);
+        assert!(
+            told || said.code == Some(2) && said.err.contains("range of doubles"),
+            "{m}: {} {}",
+            said.out,
+            said.err
+        );
     }
 }
 

@@ -94,15 +94,31 @@ fn a_request_stands_in_a_file() {
             json!("speed"),
             "objective must be one of `length`, `greatest-curvature`, `greatest-rate`, `bending-energy`; it is `speed`",
         ),
-        ("objective", json!(null), "objective must be one of \"length\", \"greatest-curvature\", \"greatest-rate\", \"bend"),
-        ("family", json!(3), "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3` (li"),
+        (
+            "objective",
+            json!(null),
+            "objective must be one of \"length\", \"greatest-curvature\", \"greatest-rate\", \"bend",
+        ),
+        (
+            "family",
+            json!(3),
+            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3` (li",
+        ),
         ("longset", json!(3), "there is no field `longset`; known are `from`, `to`"),
         ("from", json!({ "state": { "point": [0, 0] } }), "from.state lacks the field `direction`"),
         ("from", json!(null), "from must be an object with the fields state, line, circle; it is null (line 1"),
         ("from", json!([0, 0, 0]), "from must be an object with the fields state, line, circle; it is a list (line 1"),
         ("from", json!({}), "from: give one of `state`, `line` and `circle`; there is none"),
-        ("from", json!({ "state": [0, 0] }), "from.state must be an object with the fields point, direction, curvature; it"),
-        ("from", json!({ "line": { "point": [0, 0], "direction": 40 } }), "say which unit is meant: \"40deg\" or \"40rad\""),
+        (
+            "from",
+            json!({ "state": [0, 0] }),
+            "from.state must be an object with the fields point, direction, curvature; it",
+        ),
+        (
+            "from",
+            json!({ "line": { "point": [0, 0], "direction": 40 } }),
+            "say which unit is meant: \"40deg\" or \"40rad\"",
+        ),
         ("to", json!({ "pose": {} }), "there is no field `pose` in to; known are `state`, `line`, `circle`"),
         (
             "to",
@@ -122,7 +138,11 @@ fn a_request_stands_in_a_file() {
     }
     for (from, to, what) in [
         ("longest", "family = cubic\nlongest", "a text stands in quotation marks: \"cubic\""),
-        ("longest", "family = 3\nlongest", "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3`"),
+        (
+            "longest",
+            "family = 3\nlongest",
+            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3`",
+        ),
         ("direction = 0 ", "direction = 40deg ", "a text stands in quotation marks: \"40deg\""),
         ("direction = 0 ", "direction = 40 ", "from.state.direction: 40 is more than a full turn in radians"),
         ("from.state = {", "from.stat = {", "there is no field `stat` in from; known are `state`, `line`, `circle`"),
@@ -146,7 +166,9 @@ fn curvatures_of_next_to_nothing_are_straight() {
     for tiny in ["1e-12", "-1e-11", "1e-9", "1e-6", "-1e-3"] {
         for family in ["cubic", "ph-quintic", "involute"] {
             let end = format!("8,6,90deg,{tiny}");
-            let said = with_limit(&["--from", &format!("0,0,0,{tiny}"), "--to", &end, "--family", family, "--samples", "2"]).json();
+            let said =
+                with_limit(&["--from", &format!("0,0,0,{tiny}"), "--to", &end, "--family", family, "--samples", "2"])
+                    .json();
             for sample in said["samples"].as_array().unwrap() {
                 let off = sample["curvature"].as_f64().unwrap() - tiny.parse::<f64>().unwrap();
                 assert!(off.abs() <= 0.5e-12, "{family} {tiny}: {sample}");

@@ -51,7 +51,7 @@ impl Found for Answer {
     }
 
     fn straight(&self) -> [bool; 2] {
-        let line = |template| matches!(template, Some(EndCircle::Line { .. }));
+        let line = |circle: Option<&EndCircle>| matches!(circle, Some(EndCircle::Line { .. }));
         let circles = &self.outcome.path().circles;
         [line(circles.first()), line(circles.get(1))]
     }

@@ -66,7 +66,8 @@ struct CircleEnd {
 
 fn end<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<join::End, D::Error> {
     let Named(End { state, line, circle }) = Named::deserialize(from)?;
-    let state = state.map(|Named(StateEnd { point, direction, curvature })| State { point, direction, curvature }.into());
+    let state =
+        state.map(|Named(StateEnd { point, direction, curvature })| State { point, direction, curvature }.into());
     let line = line.map(|Named(LineEnd { point, direction })| join::End::Line { point, direction });
     let circle = circle.map(|Named(CircleEnd { centre, radius, turn })| join::End::Circle { centre, radius, turn });
     match [state, line, circle] {

@@ -3,8 +3,8 @@
 use super::input::angle;
 use super::{Files, Found, Outcome, figure, found};
 use serde::{Deserialize, Serialize};
-use spiral_atlas::plain::name;
 use spiral_atlas::path::{Directions, Free, least_curvature};
+use spiral_atlas::plain::name;
 use spiral_atlas::{Error, Result};
 
 /// Join two points with given directions by the path whose greatest curvature is least.
