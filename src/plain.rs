@@ -313,7 +313,7 @@ mod tests {
             ("a = [\"b\" \"c\"]", "a comma is missing"),
             ("a = [1,,2]", "there is a comma too many"),
             ("a == 1", "there is a `=` too many"),
-            ("a = 1 b = 2", "is no number"),
+            ("a = 1 b = 2", "something follows after a value"),
             ("a = \"b\" c", "something follows after a value; begin a new line"),
         ] {
             let error = toml::from_str::<toml::Table>(text).unwrap_err();
