@@ -50,7 +50,11 @@ fn samples_come_as_a_table() {
     assert_eq!(csv.code, Some(0));
     let none = with_limit(&["--from", "0,0,0", "--to", "5,0,0", "--samples", "3", "--csv", "--longest", "4"]);
     assert_eq!((none.code, none.out.as_str()), (Some(1), ""));
-    assert!(none.err.contains("a length of 4; without that bound one has 1 piece and is 5 long"), "{}", none.err);
+    assert!(
+        none.err.contains("keeps to a length of 4; without that bound one has 1 piece and is 5 long"),
+        "{}",
+        none.err
+    );
     let few = with_limit(&["--from", "0,0,0", "--to", "8,6,90deg", "--most-pieces", "1"]);
     assert!(few.code == Some(1) && few.out.contains("keeps to 1 piece; without that bound one has"), "{}", few.out);
 }

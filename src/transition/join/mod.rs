@@ -104,10 +104,15 @@ pub fn join(request: &Request) -> Result<Outcome> {
     }
     Ok(Outcome::None(match best.join {
         Some(join) => {
-            let (most, longest) = (count(request.most_pieces, "piece"), told(request.longest));
-            let bounds = if request.longest.is_finite() { format!("{most} and a length of {longest}") } else { most };
+            let most = (request.most_pieces < free.most_pieces).then(|| count(request.most_pieces, "piece"));
+            let longest = request.longest.is_finite().then(|| format!("a length of {}", told(request.longest)));
+            let bounds: Vec<String> = most.into_iter().chain(longest).collect();
+            let without = if bounds.len() == 1 { "that bound" } else { "these bounds" };
             let (pieces, length) = (count(join.pieces.len(), "piece"), told(join.measures.length));
-            format!("no join found keeps to {bounds}; without that bound one has {pieces} and is {length} long")
+            format!(
+                "no join found keeps to {}; without {without} one has {pieces} and is {length} long",
+                bounds.join(" and ")
+            )
         }
         None => none,
     }))
