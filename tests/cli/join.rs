@@ -274,3 +274,25 @@ fn mistakes_are_told() {
     }
     assert!(join(&["--from", "0,0,0", "--to", "1,0,0"]).err.contains("`--greatest-curvature` is needed"));
 }
+
+/// A line may be given by a point that is far from where it is left: its digits are not the path's.
+#[test]
+fn far_points_of_lines_cost_no_digits() {
+    for (from, to) in [
+        (["--from-line", "1e12,1e-9,-180deg"], ["--to-line", "-8.2,2,90deg"]),
+        (["--from-line", "1e8,2,0"], ["--to-circle", "10,6,3.7,right"]),
+        (["--from-circle", "10,6,3.7,right"], ["--to-line", "3,-1e12,90deg"]),
+        (["--from-line", "-5,1e12,-0.5"], ["--to-circle", "0,0.3,2,right"]),
+        (["--from-circle", "1e12,0.3,1e5,right"], ["--to-circle", "0,2,4,right"]),
+    ] {
+        for family in ["cubic", "ph-quintic"] {
+            let said = with_limit(&[&from[..], &to, &["--family", family]].concat());
+            let read = piped(&["path", "measure", "-"], &said.out);
+            assert_eq!((said.code, read.code), (Some(0), Some(0)), "{from:?} {to:?}: {} {}", said.err, read.err);
+        }
+    }
+    let near = with_limit(&["--from-line", "0,0,0", "--to-line", "-8,2,90deg"]).json();
+    let far = with_limit(&["--from-line=-1e12,0,0", "--to-line", "-8,-1e12,90deg"]).json();
+    let length = |json: &Value| json["paths"][0]["length"].as_f64().unwrap();
+    assert!((length(&near) / length(&far) - 1.0).abs() < 1e-3, "{} {}", length(&near), length(&far));
+}
