@@ -54,7 +54,7 @@ pub fn place(before: &str) -> (usize, usize) {
 fn syntax(message: &str) -> &str {
     match message {
         "expected ident" => "there is a word that is none of true, false and null",
-        "expected value" => "a value is missing there, or is none",
+        "expected value" => "a value is missing there, or is none; JSON has neither NaN nor Infinity",
         "expected `:`" => "a colon is missing after a name",
         "expected `,` or `}`" | "expected `,` or `]`" => "a comma is missing, or the closing bracket",
         "key must be a string" => "a name must stand in quotation marks",
@@ -92,6 +92,8 @@ pub fn toml_syntax(text: &str, at: &Range<usize>, message: &str) -> String {
         "key with no value" | "invalid key-value pair" => "a name has no value; write `name = value`",
         "unquoted keys cannot be empty" => "a name is missing before the `=`",
         "invalid unquoted key" => return format!("the name `{given}` must stand in quotation marks"),
+        "missing assignment between key-value pairs" => return format!("a `=` is missing, at `{given}`"),
+        "missing key for inline table element" | "invalid inline table element" => "a name is missing before a value",
         "missing opening quote" => "a text lacks its opening quotation mark",
         "invalid basic string" | "invalid literal string" => "a text lacks its closing quotation mark",
         "missing escaped value" => "a text has a backslash alone; write two",
@@ -101,7 +103,7 @@ pub fn toml_syntax(text: &str, at: &Range<usize>, message: &str) -> String {
         "extra comma in array" | "extra comma in inline table" => "there is a comma too many",
         "extra `=`" | "unexpected `=` in array" => "there is a `=` too many",
         "unexpected key or value" | "unexpected content" => "something follows after a value; begin a new line",
-        "unclosed table" | "unclosed array of tables" | "unclosed array" | "unclosed inline table" => {
+        "unclosed table" | "unclosed array table" | "unclosed array" | "unclosed inline table" => {
             "a bracket is not closed"
         }
         "cannot recurse further; max recursion depth met" => DEEP,
@@ -113,6 +115,9 @@ pub fn toml_syntax(text: &str, at: &Range<usize>, message: &str) -> String {
 }
 
 fn no_number(given: &str) -> String {
+    if given.contains('"') {
+        return format!("`{given}` is more than one value; is there a comma between them?");
+    }
     format!("`{given}` is no number; a text stands in quotation marks: \"{given}\"")
 }
 
@@ -206,7 +211,7 @@ fn is(given: &str) -> String {
 }
 
 /// A text, shortened where it is long.
-fn cut(text: &str) -> String {
+pub fn cut(text: &str) -> String {
     if text.chars().count() <= QUOTED { text.to_owned() } else { text.chars().take(QUOTED).chain(['…']).collect() }
 }
 
@@ -309,6 +314,10 @@ mod tests {
             ("ä = 1", "the name `ä` must stand in quotation marks"),
             ("a = [1, 2", "a bracket is not closed"),
             ("[a", "a bracket is not closed"),
+            ("[[a]", "a bracket is not closed"),
+            ("a = {b 1}", "a `=` is missing, at `b 1`"),
+            ("a = {1, 2}", "a name is missing before a value"),
+            ("a = [1\"b\" 2]", "`1\"b\" 2` is more than one value; is there a comma between them?"),
             ("a = {b = 1 c = 2}", "a comma is missing"),
             ("a = [\"b\" \"c\"]", "a comma is missing"),
             ("a = [1,,2]", "there is a comma too many"),

@@ -134,6 +134,7 @@ pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
 /// The complaint about a name that is not known, with the nearest that is.
 pub(super) fn unknown(what: &str, given: &str, known: &[&str]) -> String {
     let distance = |name: &&&str| strsim::damerau_levenshtein(given, name);
+    let given = plain::cut(given);
     match known.iter().min_by_key(distance) {
         Some(name) if distance(&name) <= 1 + name.len() / 3 => {
             format!("unknown {what} `{given}`; did you mean `{name}`?")

@@ -49,11 +49,8 @@ impl Path {
         if greatest_curvature.is_finite() && bending_energy.is_none_or(f64::is_finite) {
             return Ok(Path { summary, course });
         }
-        Err(Error::Domain(format!(
-            "the curve leaves the range of doubles: its greatest curvature is {greatest_curvature:?}, its bending energy {} (change the unit \
-             of length)",
-            bending_energy.unwrap_or_default()
-        )))
+        let what = if greatest_curvature.is_finite() { "bending energy" } else { "greatest curvature" };
+        Err(Error::Domain(format!("the curve's {what} leaves the range of doubles; change the unit of length")))
     }
 
     /// Points at equal lengths. The curvature of an end that is straight by the question is 0: there the first two sides
