@@ -316,7 +316,7 @@ mod tests {
             ("[a", "a bracket is not closed"),
             ("[[a]", "a bracket is not closed"),
             ("a = {b 1}", "a `=` is missing, at `b 1`"),
-            ("a = {1, 2}", "a name is missing before a value"),
+            ("a = {= 2}", "a name is missing before the `=`"),
             ("a = [1\"b\" 2]", "`1\"b\" 2` is more than one value; is there a comma between them?"),
             ("a = {b = 1 c = 2}", "a comma is missing"),
             ("a = [\"b\" \"c\"]", "a comma is missing"),
