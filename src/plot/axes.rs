@@ -79,7 +79,7 @@ pub(super) fn draw_left(canvas: &mut Canvas, scale: &Scale, style: Style, rect: 
     }
 }
 
-/// What an axis below a rectangle of this width is called: its label, with its ends where no numbers have room beside it.
+/// What an axis below a rectangle of this width is called: its label, with its ends where no numbers have room.
 pub(super) fn named_below(canvas: &Canvas, axis: &AxisView, scale: &Scale, style: Style, width: i32) -> String {
     named(axis, ticks_right(canvas, scale, style, width).is_empty())
 }

@@ -7,8 +7,8 @@ fn a_grid_that_is_too_large_has_no_axes() {
     let recipe = |counts: [usize; 2]| {
         let axes = counts.map(|count| format!("{{ log = [1, 2], count = {count} }}"));
         format!(
-            "family = \"cubic\"\n[[atlas]]\nname = \"a\"\naxes.phi0 = {{ values = [0.7] }}\naxes.phi1 = {{ values = [1.4] }}\n\
-             axes.kappa0 = {}\naxes.kappa1 = {}\n",
+            "family = \"cubic\"\n[[atlas]]\nname = \"a\"\naxes.phi0 = {{ values = [0.7] }}\n\
+             axes.phi1 = {{ values = [1.4] }}\naxes.kappa0 = {}\naxes.kappa1 = {}\n",
             axes[0], axes[1]
         )
     };

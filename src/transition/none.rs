@@ -152,8 +152,8 @@ impl NoSpiral {
         if !needs.is_empty() {
             return Ok(Some(NoSpiral::CirclesCross { needs, alone: true }));
         }
-        // Neither helps alone, since `room` and `over` are both 0 or less. Where both are above |sin ω|, their product is
-        // above its square; and the curvature rises still.
+        // Neither helps alone, since `room` and `over` are both 0 or less. Where both are above |sin ω|, their product
+        // is above its square; and the curvature rises still.
         let share = seen.omega.sin().abs();
         let both = [(Which::Start, seen.limits[0] - share), (Which::End, seen.limits[1] + share)];
         let needs: Vec<Need> = both.into_iter().filter_map(|(which, at)| seen.passing(which, at)).collect();

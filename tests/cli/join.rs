@@ -126,7 +126,10 @@ fn a_request_stands_in_a_file() {
         ("to", json!({ "pose": {} }), "there is no field `pose` in to; known are `state`, `line`, `circle`"),
         (
             "to",
-            json!({ "line": { "point": [0, 0], "direction": 0 }, "circle": { "centre": [0, 0], "radius": 1, "turn": "left" } }),
+            json!({
+                "line": { "point": [0, 0], "direction": 0 },
+                "circle": { "centre": [0, 0], "radius": 1, "turn": "left" },
+            }),
             "to: keep one of `state`, `line` and `circle`; there are several",
         ),
         (

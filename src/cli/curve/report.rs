@@ -53,10 +53,12 @@ impl Path {
         Err(Error::Domain(format!("the curve's {what} leaves the range of doubles; change the unit of length")))
     }
 
-    /// Points at equal lengths. The curvature of an end that is straight by the question is 0: there the first two sides
-    /// of the polygon, or the first two numbers of the pre-image, are multiples of each other, and what their roundings
-    /// in the user's frame show is none of the curve's. It is a few units in the last place of the quotient of these
-    /// two lengths, over the length of the first: -1.3e-18 for a curve of some 20 units.
+    /// Points at equal lengths. The curvature of an end that is straight by the question is 0.
+    ///
+    /// There the first two sides of the polygon, or the first two numbers of the pre-image, are multiples of each
+    /// other. Turned into the user's frame each of their coordinates has a few roundings, so their cross product is no 0
+    /// but up to 2^-51 of the product of their lengths a and b. The curvature shown is some b 2^-51 over a²: a rounding
+    /// of this frame, and nothing of the curve.
     fn stations(&self, count: u32, found: &impl Found) -> Result<Vec<Station>> {
         let mut all = self.course.stations(count as usize)?;
         let last = all.len() - 1;

@@ -88,8 +88,8 @@ pub fn join(request: &Request) -> Result<Outcome> {
     if let Some((what, whence, far)) = far.into_iter().find(|(.., far)| far.is_nan() || *far > FARTHEST) {
         let far = if far.is_finite() { told(far) } else { "more than 1.8e308".into() };
         return Err(Error::Domain(format!(
-            "{what} {far} least radii{whence}, where no join is sought: doubles have no digits left for spirals beyond 1e12 least radii (one \
-             over the greatest curvature); check the unit of length"
+            "{what} {far} least radii{whence}, where no join is sought: doubles have no digits left for spirals beyond \
+             1e12 least radii (one over the greatest curvature); check the unit of length"
         )));
     }
     let mut best = Best::new(request);
