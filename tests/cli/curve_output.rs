@@ -293,6 +293,7 @@ fn a_no_is_a_no_for_what_reads_paths() {
 /// An end that is straight by the question has the curvature 0, where its doubles show -1.3e-18.
 #[test]
 fn straight_ends_have_no_curvature() {
+    let mut rounded = 0;
     for (family, base, turn) in ["reach-cubic", "reach-ph"].into_iter().flat_map(|family| {
         ["line", "circle"].into_iter().flat_map(move |base| ["left", "right"].map(|turn| (family, base, turn)))
     }) {
@@ -310,13 +311,28 @@ fn straight_ends_have_no_curvature() {
                 straight.to_bits() == 0 && (round.abs() - 0.05).abs() < 1e-12,
                 "{family} {asked:?}: {straight} {round}"
             );
+            // What the doubles of the path show there is a rounding of its first two sides, a and b: b 2^-51 / a².
+            let read = piped(&["path", "measure", "-", "--samples", "3"], &found.to_string()).json();
+            let shown = row(&read["paths"][0]["samples"][if base == "line" { 0 } else { 2 }])[4];
+            let mut sides: Vec<f64> = found["segment"]["legs"].as_array().unwrap().iter().map(side).collect();
+            if base == "circle" {
+                sides.reverse();
+            }
+            assert!(shown.abs() <= sides[1] * 0.5f64.powi(51) / (sides[0] * sides[0]), "{shown} {sides:?}");
+            rounded += usize::from(shown != 0.0);
         }
     }
+    assert!(rounded > 5, "{rounded}");
     let line = curve("trig-quintic", ASKED[5].1, &["--samples", "3", "--json"]).json();
     assert!((row(&line["samples"][0])[4].abs() - 0.05).abs() < 1e-12, "the circles of an S are round");
     let lines = ASKED[5].1.iter().map(|arg| if *arg == "s" { "line-line" } else { arg }).collect::<Vec<_>>();
     let line = curve("trig-quintic", &lines, &["--samples", "3", "--json"]).json();
     assert_eq!([0, 2].map(|i: usize| row(&line["samples"][i])[4]), [0.0, 0.0]);
+}
+
+/// The length of a side.
+fn side(side: &Value) -> f64 {
+    number(&side[0]).hypot(number(&side[1]))
 }
 
 /// Words end with a line's end, not with an empty line.
