@@ -84,6 +84,8 @@ fn a_request_stands_in_a_file() {
         "to": { "state": { "point": [4, 3], "direction": "90deg", "curvature": 0.25 } },
     });
     assert_eq!(piped(&["join", "-"], &json.to_string()).out, typed);
+    // As some editors write it.
+    assert_eq!(piped(&["join", "-"], &format!("\u{feff}{json}")).out, typed);
     let mut circle = json.clone();
     circle["from"] = json!({ "line": { "point": [0, 0], "direction": 0 } });
     circle["to"] = json!({ "circle": { "centre": [9, 3], "radius": 2, "turn": "left" } });
