@@ -2,7 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
-use spiral_atlas::files::size;
+use spiral_atlas::files::{check_place, size};
 pub use spiral_atlas::picture::{angle, grouped};
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
@@ -33,13 +33,22 @@ pub fn stdout_error(source: io::Error) -> Error {
     Error::Io { path: "(standard output)".into(), source }
 }
 
-/// Before any work, whether a figure can be what its name says.
+/// Before any work, whether a figure can be what its name says, where it says.
 pub fn check_figure(figure: Option<&Path>) -> Result<()> {
-    match figure.filter(|path| !has_extension(path, "png")) {
-        None => Ok(()),
-        Some(path) => {
-            Err(Error::Domain(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())))
-        }
+    let Some(path) = figure else { return Ok(()) };
+    if !has_extension(path, "png") {
+        return Err(Error::Domain(format!(
+            "the figure `{}` would be a PNG picture; name it with .png",
+            path.display()
+        )));
+    }
+    match path.parent().filter(|folder| !(folder.as_os_str().is_empty() || folder.is_dir())) {
+        None => check_place(path),
+        Some(folder) => Err(Error::Domain(format!(
+            "the figure `{}` has no folder `{}` to be in; create it, or choose another",
+            path.display(),
+            folder.display()
+        ))),
     }
 }
 

@@ -3,6 +3,7 @@
 use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::{Course, Motion, Plan, Scene, Separation};
+use spiral_atlas::plain::count;
 use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
 use spiral_atlas::transition::{Piece, Station};
 use spiral_atlas::{Error, Result};
@@ -106,7 +107,12 @@ pub fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str,
 pub fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
     let (most, spans) = (scene.greatest_curvature, &plan.spans);
     let figure = PathsFigure {
-        title: format!("{} corners, length {:.4}, saved {:.4}", plan.corners.len(), length(spans), plan.length_saved),
+        title: format!(
+            "{}, length {:.4}, saved {:.4}",
+            count(plan.corners.len(), "corner"),
+            length(spans),
+            plan.length_saved
+        ),
         note: format!(
             "dot: start; bright: within the clearance {}; red: the greatest curvature {most}",
             scene.clearance
