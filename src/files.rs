@@ -9,6 +9,9 @@ use tempfile::NamedTempFile;
 /// How the names of files in the making begin and end; between them are random letters.
 const DRAFT: (&str, &str) = (".spiral-atlas-", ".part");
 
+/// A byte order mark.
+const MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// Most bytes of a recipe: an atlas carries it in its header, which is no longer than this.
 pub(crate) const LONGEST_RECIPE: u64 = 1 << 20;
 
@@ -174,7 +177,8 @@ pub fn size(bytes: u64) -> String {
     }
 }
 
-/// Reads a text, of a file or of standard input for `-`, that must not be longer than `most` bytes.
+/// Reads a text, of a file or of standard input for `-`, that must not be longer than `most` bytes. A byte order mark,
+/// which some editors put at the start, is left out.
 ///
 /// Pipes and devices are read too, since a shell hands them over as files; an endless one is left after `most` bytes.
 ///
@@ -186,6 +190,9 @@ pub fn read_text(path: &Path, most: u64) -> Result<String> {
             if path == Path::new("-") { Box::new(io::stdin()) } else { Box::new(File::open(path)?) };
         let mut bytes = Vec::new();
         input.take(most + 1).read_to_end(&mut bytes)?;
+        if bytes.starts_with(MARK) {
+            bytes.drain(..MARK.len());
+        }
         if bytes.len() as u64 > most {
             return Err(io::Error::other(format!("it is longer than {}; so long a text is not read", size(most))));
         }

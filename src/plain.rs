@@ -2,6 +2,9 @@
 //!
 //! Serde's messages have few forms and speak of Rust's types; tests hold the sentences to them.
 
+mod name;
+
+pub use name::{name, names};
 use std::ops::Range;
 
 /// Most characters of a value that are quoted.
@@ -30,17 +33,16 @@ pub fn json(path: &str, error: &serde_json::Error) -> String {
     }
 }
 
-/// A complaint of TOML's reader about the text: what the reader says, with the line and column of the bytes that are to
-/// blame.
+/// A complaint of TOML's reader about the text: what is wrong, with the line and column of the bytes that are to blame.
 pub fn toml(text: &str, at: Option<Range<usize>>, message: &str) -> String {
-    let what = syntax(message);
-    match at.and_then(|at| text.get(..at.start)) {
-        None => format!("it is not TOML: {what}"),
-        Some(before) => {
-            let (line, column) = place(before);
-            format!("it is not TOML (line {line}, column {column}): {what}")
-        }
-    }
+    let at = at.unwrap_or(0..0);
+    let (line, column) = place(text.get(..at.start).unwrap_or_default());
+    format!("it is not TOML (line {line}, column {column}): {}", toml_syntax(text, &at, message))
+}
+
+/// So many of something that takes an s, one of it without.
+pub fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 /// Line and column of what follows a text.
@@ -48,22 +50,84 @@ pub fn place(before: &str) -> (usize, usize) {
     (before.matches('\n').count() + 1, before.chars().rev().take_while(|c| *c != '\n').count() + 1)
 }
 
-/// What is wrong with a text that is not of its language.
-pub fn syntax(message: &str) -> &str {
+/// What is wrong with a text that is not JSON.
+fn syntax(message: &str) -> &str {
     match message {
         "expected ident" => "there is a word that is none of true, false and null",
-        "expected value" => "a value is missing there, or is none",
+        "expected value" => "a value is missing there, or is none; JSON has neither NaN nor Infinity",
+        "expected `:`" => "a colon is missing after a name",
+        "expected `,` or `}`" | "expected `,` or `]`" => "a comma is missing, or the closing bracket",
         "key must be a string" => "a name must stand in quotation marks",
         "trailing comma" => "nothing follows after a comma",
         "trailing characters" => "something follows after its end",
         "invalid number" => "there is a number that JSON does not know",
         "invalid escape" => "there is a backslash in a text that JSON does not know",
-        "recursion limit exceeded" | "cannot recurse further; max recursion depth met" => {
-            "lists are in each other too deep"
-        }
-        "duplicate key" => "a name is given twice",
+        "recursion limit exceeded" => DEEP,
         other => other,
     }
+}
+
+const DEEP: &str = "lists are in each other too deep";
+
+/// What is wrong with a text that is not TOML, of which the reader blames these bytes.
+pub fn toml_syntax(text: &str, at: &Range<usize>, message: &str) -> String {
+    let given = cut(word(text, at));
+    let what = message.split(", expected").next().unwrap_or_default();
+    let number = what.starts_with("invalid ")
+        && [" number", "float", "mantissa", "fraction", "exponent", "date-time", "date", "time"]
+            .iter()
+            .any(|end| what.ends_with(end));
+    match what {
+        "string values must be quoted" | "missing value for key" | "missing value" if given.is_empty() => {
+            "a value is missing"
+        }
+        "string values must be quoted"
+        | "integer number overflowed"
+        | "unexpected leading zero"
+        | "unexpected sign" => {
+            return no_number(&given);
+        }
+        _ if number => return no_number(&given),
+        "invalid boolean" => return format!("`{given}` is neither `true` nor `false`, nor a text in quotation marks"),
+        "key with no value" | "invalid key-value pair" => "a name has no value; write `name = value`",
+        "unquoted keys cannot be empty" => "a name is missing before the `=`",
+        "invalid unquoted key" => return format!("the name `{given}` must stand in quotation marks"),
+        "missing assignment between key-value pairs" => return format!("a `=` is missing, at `{given}`"),
+        "missing key for inline table element" | "invalid inline table element" => "a name is missing before a value",
+        "missing opening quote" => "a text lacks its opening quotation mark",
+        "invalid basic string" | "invalid literal string" => "a text lacks its closing quotation mark",
+        "missing escaped value" => "a text has a backslash alone; write two",
+        "missing comma between array elements"
+        | "missing comma between key-value pairs"
+        | "extra assignment between key-value pairs" => "a comma is missing",
+        "extra comma in array" | "extra comma in inline table" => "there is a comma too many",
+        "extra `=`" | "unexpected `=` in array" => "there is a `=` too many",
+        "unexpected key or value" | "unexpected content" => "something follows after a value; begin a new line",
+        "unclosed table" | "unclosed array table" | "unclosed array" | "unclosed inline table" => {
+            "a bracket is not closed"
+        }
+        "cannot recurse further; max recursion depth met" => DEEP,
+        "duplicate key" => "a name is given twice",
+        _ if given.is_empty() => what,
+        _ => return format!("{what}, at `{given}`"),
+    }
+    .into()
+}
+
+fn no_number(given: &str) -> String {
+    if given.contains('"') {
+        return format!("`{given}` is more than one value; is there a comma between them?");
+    }
+    format!("`{given}` is no number; a text stands in quotation marks: \"{given}\"")
+}
+
+/// The word at some bytes of a text, all of it.
+fn word<'t>(text: &'t str, at: &Range<usize>) -> &'t str {
+    let ends = |c: char| c.is_control() || ",=[]{}#".contains(c);
+    let (Some(before), Some(from)) = (text.get(..at.start), text.get(at.start..)) else { return "" };
+    let start = before.rfind(ends).map_or(0, |i| i + before[i..].chars().next().map_or(0, char::len_utf8));
+    let end = from.find(ends).map_or(text.len(), |i| at.start + i);
+    text[start..end].trim()
 }
 
 /// A complaint about a value at a path, in serde's words: what must be there, and what is.
@@ -78,10 +142,10 @@ pub fn value(path: &str, message: &str) -> String {
         }
     }
     if let Some((count, takes)) = message.strip_prefix("invalid length ").and_then(expected) {
-        let s = if count == "1" { "" } else { "s" };
-        return match &takes[..] {
-            "fewer elements in array" => format!("{whose} has more values than belong there: {count}"),
-            takes => format!("{whose} must be {}; it has {count} value{s}", must_be(takes)),
+        return match (&takes[..], count.parse().map(|n| self::count(n, "value"))) {
+            ("fewer elements in array", _) => format!("{whose} has more values than belong there: {count}"),
+            (takes, Ok(values)) => format!("{whose} must be {}; it has {values}", must_be(takes)),
+            (takes, Err(_)) => format!("{whose} must be {}; it has {count}", must_be(takes)),
         };
     }
     let quoted = |form: &str| message.strip_prefix(form)?.split_once('`');
@@ -147,7 +211,7 @@ fn is(given: &str) -> String {
 }
 
 /// A text, shortened where it is long.
-fn cut(text: &str) -> String {
+pub fn cut(text: &str) -> String {
     if text.chars().count() <= QUOTED { text.to_owned() } else { text.chars().take(QUOTED).chain(['…']).collect() }
 }
 
@@ -227,5 +291,43 @@ mod tests {
             toml("a = 1\nb = ", Some(10..10), "duplicate key"),
             "it is not TOML (line 2, column 5): a name is given twice"
         );
+    }
+
+    #[cfg(feature = "recipe")]
+    #[test]
+    fn what_toml_says_becomes_a_sentence() {
+        for (text, told) in [
+            ("a = cubic", "`cubic` is no number; a text stands in quotation marks: \"cubic\""),
+            ("a = {b = [1, 40deg ]}", "`40deg` is no number; a text stands in quotation marks: \"40deg\""),
+            ("a = 1.2.3", "`1.2.3` is no number"),
+            ("a = 07", "`07` is no number"),
+            ("a = 1-2", "`1-2` is no number"),
+            ("a = 0x", "`0x` is no number"),
+            ("a = True", "`True` is neither `true` nor `false`"),
+            ("a = \"b", "a text lacks its closing quotation mark"),
+            ("a = 'b", "a text lacks its closing quotation mark"),
+            ("a = b\"", "a text lacks its opening quotation mark"),
+            ("a = \"b\\q\"", "a text has a backslash alone; write two"),
+            ("a b", "a name has no value; write `name = value`"),
+            ("a = ", "a value is missing"),
+            ("= 1", "a name is missing before the `=`"),
+            ("ä = 1", "the name `ä` must stand in quotation marks"),
+            ("a = [1, 2", "a bracket is not closed"),
+            ("[a", "a bracket is not closed"),
+            ("[[a]", "a bracket is not closed"),
+            ("a = {b 1}", "a `=` is missing, at `b 1`"),
+            ("a = {= 2}", "a name is missing before the `=`"),
+            ("a = [1\"b\" 2]", "`1\"b\" 2` is more than one value; is there a comma between them?"),
+            ("a = {b = 1 c = 2}", "a comma is missing"),
+            ("a = [\"b\" \"c\"]", "a comma is missing"),
+            ("a = [1,,2]", "there is a comma too many"),
+            ("a == 1", "there is a `=` too many"),
+            ("a = 1 b = 2", "something follows after a value"),
+            ("a = \"b\" c", "something follows after a value; begin a new line"),
+        ] {
+            let error = toml::from_str::<toml::Table>(text).unwrap_err();
+            let said = super::toml(text, error.span(), error.message());
+            assert!(said.contains(told), "{text}: {said} ({})", error.message());
+        }
     }
 }

@@ -9,6 +9,7 @@ use spiral_atlas::Result;
 use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::files::write_file;
 use spiral_atlas::path::Course;
+use spiral_atlas::plain::count;
 use std::path::PathBuf;
 
 /// Write paths as files that other programs read.
@@ -70,8 +71,12 @@ fn road(args: &RoadArgs) -> Result<Outcome> {
     }
     if fit.curves > 0 {
         output::note(&format!(
-            "{} PH quintics are {} cubics now, no further away than {:.1e} m; curvature at joints differs by at most {:.1e} / m",
-            fit.curves, fit.cubics, fit.error, fit.curvature
+            "{} {} {} now, no further away than {:.1e} m; curvature at joints differs by at most {:.1e} / m",
+            count(fit.curves, "PH quintic"),
+            if fit.curves == 1 { "is" } else { "are" },
+            count(fit.cubics, "cubic"),
+            fit.error,
+            fit.curvature
         ));
     }
     Ok(Outcome::Fine)

@@ -104,6 +104,11 @@ pub(crate) fn main() -> ExitCode {
         Ok(Outcome::Fine) => ExitCode::SUCCESS,
         Ok(Outcome::Bad) => ExitCode::from(1),
         Ok(Outcome::Failed) => ExitCode::from(2),
+        // An answer, which another command gave: no error.
+        Err(Error::NoPath(reason)) => {
+            output::note(&reason);
+            ExitCode::from(1)
+        }
         Err(error) => {
             output::complain(&error.to_string());
             ExitCode::from(if matches!(error, Error::Interrupted) { 130 } else { 2 })

@@ -2,8 +2,8 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
-use spiral_atlas::files::size;
-pub(super) use spiral_atlas::picture::{angle, grouped};
+use spiral_atlas::files::{check_place, size};
+pub use spiral_atlas::picture::{angle, grouped};
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufWriter, Write};
@@ -33,13 +33,22 @@ pub(super) fn stdout_error(source: io::Error) -> Error {
     Error::Io { path: "(standard output)".into(), source }
 }
 
-/// Before any work, whether a figure can be what its name says.
-pub(super) fn check_figure(figure: Option<&Path>) -> Result<()> {
-    match figure.filter(|path| !has_extension(path, "png")) {
-        None => Ok(()),
-        Some(path) => {
-            Err(Error::invalid(format!("the figure `{}` would be a PNG picture; name it with .png", path.display())))
-        }
+/// Before any work, whether a figure can be what its name says, where it says.
+pub fn check_figure(figure: Option<&Path>) -> Result<()> {
+    let Some(path) = figure else { return Ok(()) };
+    if !has_extension(path, "png") {
+        return Err(Error::invalid(format!(
+            "the figure `{}` would be a PNG picture; name it with .png",
+            path.display()
+        )));
+    }
+    match path.parent().filter(|folder| !(folder.as_os_str().is_empty() || folder.is_dir())) {
+        None => check_place(path),
+        Some(folder) => Err(Error::invalid(format!(
+            "the figure `{}` has no folder `{}` to be in; create it, or choose another",
+            path.display(),
+            folder.display()
+        ))),
     }
 }
 

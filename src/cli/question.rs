@@ -3,7 +3,9 @@
 use super::Outcome;
 use super::datum::Coordinates;
 use super::output;
+use clap::ArgGroup;
 use spiral_atlas::family::Family;
+use spiral_atlas::plain::count;
 use spiral_atlas::question::{Boundary, Nearest, Property, Ranges, boundary, nearest, ranges};
 use spiral_atlas::recipe::parse_coordinate;
 use spiral_atlas::{Error, Result};
@@ -11,21 +13,23 @@ use spiral_atlas::{Error, Result};
 /// What to find instead of the answer for the datum.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Questions beyond yes and no")]
-pub(super) struct QuestionArgs {
+#[command(group(ArgGroup::new("question").args(["ranges", "nearest", "boundary"]).conflicts_with("points")))]
+#[command(group(ArgGroup::new("looked").args(["ranges", "boundary"]).multiple(true)))]
+pub struct QuestionArgs {
     /// All intervals of this coordinate in which the property holds, the others being given.
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["nearest", "boundary"])]
+    #[arg(long, value_name = "NAME")]
     ranges: Option<String>,
     /// The nearest datum that has the property.
-    #[arg(long, conflicts_with = "boundary")]
+    #[arg(long)]
     nearest: bool,
     /// The outline of the property over two coordinates, such as kappa0,kappa1, the others being given; as polylines.
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
     boundary: Option<Vec<String>>,
     /// The flag that is asked for; the family's yes unless given.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "question")]
     property: Option<String>,
     /// With --ranges or --boundary: where to look, the least and the greatest value; once for each coordinate.
-    #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true, requires = "looked")]
     within: Vec<String>,
     /// With --nearest: weights of the coordinates in a distance, in the order of the axes; inf keeps one as it is.
     #[arg(long, value_name = "W,W,..", value_delimiter = ',', requires = "nearest")]
@@ -42,33 +46,43 @@ impl QuestionArgs {
     }
 
     /// The answer, printed.
-    pub(super) fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
-        let free: Vec<&str> = self.ranges.iter().chain(self.boundary.iter().flatten()).map(|name| &name[..]).collect();
+    pub fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
+        let pair = match self.boundary.as_deref() {
+            None => None,
+            Some([first, second]) if first != second => Some([&first[..], &second[..]]),
+            Some(names) => super::refuse(&format!(
+                "--boundary is {:?}; it takes the names of two different coordinates, such as kappa0,kappa1",
+                names.join(",")
+            )),
+        };
+        let free: Vec<&str> = self.ranges.as_deref().into_iter().chain(pair.into_iter().flatten()).collect();
+        if self.within.len() > free.len() {
+            super::refuse(&format!("--within is given more than once for each of {}", free.join(", ")));
+        }
         let (axes, point) = coordinates.but(family, &free).unwrap_or_else(|what| super::refuse(&what));
         let property = Property::new(family.about().name, axes, self.property.as_deref())?;
-        let place = |name: &&str| axes.iter().position(|axis| axis == name).unwrap_or_default();
-        let within = || free.iter().enumerate().map(|(i, name)| self.within(i, name)).collect::<Result<Vec<_>>>();
-        if self.nearest {
-            let ones = vec![1.0; axes.len()];
-            let found = nearest(&property, &point, self.weights.as_deref().unwrap_or(&ones))?;
-            print(&found, json, |found| nearest_text(&property, found))?;
-            return Ok(if found.point.is_some() { Outcome::Fine } else { Outcome::Bad });
-        }
-        if let [name] = free[..] {
-            let found = ranges(&property, &point, place(&name), within()?[0])?;
-            print(&found, json, |found| ranges_text(&property, name, found))?;
-            // A no is said only where nothing is left open.
-            let no = found.ranges.is_empty() && found.open.is_empty();
-            return Ok(if no { Outcome::Bad } else { Outcome::Fine });
-        }
-        let [first, second] = free[..] else {
-            super::refuse("--boundary takes two coordinates, such as kappa0,kappa1")
+        let place = |name: &str| axes.iter().position(|axis| *axis == name).unwrap_or_default();
+        let yes = match (pair, &self.ranges) {
+            (Some([first, second]), _) => {
+                let within = [self.within(0, first)?, self.within(1, second)?];
+                let found = boundary(&property, &point, [place(first), place(second)], within, self.cells)?;
+                print(&found, json, |found| boundary_text([first, second], found))?;
+                !(found.outlines.is_empty() && found.open.is_empty())
+            }
+            (None, Some(name)) => {
+                let found = ranges(&property, &point, place(name), self.within(0, name)?)?;
+                print(&found, json, |found| ranges_text(&property, name, found))?;
+                // A no is said only where nothing is left open.
+                !(found.ranges.is_empty() && found.open.is_empty())
+            }
+            (None, None) => {
+                let ones = vec![1.0; axes.len()];
+                let found = nearest(&property, &point, self.weights.as_deref().unwrap_or(&ones))?;
+                print(&found, json, |found| nearest_text(&property, found))?;
+                found.point.is_some()
+            }
         };
-        let within = within()?;
-        let found = boundary(&property, &point, [place(&first), place(&second)], [within[0], within[1]], self.cells)?;
-        print(&found, json, |found| boundary_text([first, second], found))?;
-        let no = found.outlines.is_empty() && found.open.is_empty();
-        Ok(if no { Outcome::Bad } else { Outcome::Fine })
+        Ok(if yes { Outcome::Fine } else { Outcome::Bad })
     }
 
     /// Where to look along a coordinate.
@@ -125,9 +139,10 @@ fn boundary_text([first, second]: [&str; 2], found: &Boundary) -> String {
     let mut text = String::new();
     for outline in &found.outlines {
         let kind = if outline.closed { "closed outline" } else { "outline from border to border" };
-        text += &format!("{kind}, {} points ({first}, {second}):\n", outline.points.len());
+        text += &format!("{kind}, {} ({first}, {second}):\n", count(outline.points.len(), "point"));
         outline.points.iter().for_each(|[x, y]| text += &format!("  {x:?} {y:?}\n"));
     }
     let [dx, dy] = found.cell;
-    text + &format!("{} cells of {dx:?} by {dy:?} are open beside the outlines\n", found.open.len())
+    let are = if found.open.len() == 1 { "is" } else { "are" };
+    text + &format!("{} of {dx:?} by {dy:?} {are} open beside the outlines\n", count(found.open.len(), "cell"))
 }

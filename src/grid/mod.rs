@@ -12,8 +12,9 @@ use serde::{Deserialize, Serialize};
 pub const MAX_AXES: usize = 5;
 /// Most values one axis may have: indices fit `u32` with room for carries.
 pub const MAX_COUNT: usize = 1 << 24;
-/// Most nodes of a grid: byte offsets of every field fit 53 bits, so that JSON readers keep them.
-pub const MAX_NODES: u64 = 1 << 48;
+/// Most nodes of a grid: 32 TiB of flags and counts. Byte offsets of every field fit 53 bits, so that JSON readers keep
+/// them.
+pub const MAX_NODES: u64 = 1 << 44;
 
 /// How the values of an axis are spaced.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,6 +42,46 @@ pub enum Spacing {
     Values(Vec<f64>),
 }
 
+impl Spacing {
+    /// How many values there are.
+    pub fn count(&self) -> usize {
+        match self {
+            Spacing::Linear { count, .. } | Spacing::Log { count, .. } => *count,
+            Spacing::Values(values) => values.len(),
+        }
+    }
+
+    /// All that can be checked before there are values.
+    pub(crate) fn check(&self, name: &str) -> Result<()> {
+        let fail = |what: String| Err(Error::invalid(format!("axis `{name}` {what}")));
+        let (lo, hi) = match self {
+            Spacing::Linear { lo, hi, .. } | Spacing::Log { lo, hi, .. } => (*lo, *hi),
+            Spacing::Values(values) if values.is_empty() || values.len() > MAX_COUNT => {
+                return fail(format!("has {} values; it must have 1 to {MAX_COUNT}", values.len()));
+            }
+            Spacing::Values(_) => return Ok(()),
+        };
+        // The width too: from -1e308 to 1e308 no step could be computed.
+        if !((hi - lo).is_finite() && lo < hi) {
+            return fail(format!(
+                "runs from {} to {}; both and their difference must be finite, with lo < hi",
+                written(lo),
+                written(hi)
+            ));
+        }
+        let count = self.count();
+        if !(2..=MAX_COUNT).contains(&count) {
+            return fail(format!(
+                "has count {count}; it must be 2 to {MAX_COUNT} (a single value is written `values = [..]`)"
+            ));
+        }
+        if matches!(self, Spacing::Log { .. }) && lo <= 0.0 {
+            return fail(format!("is logarithmic from {}; it must start above 0", written(lo)));
+        }
+        Ok(())
+    }
+}
+
 /// A named coordinate with its values: finite f64 numbers, strictly increasing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -57,32 +98,12 @@ impl Axis {
     /// more than [`MAX_COUNT`] values, or a logarithmic axis does not start above zero.
     pub fn new(name: &str, spacing: Spacing) -> Result<Axis> {
         let fail = |what: String| Err(Error::invalid(format!("axis `{name}` {what}")));
+        spacing.check(name)?;
         let values = match &spacing {
-            Spacing::Linear { lo, hi, count } | Spacing::Log { lo, hi, count } => {
-                let log = matches!(spacing, Spacing::Log { .. });
-                // The width too: from -1e308 to 1e308 no step could be computed.
-                if !((hi - lo).is_finite() && lo < hi) {
-                    return fail(format!(
-                        "runs from {} to {}; both and their difference must be finite, with lo < hi",
-                        written(*lo),
-                        written(*hi)
-                    ));
-                }
-                if !(2..=MAX_COUNT).contains(count) {
-                    return fail(format!(
-                        "has count {count}; it must be 2 to {MAX_COUNT} (a single value is written `values = [..]`)"
-                    ));
-                }
-                if log && *lo <= 0.0 {
-                    return fail(format!("is logarithmic from {}; it must start above 0", written(*lo)));
-                }
-                if log { log_space(*lo, *hi, *count) } else { lin_space(*lo, *hi, *count) }
-            }
+            Spacing::Linear { lo, hi, count } => lin_space(*lo, *hi, *count),
+            Spacing::Log { lo, hi, count } => log_space(*lo, *hi, *count),
             Spacing::Values(values) => values.clone(),
         };
-        if values.is_empty() || values.len() > MAX_COUNT {
-            return fail(format!("has {} values; it must have 1 to {MAX_COUNT}", values.len()));
-        }
         if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
             return fail(format!("has the value {bad}; all must be finite"));
         }
@@ -137,6 +158,15 @@ fn lin_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     (0..count).map(|i| if i + 1 == count { hi } else { lo + (hi / last - lo / last) * i as f64 }).collect()
 }
 
+/// Refuses more nodes than a grid may have, from the numbers of values of its axes.
+pub(crate) fn check_nodes(counts: impl Iterator<Item = usize>) -> Result<()> {
+    let nodes = counts.fold(1u64, |nodes, count| nodes.saturating_mul(count as u64));
+    if nodes <= MAX_NODES {
+        return Ok(());
+    }
+    Err(Error::invalid(format!("the grid has more than {MAX_NODES} nodes; split it")))
+}
+
 /// A product of axes, first axis slowest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
@@ -149,6 +179,7 @@ impl Grid {
     /// # Errors
     /// [`Error::Domain`] for no axes, more than [`MAX_AXES`], two of one name, or more than [`MAX_NODES`] nodes.
     pub fn new(axes: Vec<Axis>) -> Result<Grid> {
+        check_nodes(axes.iter().map(|axis| axis.values.len()))?;
         if axes.is_empty() || axes.len() > MAX_AXES {
             return Err(Error::invalid(format!("a grid has {} axes; it must have 1 to {MAX_AXES}", axes.len())));
         }
@@ -157,11 +188,7 @@ impl Grid {
                 return Err(Error::invalid(format!("axis `{}` is given twice", axis.name)));
             }
         }
-        let nodes = axes.iter().try_fold(1u64, |n, a| n.checked_mul(a.values.len() as u64));
-        match nodes {
-            Some(n) if n <= MAX_NODES => Ok(Grid { axes }),
-            _ => Err(Error::invalid(format!("the grid has more than {MAX_NODES} nodes; split it"))),
-        }
+        Ok(Grid { axes })
     }
 
     /// The axes, slowest first.

@@ -1,5 +1,6 @@
 //! Intervals of any precision, on correctly rounded directed arithmetic.
 
+use crate::steps::step;
 use dashu_float::round::mode::{Down, HalfEven, Up};
 use dashu_float::{ConstCache, Context, FBig, FpResult, Repr};
 use std::cell::RefCell;
@@ -303,6 +304,7 @@ pub(super) fn log_space(lo: f64, hi: f64, last: usize) -> Vec<f64> {
     let mut value = number(lo);
     (0..=last)
         .map(|i| {
+            step();
             let here = value.to_f64().value();
             value = &value * &ratio;
             if i == last { hi } else { here }

@@ -132,6 +132,22 @@ impl Course {
         stations(&self.pieces, count)
     }
 
+    /// Stations that show the whole path, however short some of its pieces are: those of [`Course::stations`], both
+    /// ends of every piece, and where in it the curvature is extreme, in order. A joint is there once for each of its
+    /// pieces. Beside the `count` equal ones, those that stand still are left out.
+    ///
+    /// # Errors
+    /// Those of [`stations`].
+    pub fn outline(&self, count: usize) -> Result<Vec<Station>> {
+        let mut all = self.stations(count)?;
+        for (i, piece) in self.pieces.iter().enumerate() {
+            let places = signs::slope(piece).inside.into_iter().chain(piece.range());
+            all.extend(places.map(|t| self.spot(i, t).station).filter(|s| s.numbers().iter().all(|x| x.is_finite())));
+        }
+        all.sort_by(|a, b| a.station.total_cmp(&b.station));
+        Ok(all)
+    }
+
     /// The largest curvature by size; NaN where the path stands still.
     ///
     /// # Accuracy

@@ -3,6 +3,7 @@
 use super::canvas::{Canvas, Pen, Rect};
 use super::palette::INK;
 use super::scale::{Room, Scale, Tick};
+use super::{AxisView, short};
 
 /// Sizes that a figure's parts share, in pixels.
 #[derive(Debug, Clone, Copy)]
@@ -75,6 +76,24 @@ pub(super) fn draw_left(canvas: &mut Canvas, scale: &Scale, style: Style, rect: 
     for tick in ticks.iter().filter(|_| numbers) {
         let at = [f64::from(rect.left - style.tick() - style.px(0.3)), rect.at(0.0, tick.at)[1]];
         canvas.text(at, Pen::new(style.numbers(), 1.0), &tick.label);
+    }
+}
+
+/// What an axis below a rectangle of this width is called: its label, with its ends where no numbers have room.
+pub(super) fn named_below(canvas: &Canvas, axis: &AxisView, scale: &Scale, style: Style, width: i32) -> String {
+    named(axis, ticks_right(canvas, scale, style, width).is_empty())
+}
+
+/// The same to the left of a rectangle of this height.
+pub(super) fn named_left(axis: &AxisView, scale: &Scale, style: Style, height: i32) -> String {
+    named(axis, ticks_up(scale, style, height).is_empty())
+}
+
+fn named(axis: &AxisView, bare: bool) -> String {
+    match &axis.values[..] {
+        [only] if bare => format!("{} = {}", axis.label, short(*only)),
+        [first, .., last] if bare => format!("{}: {} to {}", axis.label, short(*first), short(*last)),
+        _ => axis.label.clone(),
     }
 }
 

@@ -94,9 +94,31 @@ pub fn symbol(name: &str) -> String {
     letter.chars().chain(name[stem.len()..].chars().map(lowered)).collect()
 }
 
+/// A number with at most four decimals, or of four digits in scientific form where decimals would say nothing or fill
+/// lines.
+pub fn short(x: f64) -> String {
+    let size = x.abs();
+    let text = if !(1e-4..1e15).contains(&size) { format!("{x:.3e}") } else { format!("{x:.4}") };
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, ""));
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    match exponent {
+        _ if x == 0.0 => "0".into(),
+        "" => digits.replace('-', "−"),
+        exponent => format!("{digits}e{exponent}").replace('-', "−"),
+    }
+}
+
 /// A number with its digits in groups of three.
 fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let breaks = |i: usize| i > 0 && (digits.len() - i).is_multiple_of(3);
     digits.chars().enumerate().flat_map(|(i, c)| breaks(i).then_some(',').into_iter().chain([c])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn short_numbers_have_four_digits() {
+        assert_eq!([0.0, 5e-324, -1e300, 1e-310].map(super::short), ["0", "4.941e−324", "−1e300", "1e−310"]);
+    }
 }

@@ -1,7 +1,7 @@
 //! Small multiples: many slices side by side under one legend.
 
 use super::Slice;
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
+use super::axes::{Style, draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
 use super::canvas::{Canvas, Pen, Rect, Sheet};
 use super::legend::{Heading, Legend};
 use super::slice::{Panel, check_room, entries};
@@ -63,8 +63,9 @@ pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<
         draw_below(&mut canvas, &panel.x.scale, style, rect, own || row + 1 == figure.shape[0]);
         draw_left(&mut canvas, &panel.y.scale, style, rect, own || column == 0);
         if own {
-            label_below(&mut canvas, style, rect, style.below(), &slice.x.label);
-            label_left(&mut canvas, style, rect, layout.numbers, &slice.y.label);
+            let [below, left] = layout.names(&canvas, slice, panel);
+            label_below(&mut canvas, style, rect, style.below(), &below);
+            label_left(&mut canvas, style, rect, layout.numbers, &left);
         }
         let caption = Rect { top: rect.top - layout.above - style.px(0.2), ..rect };
         Heading::new(&canvas, &slice.title, &slice.note, layout.small, rect.width()).draw(
@@ -74,6 +75,11 @@ pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<
         );
     }
     layout.draw_captions(&mut canvas, figure);
+    if layout.shared {
+        let [below, left] = layout.names(&canvas, &figure.panels[0], &panels[0]);
+        label_below(&mut canvas, style, layout.grid, style.below(), &below);
+        label_left(&mut canvas, style, layout.grid, layout.numbers, &left);
+    }
     let all: Vec<&Slice> = figure.panels.iter().collect();
     let entries = entries(&all, true);
     let legend = Legend::new(&canvas, &entries, style, layout.sheet.width());
@@ -185,7 +191,16 @@ impl<'a> Layout<'a> {
         Rect { left, top, right: left + self.panel.0, bottom: top + self.panel.1 }
     }
 
-    /// Captions of rows and columns, and the axis labels where panels share them.
+    /// What the axes of a panel are called, below and on its left.
+    fn names(&self, canvas: &Canvas, slice: &Slice, panel: &Panel) -> [String; 2] {
+        let (width, height) = self.panel;
+        [
+            named_below(canvas, &slice.x, &panel.x.scale, self.style, width),
+            named_left(&slice.y, &panel.y.scale, self.style, height),
+        ]
+    }
+
+    /// Captions of rows and columns.
     fn draw_captions(&self, canvas: &mut Canvas, figure: &Multiples) {
         let style = self.style;
         let em = self.caption_em(canvas, &figure.columns, self.step.0);
@@ -212,11 +227,8 @@ impl<'a> Layout<'a> {
                 canvas.text([x, 0.5 * f64::from(from.top + to.bottom)], Pen { up: true, ..Pen::new(em, 0.5) }, &value);
             }
         }
-        if self.shared {
-            label_below(canvas, style, self.grid, style.below(), &figure.panels[0].x.label);
-            label_left(canvas, style, self.grid, self.numbers, &figure.panels[0].y.label);
-        }
     }
+
     /// Size of the letters of values, so small that each fits over its panels, whose steps are so long; but not too
     /// small to read.
     fn caption_em(&self, canvas: &Canvas, captions: &[Caption], step: i32) -> f64 {
@@ -256,7 +268,7 @@ mod tests {
     /// As many panels as a recipe may ask for, and values as long as axes give them.
     #[test]
     fn every_caption_is_told_whole() {
-        let axis = || AxisView { name: "k".into(), label: "k".into(), values: vec![0.0, 1.0], log: false };
+        let axis = || AxisView { name: "k".into(), label: "k".into(), values: vec![0.0125, 0.0375], log: false };
         let panel = Slice {
             title: String::new(),
             x: axis(),
@@ -290,6 +302,10 @@ mod tests {
                 for (value, _, count) in captions.iter().flat_map(spans) {
                     assert!(canvas.text_width(em, value) < f64::from(step) * count as f64, "{shape:?}: {value}");
                 }
+            }
+            // Where no number has room beside a panel, the ends of the axis stand in its name.
+            for (name, side) in layout.names(&canvas, &figure.panels[0], &panels[0]).iter().zip([1, 0]) {
+                assert_eq!(name, if shape[side] >= 12 { "k: 0.0125 to 0.0375" } else { "k" }, "{shape:?}");
             }
         }
     }

@@ -156,12 +156,25 @@ fn draw_backdrop(
     canvas.cased(&places(&backdrop.polyline), style.em * 0.06, GREY, clip);
 }
 
+/// Whether graphs rise or fall so near to an end of their axis that the frame would hide it.
+fn steep_at_an_end(lines: &[Vec<Point>], [from, to]: [f64; 2], height: f64) -> bool {
+    let reach = 0.005 * (to - from);
+    let steep = |near: &dyn Fn(f64) -> bool| {
+        lines.iter().any(|line| {
+            let (lo, hi) = bounds(line.iter().filter(|p| near(p[0])).map(|p| p[1]));
+            hi - lo > 0.1 * height
+        })
+    };
+    steep(&|x| x - from < reach) || steep(&|x| to - x < reach)
+}
+
 fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
     check_room(canvas, area)?;
     let Lines { across, up, lines } = &figure.graph;
     let (from, to) = bounds(lines.iter().flatten().map(|p| p[0]));
     let (lo, hi) = bounds(lines.iter().flatten().map(|p| p[1]).chain(figure.level));
-    let x = Scale::new(across, from, to, false)?;
+    let beside = if steep_at_an_end(lines, [from, to], hi - lo) { 0.02 * (to - from) } else { 0.0 };
+    let x = Scale::new(across, from - beside, to + beside, false)?;
     // A constant has no extent but rounding noise.
     let most = lo.abs().max(hi.abs());
     let flat = if most == 0.0 { 1.0 } else { most * 0.2 };

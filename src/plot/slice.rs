@@ -1,6 +1,6 @@
 //! One slice: coloured cells, outlines, marks.
 
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
+use super::axes::{Style, draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
 use super::canvas::{Canvas, Pen, Rect, Sheet};
 use super::legend::{Entry, Hatch, Heading, Key, Legend, Outline, star};
 use super::palette::{Color, INK, WHITE, edge, region_colors};
@@ -87,8 +87,9 @@ fn drawn(slice: &Slice, sheet: Sheet) -> Result<Canvas> {
     panel.draw(&mut canvas, style, rect, true);
     draw_below(&mut canvas, &panel.x.scale, style, rect, true);
     draw_left(&mut canvas, &panel.y.scale, style, rect, true);
-    label_below(&mut canvas, style, rect, style.below(), &slice.x.label);
-    label_left(&mut canvas, style, rect, left, &slice.y.label);
+    let below = named_below(&canvas, &slice.x, &panel.x.scale, style, rect.width());
+    label_below(&mut canvas, style, rect, style.below(), &below);
+    label_left(&mut canvas, style, rect, left, &named_left(&slice.y, &panel.y.scale, style, rect.height()));
     legend.draw(&mut canvas, style, (sheet.left, sheet.bottom - legend.height(style)));
     Ok(canvas)
 }

@@ -34,15 +34,16 @@ mod words;
 
 pub use levels::Levels;
 pub use look::{DPI, Look, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, SLICE_SIZE};
-pub use raw::{is_angle, parse_angle, parse_coordinate};
+pub use raw::{bare_angle, is_angle, parse_angle, parse_coordinate};
 pub use reference::reference;
 
 use crate::error::{Error, Result};
 use crate::family::{self, Chart, Family};
-use crate::grid::{Axis, Grid, Spacing};
+use crate::grid::{Axis, Grid, Spacing, check_nodes};
 use panels::{ends, nodes};
 use raw::{Fault, Number, RawAtlas, RawAxis, RawPicture, unknown};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
@@ -208,17 +209,20 @@ fn plan(raw: RawAtlas, family: &'static dyn Family, scalars: Vec<usize>) -> Resu
     let chart = chart(family, &raw.axes)?;
     let cells = cells::cells(&raw)?;
     let edges = cells.map(|cells| cells.resolution + 1);
-    let mut axes = Vec::new();
+    let mut spaced = Vec::new();
     for name in chart.axes {
         let Some(axis) = raw.axes.get_ref().iter().find(|(key, _)| key.get_ref() == name).map(|(_, axis)| axis) else {
             continue;
         };
-        axes.push(
-            spacing(name, axis.get_ref(), edges)
-                .and_then(|s| new_axis(name, s))
-                .map_err(|e| Fault::new(axis.span(), e))?,
-        );
+        let spacing = spacing(name, axis.get_ref(), edges).map_err(|e| Fault::new(axis.span(), e))?;
+        spacing.check(name).map_err(|e| Fault::new(axis.span(), e))?;
+        spaced.push((name, axis.span(), spacing));
     }
+    // Before any axis is made: the values of a large one take seconds.
+    check_nodes(spaced.iter().map(|(.., spacing)| spacing.count())).map_err(|e| Fault::new(raw.axes.span(), e))?;
+    let made =
+        |(name, at, spacing): (&&str, Range<usize>, Spacing)| Axis::new(name, spacing).map_err(|e| Fault::new(at, e));
+    let axes = spaced.into_iter().map(made).collect::<Result<_, _>>()?;
     let grid = Grid::new(axes).map_err(|e| Fault::new(raw.axes.span(), e))?;
     if cells.is_some() {
         raw.picture.iter().try_for_each(cells::check_picture)?;
@@ -270,10 +274,6 @@ fn spacing(name: &str, raw: &RawAxis, edges: Option<usize>) -> Result<Spacing, S
         }
         _ => Err(format!("axis `{name}` takes {}", keys::AXIS)),
     }
-}
-
-fn new_axis(name: &str, spacing: Spacing) -> Result<Axis, String> {
-    Axis::new(name, spacing).map_err(|e| e.to_string())
 }
 
 fn picture(
@@ -383,3 +383,6 @@ fn mark(raw: &Spanned<BTreeMap<Spanned<String>, Spanned<Number>>>, axes: [&Axis;
         Number::Plain(_) => Err(Fault::new(label.span(), "the label of a mark is a text")),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,7 @@
 //! A recipe as TOML has it, before anything is looked up.
 
 use crate::error::{Error, Result};
+use crate::error::written;
 use crate::plain;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -133,6 +134,7 @@ pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
 /// The complaint about a name that is not known, with the nearest that is.
 pub(super) fn unknown(what: &str, given: &str, known: &[&str]) -> String {
     let distance = |name: &&&str| strsim::damerau_levenshtein(given, name);
+    let given = plain::cut(given);
     match known.iter().min_by_key(distance) {
         Some(name) if distance(&name) <= 1 + name.len() / 3 => {
             format!("unknown {what} `{given}`; did you mean `{name}`?")
@@ -194,4 +196,18 @@ pub fn parse_angle(text: &str) -> Result<f64> {
             "{text:?} is no angle; write radians such as `0.7`, or degrees such as `40deg` or `40°`"
         ))),
     }
+}
+
+/// Checks an angle that was given as a number of radians, as [`parse_angle`] does where there is no unit.
+///
+/// # Errors
+/// [`Error::Domain`] when it is more than a full turn. What is not finite is for others to refuse, by its name.
+pub fn bare_angle(radians: f64) -> Result<f64> {
+    if !radians.is_finite() || radians.abs() <= TAU {
+        return Ok(radians);
+    }
+    let number = written(radians);
+    Err(Error::invalid(format!(
+        "{number} is more than a full turn in radians; say which unit is meant: \"{number}deg\" or \"{number}rad\""
+    )))
 }

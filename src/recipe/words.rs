@@ -28,7 +28,7 @@ pub(super) fn complaint(text: &str, at: Range<usize>, message: &str) -> Fault {
         let takes = takes(&keys).unwrap_or_else(|| expected.to_owned());
         format!("`{}` has {}, but it takes {takes}", keys.last().unwrap_or(&""), snippet(text, &at))
     } else {
-        format!("this is not TOML: {}", plain::syntax(message))
+        format!("this is not TOML: {}", plain::toml_syntax(text, &at, message))
     };
     Fault::new(at, what)
 }

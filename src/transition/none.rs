@@ -33,8 +33,7 @@ pub enum NoSpiral {
     CirclesCross {
         /// What would help. Empty where the curvatures that would are beyond the range of doubles.
         needs: Vec<Need>,
-        /// Whether each of `needs` alone suffices; if not, all of them are needed, and the curvatures must pass them by
-        /// more than a little.
+        /// Whether each of `needs` alone suffices; if not, both are needed, and both together suffice.
         alone: bool,
     },
 }
@@ -46,7 +45,7 @@ pub struct Need {
     pub which: Which,
     /// Its curvature as it is, user units.
     pub curvature: f64,
-    /// What it must be instead.
+    /// What it should be instead.
     #[serde(flatten)]
     pub bound: Bound,
 }
@@ -153,9 +152,12 @@ impl NoSpiral {
         if !needs.is_empty() {
             return Ok(Some(NoSpiral::CirclesCross { needs, alone: true }));
         }
-        let both = [(Which::Start, seen.limits[0]), (Which::End, seen.limits[1])];
-        let needs = both.into_iter().filter_map(|(which, at)| seen.passing(which, at)).collect();
-        Ok(Some(NoSpiral::CirclesCross { needs, alone: false }))
+        // Neither helps alone, since `room` and `over` are both 0 or less. Where both are above |sin ω|, their product
+        // is above its square; and the curvature rises still.
+        let share = seen.omega.sin().abs();
+        let both = [(Which::Start, seen.limits[0] - share), (Which::End, seen.limits[1] + share)];
+        let needs: Vec<Need> = both.into_iter().filter_map(|(which, at)| seen.passing(which, at)).collect();
+        Ok(Some(NoSpiral::CirclesCross { needs: if needs.len() == 2 { needs } else { Vec::new() }, alone: false }))
     }
 
     /// What an end's curvature must pass for a spiral of some kind, the other being as it is.
@@ -174,14 +176,14 @@ impl Bound {
 }
 
 impl Need {
-    /// As a sentence without an end.
-    fn sentence(&self) -> String {
+    /// `the end curvature 0.1 above 0.2`, with a verb before `above` or without.
+    fn told(&self, verb: &str) -> String {
         let Need { which, curvature, bound } = self;
-        let (verb, limit) = match bound {
-            Bound::Above(x) => ("be above", above(*x)),
-            Bound::Below(x) => ("be below", below(*x)),
+        let (side, told) = match bound {
+            Bound::Above(x) => ("above", above(*x)),
+            Bound::Below(x) => ("below", below(*x)),
         };
-        format!("the {which} curvature {curvature:?} must {verb} {limit}{}", radius(*bound))
+        format!("the {which} curvature {curvature:?}{verb} {side} {told}{}", radius(*bound))
     }
 }
 
@@ -231,11 +233,11 @@ impl fmt::Display for NoSpiral {
             }
             NoSpiral::CirclesCross { needs, alone } => {
                 f.write_str("the circles of curvature at the ends cross or touch, and those of a spiral do not")?;
-                let words: Vec<String> = needs.iter().map(Need::sentence).collect();
-                match (words.as_slice(), alone) {
+                let told = |verb| needs.iter().map(|need| need.told(verb)).collect::<Vec<_>>();
+                match (needs.as_slice(), alone) {
                     ([], _) => Ok(()),
-                    (words, true) => write!(f, ": {}", words.join(", or ")),
-                    (words, false) => write!(f, ": {}, each by more than a little", words.join(" and ")),
+                    (_, true) => write!(f, ": {}", told(" must be").join(", or ")),
+                    (_, false) => write!(f, "; it is enough to bring {}", told("").join(" and ")),
                 }
             }
         }

@@ -266,3 +266,107 @@ fn batches_have_a_line_for_each_row() {
     let header = piped(&["curve", "--points", "-"], "x0,y0\n");
     assert!(header.code == Some(2) && header.err.contains("curvature1"), "{}", header.err);
 }
+
+/// The answer that there is no curve is read as that, and no error.
+#[test]
+fn a_no_is_a_no_for_what_reads_paths() {
+    let no = curve("cubic", &ENDS.map(|arg| if arg == "0.04" { "0.005" } else { arg }), &["--json"]);
+    let join = run(["join", "--from", "0,0,0,1", "--to", "9,0,0", "--greatest-curvature", "0.5"]);
+    let row = run(["join", "--from", "0,0,0,1", "--to", "9,0,0", "--greatest-curvature", "0.5"]).json();
+    let rows =
+        format!("{}\n{}\n", json!({ "pieces": null, "reason": row["reason"] }), json!({ "line": 3, "error": "bad" }));
+    for (input, what) in [
+        (&no.out, "standard input has no path: no spiral of any kind joins these ends"),
+        (&join.out, "standard input has no path: the start curvature 1.0 is beyond"),
+        (&rows, "lines 1, 2 of standard input have no path; the reason stands there"),
+    ] {
+        let tools: [&[&str]; 3] =
+            [&["path", "measure", "-"], &["export", "opendrive", "-"], &["path", "separation", "-", "--minimum", "1"]];
+        for tool in tools {
+            let said = piped(tool, input);
+            assert!(said.code == Some(1) && said.out.is_empty() && said.err.contains(what), "{tool:?}: {}", said.err);
+        }
+    }
+    assert_eq!(piped(&["path", "measure", "-"], "{\"paths\": []}").code, Some(0));
+}
+
+/// An end that is straight by the question has the curvature 0, where its doubles show -1.3e-18.
+#[test]
+fn straight_ends_have_no_curvature() {
+    let mut rounded = 0;
+    for (family, base, turn) in ["reach-cubic", "reach-ph"].into_iter().flat_map(|family| {
+        ["line", "circle"].into_iter().flat_map(move |base| ["left", "right"].map(|turn| (family, base, turn)))
+    }) {
+        for direction in ["30deg", "-77deg", "1.234567", "200deg"] {
+            let asked = SEGMENT.map(|arg| match arg {
+                "line" => base,
+                "left" => turn,
+                "30deg" => direction,
+                other => other,
+            });
+            let found = curve(family, &asked, &["--samples", "3", "--json"]).json();
+            let [straight, round] =
+                if base == "line" { [0, 2] } else { [2, 0] }.map(|i: usize| row(&found["samples"][i])[4]);
+            assert!(
+                straight.to_bits() == 0 && (round.abs() - 0.05).abs() < 1e-12,
+                "{family} {asked:?}: {straight} {round}"
+            );
+            // What the doubles of the path show there is a rounding of its first two sides, a and b: b 2^-51 / a².
+            let read = piped(&["path", "measure", "-", "--samples", "3"], &found.to_string()).json();
+            let shown = row(&read["paths"][0]["samples"][if base == "line" { 0 } else { 2 }])[4];
+            let mut sides: Vec<f64> = found["segment"]["legs"].as_array().unwrap().iter().map(side).collect();
+            if base == "circle" {
+                sides.reverse();
+            }
+            assert!(shown.abs() <= sides[1] * 0.5f64.powi(51) / (sides[0] * sides[0]), "{shown} {sides:?}");
+            rounded += usize::from(shown != 0.0);
+        }
+    }
+    assert!(rounded > 5, "{rounded}");
+    let line = curve("trig-quintic", ASKED[5].1, &["--samples", "3", "--json"]).json();
+    assert!((row(&line["samples"][0])[4].abs() - 0.05).abs() < 1e-12, "the circles of an S are round");
+    let lines = ASKED[5].1.iter().map(|arg| if *arg == "s" { "line-line" } else { arg }).collect::<Vec<_>>();
+    let line = curve("trig-quintic", &lines, &["--samples", "3", "--json"]).json();
+    assert_eq!([0, 2].map(|i: usize| row(&line["samples"][i])[4]), [0.0, 0.0]);
+}
+
+/// The length of a side.
+fn side(side: &Value) -> f64 {
+    number(&side[0]).hypot(number(&side[1]))
+}
+
+/// Words end with a line's end, not with an empty line.
+#[test]
+fn no_empty_line_ends_an_answer() {
+    for (family, asked) in ASKED {
+        for more in [&[][..], &["--longest", "1"]] {
+            let said = curve(family, asked, more).out;
+            assert!(said.ends_with('\n') && !said.ends_with("\n\n"), "{family}: {said:?}");
+        }
+    }
+}
+
+/// A shape of any size is judged in a few halvings; there were seconds.
+#[test]
+fn extreme_shapes_have_an_answer() {
+    for m in ["1e160", "1e300", "1e-160"] {
+        let asked = ASKED[5].1.iter().map(|arg| if *arg == "1" { m } else { arg }).collect::<Vec<_>>();
+        let said = curve("trig-quintic", &asked, &[]);
+        let told = said.code == Some(1) && said.out.contains("not a spiral");
+        assert!(
+            told || said.code == Some(2) && said.err.contains("range of doubles"),
+            "{m}: {} {}",
+            said.out,
+            said.err
+        );
+    }
+}
+
+#[test]
+fn the_pages_reason_is_what_is_said() {
+    let page = include_str!("../../docs/cubic.md").replace('\n', " ");
+    let ends = ["--start-direction=-40deg", "--end-direction=80deg", "--start-curvature=0.03", "--end-curvature=0.04"];
+    let said = run(["curve", "--from", "0,0", "--to", "200,0"].iter().chain(&ends));
+    let reason = "the start curvature 0.03 must be below 0.00603991 (or, turning left, a radius of at least 165.566)";
+    assert!(page.contains(reason) && said.out.contains(reason), "{}", said.out);
+}

@@ -50,7 +50,13 @@ fn samples_come_as_a_table() {
     assert_eq!(csv.code, Some(0));
     let none = with_limit(&["--from", "0,0,0", "--to", "5,0,0", "--samples", "3", "--csv", "--longest", "4"]);
     assert_eq!((none.code, none.out.as_str()), (Some(1), ""));
-    assert!(none.err.contains("a length of 4; without these bounds one has 1 pieces and is 5 long"), "{}", none.err);
+    assert!(
+        none.err.contains("keeps to a length of 4; without that bound one has 1 piece and is 5 long"),
+        "{}",
+        none.err
+    );
+    let few = with_limit(&["--from", "0,0,0", "--to", "8,6,90deg", "--most-pieces", "1"]);
+    assert!(few.code == Some(1) && few.out.contains("keeps to 1 piece; without that bound one has"), "{}", few.out);
 }
 
 #[test]
@@ -78,6 +84,8 @@ fn a_request_stands_in_a_file() {
         "to": { "state": { "point": [4, 3], "direction": "90deg", "curvature": 0.25 } },
     });
     assert_eq!(piped(&["join", "-"], &json.to_string()).out, typed);
+    // As some editors write it.
+    assert_eq!(piped(&["join", "-"], &format!("\u{feff}{json}")).out, typed);
     let mut circle = json.clone();
     circle["from"] = json!({ "line": { "point": [0, 0], "direction": 0 } });
     circle["to"] = json!({ "circle": { "centre": [9, 3], "radius": 2, "turn": "left" } });
@@ -92,15 +100,95 @@ fn a_request_stands_in_a_file() {
             json!("speed"),
             "objective must be one of `length`, `greatest-curvature`, `greatest-rate`, `bending-energy`; it is `speed`",
         ),
+        (
+            "objective",
+            json!(null),
+            "objective must be one of \"length\", \"greatest-curvature\", \"greatest-rate\", \"bend",
+        ),
+        (
+            "family",
+            json!(3),
+            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3` (li",
+        ),
         ("longset", json!(3), "there is no field `longset`; known are `from`, `to`"),
         ("from", json!({ "state": { "point": [0, 0] } }), "from.state lacks the field `direction`"),
-        ("to", json!({ "pose": {} }), "to must be one of `state`, `line`, `circle`; it is `pose`"),
+        ("from", json!(null), "from must be an object with the fields state, line, circle; it is null (line 1"),
+        ("from", json!([0, 0, 0]), "from must be an object with the fields state, line, circle; it is a list (line 1"),
+        ("from", json!({}), "from: give one of `state`, `line` and `circle`; there is none"),
+        (
+            "from",
+            json!({ "state": [0, 0] }),
+            "from.state must be an object with the fields point, direction, curvature; it",
+        ),
+        (
+            "from",
+            json!({ "line": { "point": [0, 0], "direction": 40 } }),
+            "say which unit is meant: \"40deg\" or \"40rad\"",
+        ),
+        ("to", json!({ "pose": {} }), "there is no field `pose` in to; known are `state`, `line`, `circle`"),
+        (
+            "to",
+            json!({
+                "line": { "point": [0, 0], "direction": 0 },
+                "circle": { "centre": [0, 0], "radius": 1, "turn": "left" },
+            }),
+            "to: keep one of `state`, `line` and `circle`; there are several",
+        ),
+        (
+            "to",
+            json!({ "circle": { "centre": [0, 0], "radius": 1, "turn": 1 } }),
+            "to.circle.turn must be one of \"left\", \"right\"; it is `1`",
+        ),
     ] {
         let mut wrong = json.clone();
         wrong[path] = value;
         let said = piped(&["join", "-"], &wrong.to_string());
-        assert!(said.code == Some(2) && said.err.contains(what), "{}", said.err);
+        assert!(said.code == Some(2) && said.err.contains(what) && !said.err.contains("not JSON"), "{}", said.err);
     }
+    for (from, to, what) in [
+        ("longest", "family = cubic\nlongest", "a text stands in quotation marks: \"cubic\""),
+        (
+            "longest",
+            "family = 3\nlongest",
+            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3`",
+        ),
+        ("direction = 0 ", "direction = 40deg ", "a text stands in quotation marks: \"40deg\""),
+        ("direction = 0 ", "direction = 40 ", "from.state.direction: 40 is more than a full turn in radians"),
+        ("from.state = {", "from.stat = {", "there is no field `stat` in from; known are `state`, `line`, `circle`"),
+        ("from.state = {", "from = 1 #", "from must be an object with the fields state, line, circle; it is `1`"),
+        ("from.state", "from.line = {}\nfrom.state", "from.line lacks the field `point`"),
+    ] {
+        std::fs::write(folder.at("b.toml"), toml.replacen(from, to, 1)).unwrap();
+        let said = join(&[&folder.text("b.toml")]);
+        assert!(said.code == Some(2) && said.err.contains(what), "{to}: {}", said.err);
+    }
+}
+
+/// A curvature far below what a path keeps to is that of a straight end; directions of many turns are reduced.
+#[test]
+fn curvatures_of_next_to_nothing_are_straight() {
+    let straight = with_limit(&["--from", "0,0,0", "--to", "8,6,90deg"]).out;
+    for tiny in ["5e-324", "-5e-324", "1e-310", "1e-300", "-1e-160", "1e-20", "4e-13"] {
+        let from = format!("0,0,0,{tiny}");
+        assert_eq!(with_limit(&["--from", &from, "--to", &format!("8,6,90deg,{tiny}")]).out, straight, "{tiny}");
+    }
+    for tiny in ["1e-12", "-1e-11", "1e-9", "1e-6", "-1e-3"] {
+        for family in ["cubic", "ph-quintic", "involute"] {
+            let end = format!("8,6,90deg,{tiny}");
+            let said =
+                with_limit(&["--from", &format!("0,0,0,{tiny}"), "--to", &end, "--family", family, "--samples", "2"])
+                    .json();
+            for sample in said["samples"].as_array().unwrap() {
+                let off = sample["curvature"].as_f64().unwrap() - tiny.parse::<f64>().unwrap();
+                assert!(off.abs() <= 0.5e-12, "{family} {tiny}: {sample}");
+            }
+        }
+    }
+    let turned = with_limit(&["--from", "0,0,3600000000deg", "--to", "8,6,90deg"]).json();
+    let length = |json: &Value| json["paths"][0]["length"].as_f64().unwrap();
+    assert!((length(&turned) - length(&serde_json::from_str(&straight).unwrap())).abs() < 1e-6);
+    let huge = with_limit(&["--from", "0,0,1e300rad", "--to", "8,6,90deg"]);
+    assert_eq!(piped(&["path", "measure", "-"], &huge.out).code, Some(0), "{}", huge.err);
 }
 
 #[test]
@@ -171,6 +259,7 @@ fn mistakes_are_told() {
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--most-pieces", "0"], "the most pieces are 0"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--longest=-1"], "the longest length is -1;"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "would be a PNG picture"),
+        (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "/no/such/a.png"], "has no folder `/no/such` to be in"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--csv"], "--samples"),
         (
             vec!["--from", "0,0,0", "--to", "4e12,0,0"],
@@ -190,4 +279,26 @@ fn mistakes_are_told() {
         assert!(said.code == Some(2) && said.err.contains(what), "{}", said.err);
     }
     assert!(join(&["--from", "0,0,0", "--to", "1,0,0"]).err.contains("`--greatest-curvature` is needed"));
+}
+
+/// A line may be given by a point that is far from where it is left: its digits are not the path's.
+#[test]
+fn far_points_of_lines_cost_no_digits() {
+    for (from, to) in [
+        (["--from-line", "1e12,1e-9,-180deg"], ["--to-line", "-8.2,2,90deg"]),
+        (["--from-line", "1e8,2,0"], ["--to-circle", "10,6,3.7,right"]),
+        (["--from-circle", "10,6,3.7,right"], ["--to-line", "3,-1e12,90deg"]),
+        (["--from-line", "-5,1e12,-0.5"], ["--to-circle", "0,0.3,2,right"]),
+        (["--from-circle", "1e12,0.3,1e5,right"], ["--to-circle", "0,2,4,right"]),
+    ] {
+        for family in ["cubic", "ph-quintic"] {
+            let said = with_limit(&[&from[..], &to, &["--family", family]].concat());
+            let read = piped(&["path", "measure", "-"], &said.out);
+            assert_eq!((said.code, read.code), (Some(0), Some(0)), "{from:?} {to:?}: {} {}", said.err, read.err);
+        }
+    }
+    let near = with_limit(&["--from-line", "0,0,0", "--to-line", "-8,2,90deg"]).json();
+    let far = with_limit(&["--from-line=-1e12,0,0", "--to-line", "-8,-1e12,90deg"]).json();
+    let length = |json: &Value| json["paths"][0]["length"].as_f64().unwrap();
+    assert!((length(&near) / length(&far) - 1.0).abs() < 1e-3, "{} {}", length(&near), length(&far));
 }

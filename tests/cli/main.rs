@@ -16,6 +16,7 @@ mod gpu;
 mod join;
 mod path;
 mod path_mistakes;
+mod questions;
 mod snapshots;
 
 use std::ffi::OsStr;

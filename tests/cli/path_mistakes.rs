@@ -108,3 +108,39 @@ fn mistakes_are_named() {
         assert!(parts.iter().all(|part| said.err.contains(part)), "{args:?} {input}: {}", said.err);
     }
 }
+
+/// Numbers near both ends of the range of doubles, in every place: an answer of finite numbers, or an error with a way
+/// out.
+#[test]
+fn extreme_numbers_have_an_answer_or_a_way_out() {
+    let templates: [(&[&str], &str); 4] = [
+        (&["spline", "-"], r#"{"points": [[0, 0], [1, X], [X, 0], [3, 1]]}"#),
+        (&["spline", "-"], r#"{"points": [[0, 0], [X, 0], [X, X]], "closed": true}"#),
+        (
+            &["equal-length", "-"],
+            r#"{"length": L, "paths": [{"start": [0, 0], "end": [X, 0], "start_direction": 1e-300, "end_direction": 5e-324}]}"#,
+        ),
+        (
+            &["separation", "-", "--minimum", "1e-300"],
+            r#"{"paths": [{"pieces": [{"kind": "line", "start": [0, 0], "end": [X, 0]}], "speed": L}, {"pieces": [{"kind": "cubic", "control_points": [[0, 0], [1, X], [2, 0], [X, X]]}], "start_time": X}]}"#,
+        ),
+    ];
+    let numbers = ["5e-324", "1e-310", "1e-200", "1e-16", "1e16", "1e154", "1e300", "1.7e308", "-1e308"];
+    let mut answers = 0;
+    for (args, template) in templates {
+        for (x, l) in numbers.iter().flat_map(|x| numbers.iter().step_by(2).map(move |l| (x, l))) {
+            let said = run_or_pipe(args, &template.replace('X', x).replace('L', l));
+            let ways_out =
+                ["unit of", "range of doubles", "too ", "must ", "different", "coincide", "no spline", "fail"];
+            match said.code {
+                Some(0 | 1) => {
+                    answers += 1;
+                    assert!(!said.out.is_empty() && !said.out.contains("NaN"), "{args:?} {x} {l}: {}", said.out);
+                }
+                Some(2) => assert!(ways_out.iter().any(|way| said.err.contains(way)), "{args:?} {x} {l}: {}", said.err),
+                other => panic!("{args:?} {x} {l}: {other:?} {}", said.err),
+            }
+        }
+    }
+    assert!(answers > 20, "{answers}");
+}

@@ -3,6 +3,7 @@
 use super::piece;
 use spiral_atlas::curve::TrigBezier;
 use spiral_atlas::path::{Course, OffsetCurve};
+use spiral_atlas::transition::join::{Family, Request, State, join};
 use spiral_atlas::transition::{Arc, Line, Piece, TrigPart};
 
 /// Pieces of all kinds, and some whose curvature rises, falls and changes its sign.
@@ -116,4 +117,29 @@ fn lengths_up_to_a_parameter() {
             assert!(chord <= length * (1.0 + 1e-9) && chord > 0.98 * length, "{piece:?}: {chord} {length}");
         }
     }
+}
+
+/// A few metres of spirals on a way of 100 km: no sample at equal lengths needs to meet one of them.
+#[test]
+fn an_outline_has_every_peak_of_a_long_path() {
+    let state = |x: f64, y: f64, direction: f64| State { point: [x, y], direction, curvature: 0.0 };
+    for far in [1e2, 1e5, 1e9] {
+        let request = Request::new(state(0.0, 0.0, 0.0), state(far, 0.15 * far, 1.7), 0.5);
+        for family in [Family::Cubic, Family::PhQuintic, Family::Involute] {
+            let found = join(&Request { family, ..request }).unwrap();
+            let course = Course::new(found.unwrap().pieces).unwrap();
+            let outline = course.outline(2000).unwrap();
+            let most = outline.iter().fold(0.0f64, |most, station| most.max(station.curvature.abs()));
+            assert_eq!(most, course.greatest_curvature(), "{far} {family:?}");
+            assert!(outline.windows(2).all(|w| w[0].station <= w[1].station));
+        }
+    }
+    // An extremum inside a piece, between samples.
+    let bend = |y: f64| format!("[[0, 0], [1, {y}], [2, {}], [3, 0]]", -y);
+    let cubic = format!(r#"{{"kind": "cubic", "control_points": {}}}"#, bend(1.0));
+    let line = |start: f64, end: f64| Piece::Line(Line { start: [start, 0.0], end: [end, 0.0] });
+    let course = Course::new(vec![line(-1e7, 0.0), serde_json::from_str(&cubic).unwrap(), line(3.0, 1e7)]).unwrap();
+    let outline = course.outline(2000).unwrap();
+    let most = outline.iter().fold(0.0f64, |most, station| most.max(station.curvature.abs()));
+    assert!(most > 0.5 && most == course.greatest_curvature(), "{most}");
 }

@@ -169,6 +169,10 @@ trait Reportable: Serialize {
     fn ends(&self) -> Option<&Ends> {
         None
     }
+    /// Which of the ends are straight by the question.
+    fn straight(&self) -> [bool; 2] {
+        self.ends().map_or([false; 2], |ends| [ends.start_curvature, ends.end_curvature].map(|k| k == 0.0))
+    }
     /// In words; of a no what there is to say beside the reason.
     fn text(&self) -> String;
     /// What is drawn.

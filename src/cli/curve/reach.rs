@@ -69,6 +69,11 @@ impl Reportable for Answer {
         }
     }
 
+    fn straight(&self) -> [bool; 2] {
+        let line = self.request.base == Base::Line;
+        [line, !line]
+    }
+
     fn text(&self) -> String {
         match &self.outcome {
             Err(why) => format!("no segment of `{}`: {why}", self.kind.name()),

@@ -49,11 +49,25 @@ impl Path {
         if greatest_curvature.is_finite() && bending_energy.is_none_or(f64::is_finite) {
             return Ok(Path { summary, course });
         }
-        Err(Error::invalid(format!(
-            "the curve leaves the range of doubles: its greatest curvature is {greatest_curvature:?}, its bending energy {} (change the unit \
-             of length)",
-            bending_energy.unwrap_or_default()
-        )))
+        let what = if greatest_curvature.is_finite() { "bending energy" } else { "greatest curvature" };
+        Err(Error::invalid(format!("the curve's {what} leaves the range of doubles; change the unit of length")))
+    }
+
+    /// Points at equal lengths. The curvature of an end that is straight by the question is 0.
+    ///
+    /// There the first two sides of the polygon, or the first two numbers of the pre-image, are multiples of each
+    /// other. Turned into the user's frame each of their coordinates has a few roundings, so their cross product is no 0
+    /// but up to 2^-51 of the product of their lengths a and b. The curvature shown is some b 2^-51 over a²: a rounding
+    /// of this frame, and nothing of the curve.
+    fn stations(&self, count: u32, found: &impl Reportable) -> Result<Vec<Station>> {
+        let mut all = self.course.stations(count as usize)?;
+        let last = all.len() - 1;
+        for (place, straight) in [0, last].into_iter().zip(found.straight()) {
+            if straight {
+                all[place].curvature = 0.0;
+            }
+        }
+        Ok(all)
     }
 }
 
@@ -95,8 +109,7 @@ impl<'f, F: Reportable> Report<'f, F> {
         };
         let unsure = found.ends().filter(|_| wish.advice && reason.is_some());
         let others = unsure.map(|ends| Others::new(ends, wish));
-        let samples =
-            wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.course.stations(n as usize)));
+        let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.stations(n, found)));
         Ok(Report { found, paths, reason, others, samples: samples.transpose()? })
     }
 
@@ -107,8 +120,8 @@ impl<'f, F: Reportable> Report<'f, F> {
     /// Prints all of it in words.
     pub(super) fn text(&self) -> Result<()> {
         let mut text = match &self.reason {
-            Some(reason) if self.found.spirals().is_ok() => format!("{reason}\n"),
-            _ => self.found.text(),
+            Some(reason) if self.found.spirals().is_ok() => reason.clone(),
+            _ => self.found.text().trim_end().to_owned(),
         };
         text += &self.others.as_ref().map_or(String::new(), Others::advice);
         output::stream(|out| {

@@ -68,6 +68,12 @@ impl Reportable for Answer {
         }
     }
 
+    fn straight(&self) -> [bool; 2] {
+        let line = |circle: Option<&EndCircle>| matches!(circle, Some(EndCircle::Line { .. }));
+        let circles = &self.path().circles;
+        [line(circles.first()), line(circles.get(1))]
+    }
+
     fn text(&self) -> String {
         let mut text = match &self.outcome {
             Ok(path) => {

@@ -7,6 +7,7 @@ use super::path::figure::{SAMPLES, drawn};
 use super::{Outcome, numbers, output, points};
 use parse::{COLUMNS, states};
 use spiral_atlas::Result;
+use spiral_atlas::path::Course;
 use spiral_atlas::transition::Station;
 use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
 use std::path::PathBuf;
@@ -188,7 +189,7 @@ impl Args {
 
 /// The path, and its curvature over the length.
 fn figure(join: &Join) -> Result<Vec<u8>> {
-    let all = join.stations(SAMPLES)?;
+    let all = Course::new(join.pieces.clone())?.outline(SAMPLES)?;
     let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
     let (lines, arcs) = (kinds("line"), kinds("arc"));
     let spirals = join.pieces.len() - lines - arcs;

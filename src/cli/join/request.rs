@@ -1,7 +1,9 @@
 //! A request that stands in a file.
 
-use super::super::path::input;
-use serde::Deserialize;
+use super::super::path::input::{self, Named};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+use spiral_atlas::plain::name;
 use spiral_atlas::transition::Turn;
 use spiral_atlas::transition::join::{self, Family, Objective, State};
 use spiral_atlas::{Error, Result};
@@ -13,46 +15,65 @@ const MAX_INPUT: u64 = 1 << 20;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Request {
-    from: End,
-    to: End,
+    #[serde(deserialize_with = "end")]
+    from: join::End,
+    #[serde(deserialize_with = "end")]
+    to: join::End,
     greatest_curvature: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "name")]
     family: Family,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "name")]
     objective: Objective,
     longest: Option<f64>,
     most_pieces: Option<usize>,
 }
 
+/// One of three.
 #[derive(Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-enum End {
-    State {
-        point: [f64; 2],
-        #[serde(deserialize_with = "input::angle")]
-        direction: f64,
-        #[serde(default)]
-        curvature: f64,
-    },
-    Line {
-        point: [f64; 2],
-        #[serde(deserialize_with = "input::angle")]
-        direction: f64,
-    },
-    Circle {
-        centre: [f64; 2],
-        radius: f64,
-        turn: Turn,
-    },
+#[serde(deny_unknown_fields)]
+struct End {
+    state: Option<Named<StateEnd>>,
+    line: Option<Named<LineEnd>>,
+    circle: Option<Named<CircleEnd>>,
 }
 
-impl From<End> for join::End {
-    fn from(end: End) -> join::End {
-        match end {
-            End::State { point, direction, curvature } => State { point, direction, curvature }.into(),
-            End::Line { point, direction } => join::End::Line { point, direction },
-            End::Circle { centre, radius, turn } => join::End::Circle { centre, radius, turn },
-        }
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StateEnd {
+    point: [f64; 2],
+    #[serde(deserialize_with = "input::angle")]
+    direction: f64,
+    #[serde(default)]
+    curvature: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LineEnd {
+    point: [f64; 2],
+    #[serde(deserialize_with = "input::angle")]
+    direction: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CircleEnd {
+    centre: [f64; 2],
+    radius: f64,
+    #[serde(deserialize_with = "name")]
+    turn: Turn,
+}
+
+fn end<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<join::End, D::Error> {
+    let Named(End { state, line, circle }) = Named::deserialize(from)?;
+    let state =
+        state.map(|Named(StateEnd { point, direction, curvature })| State { point, direction, curvature }.into());
+    let line = line.map(|Named(LineEnd { point, direction })| join::End::Line { point, direction });
+    let circle = circle.map(|Named(CircleEnd { centre, radius, turn })| join::End::Circle { centre, radius, turn });
+    match [state, line, circle] {
+        [Some(end), None, None] | [None, Some(end), None] | [None, None, Some(end)] => Ok(end),
+        [None, None, None] => Err(D::Error::custom("give one of `state`, `line` and `circle`; there is none")),
+        _ => Err(D::Error::custom("keep one of `state`, `line` and `circle`; there are several")),
     }
 }
 

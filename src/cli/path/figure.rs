@@ -2,7 +2,8 @@
 
 use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
-use spiral_atlas::path::{Course, Motion, Plan, Scene};
+use spiral_atlas::path::{Course, Motion, Plan, Scene, Separation};
+use spiral_atlas::plain::count;
 use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
 use spiral_atlas::transition::{Piece, Station};
 use spiral_atlas::{Error, Result};
@@ -14,10 +15,17 @@ pub(crate) const SAMPLES: usize = 2000;
 
 type Line = Vec<[f64; 2]>;
 
-/// Parameters of a span.
+/// Parameters of one of several spans.
 fn steps(spans: usize) -> impl Iterator<Item = f64> + Clone {
     let n = (SAMPLES / spans.max(1)).max(8);
     (0..=n).map(move |i| i as f64 / n as f64)
+}
+
+/// The same, and where the curvature is extreme.
+fn places(curve: &PhQuintic, spans: usize) -> Vec<f64> {
+    let mut all: Vec<f64> = steps(spans).chain(curve.curvature_extrema()).collect();
+    all.sort_by(f64::total_cmp);
+    all
 }
 
 fn points(spans: &[PhQuintic]) -> Vec<[f64; 2]> {
@@ -37,7 +45,7 @@ fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2
     let mut from = 0.0;
     let mut all = Vec::new();
     for c in spans {
-        all.extend(steps(spans.len()).map(|t| [from + c.length_to(t), f(c, t)]));
+        all.extend(places(c, spans.len()).into_iter().map(|t| [from + c.length_to(t), f(c, t)]));
         from += c.length();
     }
     all
@@ -51,7 +59,7 @@ pub(crate) fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
 /// Paths with their curvatures and offset curves.
 pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f64>) -> Result<Vec<u8>> {
     let courses: Vec<&Course> = courses.collect();
-    let all = courses.iter().map(|course| course.stations(SAMPLES)).collect::<Result<Vec<_>>>()?;
+    let all = courses.iter().map(|course| course.outline(SAMPLES)).collect::<Result<Vec<_>>>()?;
     let each = |f: &dyn Fn(&Station) -> [f64; 2]| all.iter().map(|path| path.iter().map(f).collect()).collect();
     let offsets = offset.map_or(vec![], |d| each(&|s| s.beside(d)));
     let length: f64 = courses.iter().map(|course| course.length()).sum();
@@ -99,7 +107,12 @@ pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title
 pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
     let (most, spans) = (scene.greatest_curvature, &plan.spans);
     let figure = PathsFigure {
-        title: format!("{} corners, length {:.4}, saved {:.4}", plan.corners.len(), length(spans), plan.length_saved),
+        title: format!(
+            "{}, length {:.4}, saved {:.4}",
+            count(plan.corners.len(), "corner"),
+            length(spans),
+            plan.length_saved
+        ),
         note: format!(
             "dot: start; bright: within the clearance {}; red: the greatest curvature {most}",
             scene.clearance
@@ -121,20 +134,26 @@ fn length(spans: &[PhQuintic]) -> f64 {
 }
 
 /// The paths of several motions and the separation of each pair over time.
-pub(crate) fn separations(motions: &[Motion], minimum: f64, title: String) -> Result<Vec<u8>> {
-    let mut lines = Vec::new();
-    for (i, a) in motions.iter().enumerate() {
-        for b in &motions[i + 1..] {
-            let (from, to) = (a.times()[0].min(b.times()[0]), a.times()[1].max(b.times()[1]));
-            let n = SAMPLES / 4;
-            let time = |k: usize| from + (to - from) * k as f64 / n as f64;
-            let apart = |t: f64| {
-                let (p, q) = (a.at(t), b.at(t));
-                (p[0] - q[0]).hypot(p[1] - q[1])
-            };
-            lines.push((0..=n).map(|k| [time(k), apart(time(k))]).collect());
-        }
-    }
+pub fn separations(
+    motions: &[Motion],
+    found: &[(usize, usize, Separation)],
+    minimum: f64,
+    title: String,
+) -> Result<Vec<u8>> {
+    let line = |(first, second, found): &(usize, usize, Separation)| {
+        let (a, b) = (&motions[*first], &motions[*second]);
+        let (from, to) = (a.times()[0].min(b.times()[0]), a.times()[1].max(b.times()[1]));
+        let n = SAMPLES / 4;
+        let mut times: Vec<f64> = (0..=n).map(|k| from + (to - from) * k as f64 / n as f64).collect();
+        times.push(found.closest.time.clamp(from, to));
+        times.sort_by(f64::total_cmp);
+        let apart = |t: f64| {
+            let (p, q) = (a.at(t), b.at(t));
+            [t, (p[0] - q[0]).hypot(p[1] - q[1])]
+        };
+        times.into_iter().map(apart).collect()
+    };
+    let lines = found.iter().map(line).collect();
     let figure = PathsFigure {
         title,
         note: format!("dots: starts; on the right a line for each pair; red: the minimum {minimum}"),

@@ -1,10 +1,10 @@
 //! Reads input by the names of its fields, and tells mistakes by their paths, in plain words.
 
-use serde::de::value::{Error as Unread, MapAccessDeserializer};
-use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{DeserializeOwned, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use spiral_atlas::plain;
-use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::recipe::{bare_angle, parse_angle};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -42,7 +42,7 @@ pub(crate) fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
 
 /// A struct that was written as an object. Derived readers take a list of its values too, where nothing shows that two
 /// were exchanged.
-struct Named<T>(T);
+pub struct Named<T>(pub T);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Self, D::Error> {
@@ -56,8 +56,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
     type Value = T;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let names = T::deserialize(Names).err();
-        write!(f, "an object with the fields {}", names.map_or("fields".into(), |names| names.to_string()))
+        write!(f, "an object with the fields {}", plain::names::<T>().join(", "))
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> std::result::Result<T, A::Error> {
@@ -65,33 +64,8 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
     }
 }
 
-/// Gives a derived reader nothing to read, but an error that lists the fields it asked for.
-struct Names;
-
-impl<'de> Deserializer<'de> for Names {
-    type Error = Unread;
-
-    fn deserialize_struct<V: Visitor<'de>>(
-        self,
-        _: &str,
-        names: &'static [&'static str],
-        _: V,
-    ) -> std::result::Result<V::Value, Unread> {
-        Err(Unread::custom(names.join(", ")))
-    }
-
-    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> std::result::Result<V::Value, Unread> {
-        Err(Unread::custom("fields"))
-    }
-
-    forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct newtype_struct
-        seq tuple tuple_struct map enum identifier ignored_any
-    }
-}
-
-/// An angle: a number, or text like `40deg`.
-pub(crate) fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
+/// An angle: a number of radians up to a full turn, or text like `40deg`.
+pub fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
     struct Angle;
 
     impl Visitor<'_> for Angle {
@@ -102,15 +76,15 @@ pub(crate) fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f
         }
 
         fn visit_f64<E: serde::de::Error>(self, x: f64) -> std::result::Result<f64, E> {
-            Ok(x)
+            bare_angle(x).map_err(E::custom)
         }
 
         fn visit_i64<E: serde::de::Error>(self, x: i64) -> std::result::Result<f64, E> {
-            Ok(x as f64)
+            self.visit_f64(x as f64)
         }
 
         fn visit_u64<E: serde::de::Error>(self, x: u64) -> std::result::Result<f64, E> {
-            Ok(x as f64)
+            self.visit_f64(x as f64)
         }
 
         fn visit_str<E: serde::de::Error>(self, text: &str) -> std::result::Result<f64, E> {

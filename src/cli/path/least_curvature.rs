@@ -4,6 +4,7 @@ use super::input::angle;
 use super::{Files, Outcome, PathReport, figure, found};
 use serde::{Deserialize, Serialize};
 use spiral_atlas::path::{Directions, Free, least_curvature};
+use spiral_atlas::plain::name;
 use spiral_atlas::{Error, Result};
 
 /// Join two points with given directions by the path whose greatest curvature is least.
@@ -35,6 +36,7 @@ struct Input {
     start_direction: f64,
     #[serde(deserialize_with = "angle")]
     end_direction: f64,
+    #[serde(deserialize_with = "name")]
     free: Free,
     greatest_length: Option<f64>,
 }

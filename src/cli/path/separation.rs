@@ -5,6 +5,7 @@ use super::{Files, Outcome, figure};
 use crate::cli::numbers;
 use serde::{Deserialize, Serialize};
 use spiral_atlas::path::{Motion, Separation, Verdict, separations};
+use spiral_atlas::plain::count;
 use spiral_atlas::transition::Piece;
 use spiral_atlas::{Error, Result};
 
@@ -67,7 +68,10 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
     let paths: Vec<(String, Path)> = args.files.paths()?;
     let blame = |e| args.files.blame(e);
     if paths.len() < 2 {
-        return Err(blame(Error::invalid(format!("`paths` has {} paths; it takes two to be apart", paths.len()))));
+        return Err(blame(Error::invalid(format!(
+            "`paths` has {}; it takes two to be apart",
+            count(paths.len(), "path")
+        ))));
     }
     let named = |(place, path): (String, Path)| motion(path).map_err(|e| blame(e.at(place)));
     let motions = paths.into_iter().map(named).collect::<Result<Vec<_>>>()?;
@@ -78,7 +82,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
         found.iter().map(|(first, second, found)| Pair { first: *first, second: *second, found: *found }).collect();
     let output = Output { minimum: args.minimum, verdict, pairs };
     let least = found.iter().map(|(_, _, f)| f.closest.at_most).fold(f64::INFINITY, f64::min);
-    let title = format!("{} vehicles, {} pairs, least separation {least:.6}", motions.len(), found.len());
-    let done = args.files.finish(&output, || figure::separations(&motions, args.minimum, title))?;
+    let title = format!("{} vehicles, {}, least separation {least:.6}", motions.len(), count(found.len(), "pair"));
+    let done = args.files.finish(&output, || figure::separations(&motions, &found, args.minimum, title))?;
     Ok(if verdict == Verdict::Kept { done } else { Outcome::Bad })
 }

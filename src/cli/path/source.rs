@@ -32,10 +32,10 @@ struct Given<P> {
 /// Which of the shapes of a batch a line has.
 #[derive(Deserialize)]
 struct Shape {
-    paths: Option<IgnoredAny>,
+    paths: Option<Vec<IgnoredAny>>,
     pieces: Option<IgnoredAny>,
-    reason: Option<IgnoredAny>,
-    error: Option<IgnoredAny>,
+    #[serde(alias = "error")]
+    reason: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -53,29 +53,38 @@ impl Source {
 
     /// The paths in the input, each with its place for messages. Of several lines that are objects each, which batches
     /// print, those without a path are left out and told on standard error.
-    pub(crate) fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
+    ///
+    /// # Errors
+    /// [`Error::NoPath`] with the reason, where the input is the answer that there is none.
+    pub fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
         let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
         let wrong = |place: &str, what: String| self.blame(Error::invalid(format!("{place}{what}")));
         let lines: Vec<(usize, &str)> = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).collect();
         let whole = |line: &str| serde_json::from_str::<Shape>(line).is_ok();
         if self.is_toml() || lines.len() < 2 || !whole(lines[0].1) {
-            return one(&text, self.is_toml(), "").map_err(|what| wrong("", what));
+            return match one(&text, self.is_toml(), "").map_err(|what| wrong("", what))? {
+                Read::Paths(paths) => Ok(paths),
+                Read::None(reason) => Err(Error::NoPath(format!("{} has no path: {reason}", self.name()))),
+            };
         }
         let (mut paths, mut without) = (Vec::new(), Vec::new());
         for (number, line) in lines {
             let place = format!("line {number}: ");
-            let found = one(line, false, &place).map_err(|what| wrong(&place, what))?;
-            if found.is_empty() {
-                without.push(number.to_string());
+            match one(line, false, &place).map_err(|what| wrong(&place, what))? {
+                Read::Paths(found) => paths.extend(found),
+                Read::None(_) => without.push(number.to_string()),
             }
-            paths.extend(found);
         }
         if !without.is_empty() {
             let more =
                 if without.len() > NAMED { format!(" and {} more", without.len() - NAMED) } else { String::new() };
             let (s, has) = if without.len() == 1 { ("", "has") } else { ("s", "have") };
             let named = without[..without.len().min(NAMED)].join(", ");
-            output::note(&format!("line{s} {named}{more} of {} {has} no path; the reason stands there", self.name()));
+            let what = format!("line{s} {named}{more} of {} {has} no path; the reason stands there", self.name());
+            if paths.is_empty() {
+                return Err(Error::NoPath(what));
+            }
+            output::note(&what);
         }
         Ok(paths)
     }
@@ -103,16 +112,24 @@ impl Source {
     }
 }
 
+/// What one text has: paths with their places, or the reason why there is none.
+enum Read<P> {
+    Paths(Vec<(String, P)>),
+    None(String),
+}
+
 /// The paths of one text: several, one alone, or none with a reason or an error.
-fn one<P: DeserializeOwned>(text: &str, toml: bool, place: &str) -> std::result::Result<Vec<(String, P)>, String> {
+fn one<P: DeserializeOwned>(text: &str, toml: bool, place: &str) -> std::result::Result<Read<P>, String> {
     match if toml { None } else { serde_json::from_str::<Shape>(text).ok() } {
         Some(Shape { paths: None, pieces: Some(_), .. }) => {
-            Ok(vec![(format!("{place}the path"), input::parse(text, false)?)])
+            Ok(Read::Paths(vec![(format!("{place}the path"), input::parse(text, false)?)]))
         }
-        Some(Shape { paths: None, reason: Some(_), .. } | Shape { paths: None, error: Some(_), .. }) => Ok(Vec::new()),
+        Some(Shape { paths, reason: Some(reason), .. }) if paths.as_ref().is_none_or(Vec::is_empty) => {
+            Ok(Read::None(reason))
+        }
         _ => {
             let Given { paths } = input::parse(text, toml)?;
-            Ok((0..).zip(paths).map(|(i, path)| (format!("{place}paths[{i}]"), path)).collect())
+            Ok(Read::Paths((0..).zip(paths).map(|(i, path)| (format!("{place}paths[{i}]"), path)).collect()))
         }
     }
 }

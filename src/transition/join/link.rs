@@ -8,7 +8,7 @@ use super::super::piece::{Arc, Line, Piece};
 use super::request::{Family, Objective, Request};
 use super::spiral::{Pose, Spiral, pinned};
 use super::turns::wrapped;
-use crate::curve::vector::{Vector, add, angle_of, dot, scale, sub, turn, unit};
+use crate::curve::vector::{Vector, add, angle_of, dot, length as norm, scale, sub, turn, unit};
 use crate::error::Result;
 use crate::num::roots::find;
 
@@ -177,14 +177,42 @@ impl Chain {
     }
 
     /// In pieces of the user's frame, in which `origin` is the origin here; or the spiral that is not to be had.
-    pub(super) fn build(&self, request: &Request, origin: Vector) -> Result<std::result::Result<Vec<Piece>, Spiral>> {
+    pub fn build(&self, request: &Request, origin: Vector) -> Result<std::result::Result<Vec<Piece>, Spiral>> {
+        let end = add(origin, scale(self.end, 1.0 / request.greatest_curvature));
+        let (mut pieces, reached) = match self.laid(request, origin, [0.0, 0.0])? {
+            Ok(laid) => laid,
+            Err(spiral) => return Ok(Err(spiral)),
+        };
+        let off = sub(end, reached);
+        // Far from the origin a line's end is rounded by more than the spiral after it bears, and the line bears it.
+        if pieces.last().is_some_and(|last| norm(off) > OFF * last.length()) && self.line() > 0.0 {
+            match self.laid(request, origin, off)? {
+                Ok((laid, _)) => pieces = laid,
+                Err(spiral) => return Ok(Err(spiral)),
+            }
+        }
+        if let Some(last) = pieces.pop() {
+            pieces.push(pinned(last, end)?);
+        }
+        Ok(Ok(pieces))
+    }
+
+    /// Its longest line.
+    fn line(&self) -> f64 {
+        self.links.iter().map(|link| link.line).fold(0.0, f64::max)
+    }
+
+    /// In pieces, with the place that they reach; the end of the longest line is moved by a vector.
+    fn laid(&self, request: &Request, origin: Vector, by: Vector) -> Result<Laid> {
         let Request { greatest_curvature: most, family, .. } = *request;
         let place = |v: Vector| add(origin, scale(v, 1.0 / most));
+        let (longest, mut by) = (self.line(), Some(by));
         let (mut at, mut pieces) = (Pose { at: place(self.start.at), ..self.start }, Vec::with_capacity(8));
         for (i, link) in self.links.iter().enumerate() {
             for (j, spiral) in link.spirals().enumerate() {
                 if j == 1 && link.line > 0.0 {
-                    let end = add(at.at, scale(at.along(), link.line / most));
+                    let by = by.take_if(|_| link.line == longest).unwrap_or_default();
+                    let end = add(add(at.at, scale(at.along(), link.line / most)), by);
                     pieces.push(Piece::Line(Line { start: at.at, end }));
                     at.at = end;
                 }
@@ -196,12 +224,15 @@ impl Chain {
                 at = add_arc(&mut pieces, at, k * most, *round);
             }
         }
-        if let Some(last) = pieces.pop() {
-            pieces.push(pinned(last, place(self.end))?);
-        }
-        Ok(Ok(pieces))
+        Ok(Ok((pieces, at.at)))
     }
 }
+
+/// Pieces and the place that they reach, or the spiral that is not to be had.
+type Laid = std::result::Result<(Vec<Piece>, Vector), Spiral>;
+
+/// The last piece may miss its end by this share of its length.
+const OFF: f64 = 1e-12;
 
 /// Adds an arc that goes round by an angle, if it does.
 pub(super) fn add_arc(pieces: &mut Vec<Piece>, at: Pose, curvature: f64, angle: f64) -> Pose {

@@ -43,14 +43,18 @@ mod spiral;
 mod states;
 mod turns;
 
+use super::piece::principal;
 use crate::curve::vector::{length, scale, sub};
-use crate::error::{Error, Result, written};
+use crate::error::{Error, Result};
+use crate::error::written;
+use crate::plain::count;
 use best::Best;
+use std::f64::consts::TAU;
 
 pub use measure::Measures;
 pub use request::{End, Family, Join, Objective, Request, State};
 
-/// Ends farther apart, in least radii, would leave no digits for the spirals.
+/// Ends farther apart or from the origin, in least radii, would leave no digits for the spirals.
 const FARTHEST: f64 = 1e12;
 
 /// The best join found.
@@ -58,31 +62,34 @@ const FARTHEST: f64 = 1e12;
 /// # Accuracy
 /// Each spiral is proved to have monotone curvature, so |κ| stays within the limit. Pieces meet to 1e-12 in position,
 /// direction and curvature, relative to the extent of coordinates in least radii; given points are met exactly. The
-/// join is the best of those tried, not of all.
+/// join is the best of those tried, not of all. So a given curvature of less than 1e-12 of the limit counts as 0: the
+/// path is straight there.
 ///
 /// # Errors
 /// [`Error::Domain`] naming a number that is not finite or not above 0, where a state is to be joined with a
-/// line or a circle, where the ends are more than 1e12 least radii apart or circles larger than that, and where lengths
-/// leave the range of doubles. That there is no join is no error.
+/// line or a circle, where the ends are more than 1e12 least radii apart or from the origin or circles are larger than
+/// that, and where lengths leave the range of doubles. That there is no join is no error.
 pub fn join(request: &Request) -> Result<std::result::Result<Join, String>> {
     request.check()?;
     let limit = request.greatest_curvature;
     if let Some(why) = beyond(request) {
         return Ok(Err(why));
     }
+    let request = &reckoned(request);
     let radii = |end: &End| if let End::Circle { radius, .. } = end { radius * limit } else { 0.0 };
-    let apart = length(scale(sub(request.to.point(), request.from.point()), limit));
+    let [from, to] = [&request.from, &request.to].map(|end| scale(end.point(), limit));
     let far = [
-        ("the ends are", apart),
-        ("the start radius is", radii(&request.from)),
-        ("the end radius is", radii(&request.to)),
+        ("the ends are", " apart", length(sub(to, from))),
+        ("the start is", " from the origin", length(from)),
+        ("the end is", " from the origin", length(to)),
+        ("the start radius is", "", radii(&request.from)),
+        ("the end radius is", "", radii(&request.to)),
     ];
-    if let Some((what, far)) = far.into_iter().find(|(_, far)| far.is_nan() || *far > FARTHEST) {
-        let apart = if what == "the ends are" { " apart" } else { "" };
+    if let Some((what, whence, far)) = far.into_iter().find(|(.., far)| far.is_nan() || *far > FARTHEST) {
+        let far = if far.is_finite() { written(far) } else { "more than 1.8e308".into() };
         return Err(Error::invalid(format!(
-            "{what} {} least radii{apart}, where no join is sought: doubles have no digits left for spirals beyond 1e12 least radii (one \
-             over the greatest curvature); check the unit of length",
-            written(far)
+            "{what} {far} least radii{whence}, where no join is sought: doubles have no digits left for spirals beyond \
+             1e12 least radii (one over the greatest curvature); check the unit of length"
         )));
     }
     let mut best = Best::new(request);
@@ -96,15 +103,35 @@ pub fn join(request: &Request) -> Result<std::result::Result<Join, String>> {
         tried(&free, &mut best)?;
     }
     Ok(Err(match best.join {
-        Some(join) => format!(
-            "no join found keeps to {} pieces and a length of {}; without these bounds one has {} pieces and is {} long",
-            request.most_pieces,
-            written(request.longest),
-            join.pieces.len(),
-            written(join.measures.length)
-        ),
+        Some(join) => {
+            let most = (request.most_pieces < free.most_pieces).then(|| count(request.most_pieces, "piece"));
+            let longest = request.longest.is_finite().then(|| format!("a length of {}", written(request.longest)));
+            let bounds: Vec<String> = most.into_iter().chain(longest).collect();
+            let without = if bounds.len() == 1 { "that bound" } else { "these bounds" };
+            let (pieces, length) = (count(join.pieces.len(), "piece"), written(join.measures.length));
+            format!(
+                "no join found keeps to {}; without {without} one has {pieces} and is {length} long",
+                bounds.join(" and ")
+            )
+        }
         None => none,
     }))
+}
+
+/// The same to the accuracy of joins, in numbers that are reckoned with: a curvature of less than 1e-12 of the limit is
+/// 0, and a direction of more than a full turn is the same one within half a turn.
+fn reckoned(request: &Request) -> Request {
+    let reduced = |direction: f64| if direction.abs() > TAU { principal(direction) } else { direction };
+    let end = |end: &End| match *end {
+        End::State(State { point, direction, curvature }) => {
+            let straight = curvature.abs() * FARTHEST < request.greatest_curvature;
+            let curvature = if straight { 0.0 } else { curvature };
+            End::State(State { point, direction: reduced(direction), curvature })
+        }
+        End::Line { point, direction } => End::Line { point, direction: reduced(direction) },
+        circle => circle,
+    };
+    Request { from: end(&request.from), to: end(&request.to), ..*request }
 }
 
 /// Offers all joins that are tried, and says why there is none, should there be none.

@@ -31,6 +31,8 @@ const BUILT: usize = 100;
 /// # Errors
 /// Those of the spirals, where lengths leave the range of doubles.
 pub(super) fn shapes(request: &Request, best: &mut Best) -> Result<String> {
+    let [from, to] = [near(request.from, &request.to, request), near(request.to, &request.from, request)];
+    let request = &Request { from, to: near(to, &from, request), ..*request };
     let origin = request.from.point();
     let nodes = [&request.from, &request.to].map(|end| node(end, origin, request.greatest_curvature));
     let name = |node: &Node| if matches!(node, Node::Line(_)) { "line" } else { "circle" };
@@ -61,6 +63,18 @@ pub(super) fn shapes(request: &Request, best: &mut Best) -> Result<String> {
     Ok(format!(
         "no spirals, arcs and lines of those tried lead from the {from} to the {to}; a greater limit of curvature gives them room"
     ))
+}
+
+/// The same end. A line whose point is far from the other end has its nearest point there: coordinates from a far one
+/// would lose the digits of the spirals.
+fn near(end: End, other: &End, request: &Request) -> End {
+    let End::Line { point, direction } = end else { return end };
+    let apart = sub(other.point(), point);
+    if length(apart) * request.greatest_curvature <= FAR {
+        return end;
+    }
+    let along = unit(direction);
+    End::Line { point: add(point, scale(along, dot(along, apart))), direction }
 }
 
 /// In least radii from the origin.

@@ -13,6 +13,8 @@ use std::f64::consts::PI;
 
 /// A line shorter than this, in least radii, would not show its direction to 1e-12 by its ends.
 const LEAST_LINE: f64 = 2e-3;
+/// A way is built where the model has it no longer than this times the greatest length; it is off by a few hundredths.
+const LONGER: f64 = 1.1;
 /// The middle turn of three.
 const MIDDLE: Spiral = Spiral { from: 1.0, to: 0.0, length: 0.4 };
 
@@ -60,6 +62,8 @@ pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best
             }
         }
     }
+    // Those that are much too long are not built, each of which takes the proofs of a few spirals.
+    ways.retain(|way| way.length / most <= LONGER * request.longest);
     // A model of the cost orders them, and the shortest of equals come first.
     ways.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.length.total_cmp(&b.length)));
     // Length is told by the model to a thousandth, the others to a fifth.

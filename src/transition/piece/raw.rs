@@ -17,6 +17,7 @@ type Points<const N: usize> = [[f64; 2]; N];
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename = "piece")]
 pub(super) struct RawPiece {
+    #[serde(deserialize_with = "crate::plain::name")]
     kind: Kind,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     start: Option<[f64; 2]>,

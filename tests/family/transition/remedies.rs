@@ -68,11 +68,11 @@ fn curvatures_past_the_printed_bound_give_a_spiral() {
             }
             NoSpiral::CirclesCross { needs, alone } => {
                 assert!(needs.len() == if *alone { needs.len().clamp(1, 2) } else { 2 }, "{needs:?}");
-                let half = 0.5 * (ends.end[0] - ends.start[0]).hypot(ends.end[1] - ends.start[1]);
                 let mut both = ends;
                 for need in needs {
                     let (verb, sign) = if matches!(need.bound, Bound::Above(_)) { ("above", 1) } else { ("below", -1) };
-                    let words = format!("the {} curvature {:?} must be {verb} ", need.which, need.curvature);
+                    let must = if *alone { " must be" } else { "" };
+                    let words = format!("the {} curvature {:?}{must} {verb} ", need.which, need.curvature);
                     let told = number_after(&text, &words);
                     assert!((told / need.bound.value() - 1.0).abs() < 2e-5, "{need:?}: {text}");
                     if *alone {
@@ -81,8 +81,7 @@ fn curvatures_past_the_printed_bound_give_a_spiral() {
                         assert!(!any_spiral(&with(&ends, need.which, less), [0, 0]), "{less}: {text}: {ends:?}");
                         *seen.entry(format!("{} {verb}", need.which)).or_insert(0) += 1;
                     }
-                    // The product of both excesses must be above sin² ω: 1 is enough.
-                    both = with(&both, need.which, told + 1.001 * f64::from(sign) / half);
+                    both = with(&both, need.which, further(told, sign));
                 }
                 assert!(any_spiral(&both, [0, 0]), "{text}: {ends:?}");
                 if *alone { "one" } else { "both" }

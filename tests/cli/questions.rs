@@ -1,0 +1,42 @@
+//! `query` with `--ranges`, `--nearest` and `--boundary`: what is asked wrongly is refused, never passed over.
+
+use super::{fine, run};
+
+const DATUM: [&str; 7] = ["query", "--phi0", "40deg", "--phi1", "80deg", "--kappa0", "0.4"];
+
+#[test]
+fn what_belongs_to_a_question_needs_one() {
+    for (more, what) in [
+        (&["--kappa1", "4", "--property", "SOLVABLE"][..], "--ranges <NAME>|--nearest|--boundary <NAME,NAME>"),
+        (&["--kappa1", "4", "--within", "0,9"], "--ranges <NAME>|--boundary <NAME,NAME>"),
+        (&["--kappa1", "4", "--nearest", "--within", "0,9"], "--ranges <NAME>|--boundary <NAME,NAME>"),
+        (&["--kappa1", "4", "--weights", "1,1,1,1"], "--nearest"),
+        (&["--kappa1", "4", "--cells", "8"], "--boundary"),
+        (&["--ranges", "kappa1", "--nearest"], "cannot be used with"),
+        (&["--ranges", "kappa1", "--within", "0,9", "--within", "0,9"], "--within is given more than once for"),
+        (&["--ranges", "kappa1"], "give --within FROM,TO for kappa1"),
+        (&["--ranges", "kappa2", "--within", "0,9"], "`cubic` has no coordinate \"kappa2\""),
+    ] {
+        let said = run(DATUM.iter().chain(more));
+        assert!(said.code == Some(2) && said.err.contains(what) && said.out.is_empty(), "{more:?}: {}", said.err);
+    }
+    let boundary = |names: &str| run(["query", "--phi0", "40deg", "--phi1", "80deg", "--boundary", names]);
+    for names in ["kappa0,kappa0", "kappa0", "kappa0,kappa1,phi0"] {
+        let said = boundary(names);
+        let what = format!("--boundary is \"{names}\"; it takes the names of two different coordinates");
+        assert!(said.code == Some(2) && said.err.contains(&what), "{names}: {}", said.err);
+    }
+    let said = run(["query", "--points", "none.csv", "--nearest"]);
+    assert!(said.code == Some(2) && said.err.contains("cannot be used with"), "{}", said.err);
+}
+
+#[test]
+fn questions_are_answered() {
+    let found = fine(DATUM.iter().chain(&["--ranges", "kappa1", "--within", "0,100"]));
+    assert!(found.out.starts_with("SPIRAL holds for kappa1 from 2.42"), "{}", found.out);
+    let none = run(DATUM.iter().chain(&["--ranges", "kappa1", "--within", "0,1", "--property", "SPIRAL"]));
+    assert!(none.code == Some(1) && none.out.contains("holds for no kappa1 there"), "{}", none.out);
+    let plane = ["query", "--phi0", "40deg", "--phi1", "80deg", "--boundary", "kappa0,kappa1"];
+    let plane = plane.iter().chain(&["--within", "0,0.8", "--within", "0,20", "--cells", "16"]);
+    assert!(fine(plane).out.contains("open beside the outlines"));
+}
