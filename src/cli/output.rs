@@ -3,7 +3,7 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
 use spiral_atlas::files::{check_place, size};
-pub use spiral_atlas::picture::{angle, grouped};
+pub(super) use spiral_atlas::picture::{angle, grouped};
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufWriter, Write};
@@ -34,7 +34,7 @@ pub(super) fn stdout_error(source: io::Error) -> Error {
 }
 
 /// Before any work, whether a figure can be what its name says, where it says.
-pub fn check_figure(figure: Option<&Path>) -> Result<()> {
+pub(super) fn check_figure(figure: Option<&Path>) -> Result<()> {
     let Some(path) = figure else { return Ok(()) };
     if !has_extension(path, "png") {
         return Err(Error::invalid(format!(

@@ -15,7 +15,7 @@ use spiral_atlas::{Error, Result};
 #[command(next_help_heading = "Questions beyond yes and no")]
 #[command(group(ArgGroup::new("question").args(["ranges", "nearest", "boundary"]).conflicts_with("points")))]
 #[command(group(ArgGroup::new("looked").args(["ranges", "boundary"]).multiple(true)))]
-pub struct QuestionArgs {
+pub(super) struct QuestionArgs {
     /// All intervals of this coordinate in which the property holds, the others being given.
     #[arg(long, value_name = "NAME")]
     ranges: Option<String>,
@@ -46,7 +46,7 @@ impl QuestionArgs {
     }
 
     /// The answer, printed.
-    pub fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
+    pub(super) fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
         let pair = match self.boundary.as_deref() {
             None => None,
             Some([first, second]) if first != second => Some([&first[..], &second[..]]),

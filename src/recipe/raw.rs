@@ -1,7 +1,7 @@
 //! A recipe as TOML has it, before anything is looked up.
 
-use crate::error::{Error, Result};
 use crate::error::written;
+use crate::error::{Error, Result};
 use crate::plain;
 use serde::Deserialize;
 use std::collections::BTreeMap;

@@ -134,7 +134,7 @@ fn length(spans: &[PhQuintic]) -> f64 {
 }
 
 /// The paths of several motions and the separation of each pair over time.
-pub fn separations(
+pub(crate) fn separations(
     motions: &[Motion],
     found: &[(usize, usize, Separation)],
     minimum: f64,

@@ -42,7 +42,7 @@ pub(crate) fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
 
 /// A struct that was written as an object. Derived readers take a list of its values too, where nothing shows that two
 /// were exchanged.
-pub struct Named<T>(pub T);
+pub(crate) struct Named<T>(pub T);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Self, D::Error> {
@@ -65,7 +65,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
 }
 
 /// An angle: a number of radians up to a full turn, or text like `40deg`.
-pub fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
+pub(crate) fn angle<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<f64, D::Error> {
     struct Angle;
 
     impl Visitor<'_> for Angle {

@@ -56,7 +56,7 @@ impl Source {
     ///
     /// # Errors
     /// [`Error::NoPath`] with the reason, where the input is the answer that there is none.
-    pub fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
+    pub(crate) fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
         let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
         let wrong = |place: &str, what: String| self.blame(Error::invalid(format!("{place}{what}")));
         let lines: Vec<(usize, &str)> = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).collect();

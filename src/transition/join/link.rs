@@ -177,7 +177,7 @@ impl Chain {
     }
 
     /// In pieces of the user's frame, in which `origin` is the origin here; or the spiral that is not to be had.
-    pub fn build(&self, request: &Request, origin: Vector) -> Result<std::result::Result<Vec<Piece>, Spiral>> {
+    pub(super) fn build(&self, request: &Request, origin: Vector) -> Result<std::result::Result<Vec<Piece>, Spiral>> {
         let end = add(origin, scale(self.end, 1.0 / request.greatest_curvature));
         let (mut pieces, reached) = match self.laid(request, origin, [0.0, 0.0])? {
             Ok(laid) => laid,

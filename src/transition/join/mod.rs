@@ -45,8 +45,8 @@ mod turns;
 
 use super::piece::principal;
 use crate::curve::vector::{length, scale, sub};
-use crate::error::{Error, Result};
 use crate::error::written;
+use crate::error::{Error, Result};
 use crate::plain::count;
 use best::Best;
 use std::f64::consts::TAU;
