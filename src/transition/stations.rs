@@ -64,10 +64,12 @@ pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
             let at = piece.at(t);
             let curvature = if at.heading.is_nan() { f64::NAN } else { at.curvature };
             let found = Station { station: wanted(n), x: at.point[0], y: at.point[1], heading: at.heading, curvature };
-            let Station { station, x, y, heading, .. } = found;
-            if ![station, x, y].iter().all(|x| x.is_finite()) || (!heading.is_nan() && !curvature.is_finite()) {
+            // Where the path stands still, heading and curvature are none.
+            let told = if at.heading.is_nan() { 3 } else { 5 };
+            let beyond = found.numbers().iter().take(told).position(|x| !x.is_finite());
+            if let Some(name) = beyond.map(|i| Station::COLUMNS[i]) {
                 return Err(Error::invalid(format!(
-                    "the sample {n} of the curve is out of the range of doubles: {found:?} (change the unit of length)"
+                    "the {name} of sample {n} is beyond the range of doubles; change the unit of length"
                 )));
             }
             all.push(found);
