@@ -2,6 +2,7 @@
 
 mod check;
 mod dubins;
+#[cfg(feature = "export")]
 mod lattice;
 mod shapes;
 

@@ -35,7 +35,7 @@ struct Trajectory {
 }
 
 impl Lattice {
-    /// The file's text. The same options give the same text.
+    /// The file's text. The same options give the same text, but for the last digits on a machine with other sines.
     ///
     /// All lengths and angles are written as the f32 numbers that the planner holds. The last pose of a primitive is
     /// on its cell as the planner computes it: see [`Lattice`].

@@ -55,8 +55,8 @@ pub struct Lattice {
 /// more than one over the turning radius. Pieces meet as those of [`crate::transition::join::join`].
 ///
 /// # Errors
-/// [`Error::Domain`] for options out of range (see [`LatticeOptions`]), for a radius of less than one cell or more than
-/// 200, and those of joins.
+/// [`Domain`](crate::Error::Domain) for options out of range (see [`LatticeOptions`]), for a radius of less than one cell
+/// or more than 200, and those of joins.
 pub fn lattice(options: &LatticeOptions) -> Result<Lattice> {
     options.check()?;
     let turns = Turns::new(options)?;

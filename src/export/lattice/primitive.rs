@@ -54,7 +54,7 @@ impl Primitive {
     /// So many steps of equal length along it, and its start.
     ///
     /// # Errors
-    /// [`Error::Domain`] for no step.
+    /// [`Domain`](crate::Error::Domain) for no step.
     pub fn stations(&self, steps: usize) -> Result<Vec<Station>> {
         stations(&self.pieces, steps + 1)
     }
