@@ -193,7 +193,7 @@ pub(super) fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcom
 
 impl Verified<'_> {
     fn text(&self) -> String {
-        let mut text = faults(&self.atlas, &self.id, &self.faults);
+        let mut text = faults(self.atlas, &self.id, &self.faults);
         let Attack { points, verdicts, wrong, first } = &self.attack;
         let (points, verdicts) = (grouped(*points), grouped(*verdicts));
         text += &match (wrong, first) {
