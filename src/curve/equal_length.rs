@@ -2,7 +2,7 @@
 
 use super::PhQuintic;
 use super::choice::{Choice, best};
-use super::vector::{complex, finite, pair};
+use super::vector::{complex, finite_ends, pair};
 use crate::error::{Error, Result, written};
 use num_complex::Complex64;
 
@@ -47,16 +47,7 @@ pub struct EqualLength {
 /// ```
 pub fn equal_length(ends: &EqualLength) -> Result<Choice> {
     let EqualLength { start, end, start_direction, end_direction, length } = *ends;
-    let numbers: [(&str, &[f64]); 5] = [
-        ("start", &start),
-        ("end", &end),
-        ("start_direction", &[start_direction]),
-        ("end_direction", &[end_direction]),
-        ("length", &[length]),
-    ];
-    for (name, numbers) in numbers {
-        finite("equal length", name, numbers)?;
-    }
+    finite_ends("equal length", [start, end], [start_direction, end_direction], ("length", length))?;
     let chord = complex(end) - complex(start);
     let distance = chord.norm();
     if distance == 0.0 {

@@ -112,6 +112,8 @@ impl<N: Number> Hodograph<N> {
     }
 
     /// σ, σ' and σ'' at t, and h, h' and h''.
+    // Always inlined, so that guesses in doubles compute no more of these than they use.
+    #[inline(always)]
     fn jets(&self, t: &N) -> [[N; 3]; 2] {
         let back = formula!(1.0 - t);
         let mix = |a: &N, b: &N| formula!(a * back + b * t);

@@ -65,3 +65,12 @@ pub(crate) fn finite(what: &str, name: &str, numbers: &[f64]) -> Result<()> {
         false => Err(Error::invalid(format!("{what}: `{name}` is {numbers:?}; all numbers must be finite"))),
     }
 }
+
+/// The same of two ends with their directions, and of one more number.
+pub(crate) fn finite_ends(what: &str, ends: [Vector; 2], directions: [f64; 2], (name, x): (&str, f64)) -> Result<()> {
+    finite(what, "start", &ends[0])?;
+    finite(what, "end", &ends[1])?;
+    finite(what, "start_direction", &directions[..1])?;
+    finite(what, "end_direction", &directions[1..])?;
+    finite(what, name, &[x])
+}

@@ -11,11 +11,6 @@ use std::cmp::Ordering::{self, Equal, Greater, Less};
 ///
 /// # Accuracy
 /// The sign changes within `tolerance` of the result.
-///
-/// ```
-/// let root = spiral_atlas::num::roots::find(|x| x * x - 2.0, 0.0, 2.0, 1e-15);
-/// assert!((root - 2f64.sqrt()).abs() < 2e-15);
-/// ```
 pub(crate) fn find(f: impl Fn(f64) -> f64, low: f64, high: f64, tolerance: f64) -> f64 {
     // The usual parameters: κ1 = 0.2 / width, κ2 = 2, n0 = 1.
     let (mut low, mut high, mut below, mut above) = (low, high, f(low), f(high));

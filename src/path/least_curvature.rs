@@ -1,7 +1,8 @@
 //! Paths that bend as little as possible: both minimisations of section 6, by branch and bound.
 
-use super::{complex, finite, pair};
+use super::{complex, pair};
 use crate::curve::PhQuintic;
+use crate::curve::vector::finite_ends;
 use crate::error::{Error, Result};
 use crate::family::ph_path::{Candidate, Search};
 use crate::queue::Queue;
@@ -132,16 +133,8 @@ fn fail<T>(what: String) -> Result<T> {
 /// The chord, and what is searched in units of it.
 fn checked(ends: &Directions) -> Result<(Complex64, Search)> {
     let Directions { start, end, start_direction, end_direction, greatest_length, .. } = *ends;
-    let numbers: [(&str, &[f64]); 5] = [
-        ("start", &start),
-        ("end", &end),
-        ("start_direction", &[start_direction]),
-        ("end_direction", &[end_direction]),
-        ("greatest_length", &[greatest_length]),
-    ];
-    for (name, numbers) in numbers {
-        finite("least curvature", name, numbers)?;
-    }
+    let (directions, most) = ([start_direction, end_direction], ("greatest_length", greatest_length));
+    finite_ends("least curvature", [start, end], directions, most)?;
     let chord = complex(end) - complex(start);
     let distance = chord.norm();
     if distance == 0.0 {

@@ -190,13 +190,17 @@ fn what_cannot_be_asked_is_refused() {
     let told = |e: spiral_atlas::Error| e.to_string();
     for (family, axes, flag, what) in [
         ("nothing", &axes[..], "SPIRAL", "nothing"),
-        ("cubic", &axes[..3], "SPIRAL", "phi0 phi1 kappa0"),
+        ("cubic", &axes[..3], "SPIRAL", "the axes are phi0, phi1, kappa0; for"),
         ("cubic", &axes[..], "LOOP", "LOOP"),
         ("trig-quintic", &axes[..], "SPIRAL", "trig-quintic"),
     ] {
         assert!(told(Property::new(family, axes, flag).unwrap_err()).contains(what));
     }
     let spiral = Property::new("cubic", axes, "SPIRAL").unwrap();
+    // Without a name it is the flag that says yes, where there is one.
+    assert_eq!(Property::new("cubic", axes, None::<&str>).unwrap().name(), "SPIRAL");
+    let several = Property::new("reach-cubic", &["theta", "xi", "eta"], None::<&str>);
+    assert!(told(several.unwrap_err()).contains("name the property, such as CASE1_EXACT or CASE2_EXACT"));
     let point = [0.7, 1.4, 0.4, 4.0];
     // Wide intervals do not spend the work on huge numbers, and huge weights do not overflow.
     assert_eq!(ranges(&spiral, &point, 3, [-1e308, 1e308]).unwrap().ranges.len(), 1);

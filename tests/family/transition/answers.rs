@@ -283,15 +283,23 @@ fn errors_name_the_value() {
     says(Ends { start: [f64::NAN, 0.0], ..ends }, &["start x is NaN"]);
     says(Ends { end_direction: f64::INFINITY, ..ends }, &["end direction is inf"]);
     says(Ends { end: [-1.0, -0.0], ..ends }, &["start and end are both (-1.0, 0.0)"]);
-    says(Ends { start: [-1e-310, 0.0], end: [1e-310, 0.0], ..ends }, &["1e-310 long", "change the unit"]);
-    says(Ends { start: [-1.5e308, -1.5e308], end: [1.5e308, 1.5e308], ..ends }, &["inf long"]);
+    says(
+        Ends { start: [-1e-310, 0.0], end: [1e-310, 0.0], ..ends },
+        &["half the chord", "is 1e-310;", "change the unit"],
+    );
+    says(Ends { start: [-1.5e308, -1.5e308], end: [1.5e308, 1.5e308], ..ends }, &["half the chord", "is inf;"]);
     says(Ends { end: [1e200, 0.0], end_curvature: 1e200, ..ends }, &["end curvature 1e200", "is inf"]);
     says(Ends { end: [-1.0 + 1e-10, 0.0], start_curvature: 1e-305, ..ends }, &["start curvature 1e-305"]);
     let (d, _) = Placement::normalise(&ends).unwrap();
     let all = roots(&d);
     let stranger = Root { f0: 1.0, ..all[0] };
     assert!(Answer::from_roots(&ends, &all, Some(&stranger)).unwrap_err().to_string().contains("not among"));
-    assert!(Figure::new(&ends, answer(&ends).chosen().unwrap(), 1).unwrap_err().to_string().contains("1 samples"));
+    assert!(
+        Figure::new(&ends, answer(&ends).chosen().unwrap(), 1)
+            .unwrap_err()
+            .to_string()
+            .contains("the number of samples of a curve is 1; it must be at least 2")
+    );
 }
 
 /// Chords near both ends of the range of doubles.
