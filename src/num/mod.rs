@@ -2,6 +2,7 @@
 
 mod ball;
 pub(crate) mod bernstein;
+pub(crate) mod bernstein_lanes;
 mod form;
 mod formula;
 mod interval;

@@ -6,6 +6,7 @@ use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use super::{END_RISES, PRINTED_RATIO, SPIRAL};
 use crate::family::Code;
 use crate::num::bernstein::{Certain, positive};
+use crate::num::bernstein_lanes::{negative_lanes, positive_lanes};
 use crate::num::{COVER, Lanes, Verdict};
 use fearless_simd::{Simd, SimdBase};
 
@@ -51,6 +52,34 @@ pub(super) fn decide<N: Certain>(value: &[N; K], size: &[f64; K], relative: f64)
     }
 }
 
+/// Places where a numerator that is negative somewhere mostly is: at `τ/(1 - τ) = s`.
+const DIPS: [f64; 7] = [1.0, 3.0, 1.0 / 3.0, 7.0, 1.0 / 7.0, 5.0 / 3.0, 0.6];
+/// Halvings in vectors; what is open then goes lane by lane.
+const HALVINGS: usize = 12;
+
+/// Lanes whose numerator is certainly positive, and those where it is certainly negative somewhere.
+#[inline(always)]
+fn spirals<S: Simd>(simd: S, value: &[S::f64s; K], size: &[S::f64s; K], wanted: u64) -> (u64, u64) {
+    let (mut no, zero) = (0, S::f64s::splat(simd, 0.0));
+    for s in DIPS {
+        if wanted & !no != 0 {
+            no |= negative_lanes(simd, value, size, ERROR, s) & wanted;
+        }
+    }
+    let open = wanted & !no;
+    if open == 0 {
+        return (0, no);
+    }
+    // The least polynomial, as in `decide`.
+    let (mut least, mut largest) = (*value, zero);
+    for i in 0..K {
+        least[i] = (value[i] - size[i] * (COVER * ERROR)) * BERNSTEIN[i];
+        largest = largest.max(size[i] * BERNSTEIN[i]);
+    }
+    // The product above and that with a whole factor add two units, of numbers below that.
+    (positive_lanes(simd, &least, largest * (4.0 * UNIT), open, HALVINGS), no)
+}
+
 /// The codes of a vector of nodes that share ratio, θ, m and p.
 #[inline(always)]
 pub(super) fn classify<S: Simd>(simd: S, frame: &Frame<f64>, [ratio, m, p]: [f64; 3], q: S::f64s, out: &mut [Code]) {
@@ -58,12 +87,9 @@ pub(super) fn classify<S: Simd>(simd: S, frame: &Frame<f64>, [ratio, m, p]: [f64
     for (flag, q) in known.iter_mut().zip(q.as_slice()).take(out.len()) {
         *flag = flags(ratio, m, *q);
     }
-    let mut open = known.iter().take(out.len()).any(|f| f & END_RISES != 0);
-    if open && !is_ordinary(m, ratio) {
-        open = false;
-    }
+    let rising = (0..out.len()).filter(|lane| known[*lane] & END_RISES != 0).fold(0, |lanes, lane| lanes | 1 << lane);
     debug_assert_eq!(known[0] & PRINTED_RATIO != 0, printed_ratio(ratio, m));
-    let forms = if open {
+    let forms = if rising != 0 && is_ordinary(m, ratio) {
         let number = |x: f64| Lanes::<S>::splat(simd, x);
         let frame = Frame { y: number(frame.y), last: number(frame.last), square: number(frame.square) };
         let hodograph = hodograph(&frame, &number(m), &number(p), &Lanes(q));
@@ -71,10 +97,18 @@ pub(super) fn classify<S: Simd>(simd: S, frame: &Frame<f64>, [ratio, m, p]: [f64
     } else {
         None
     };
+    let (mut yes, mut no) = (0, 0);
+    if let Some([value, size]) = &forms {
+        (yes, no) = spirals(simd, &value.map(|c| c.0), &size.map(|c| c.0), rising);
+    }
     for (lane, code) in out.iter_mut().enumerate() {
         let flags = known[lane];
         if flags & END_RISES == 0 {
             *code = Code::new(flags, 0);
+            continue;
+        }
+        if (yes | no) >> lane & 1 == 1 {
+            *code = Code::new(if yes >> lane & 1 == 1 { flags | SPIRAL } else { flags }, 0);
             continue;
         }
         let Some([value, size]) = &forms else {

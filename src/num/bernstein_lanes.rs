@@ -1,0 +1,124 @@
+//! Signs of polynomials on vectors: what most nodes of a grid need, before single ones are halved further.
+
+use super::COVER;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, SimdBase};
+
+/// Unit roundoff.
+const UNIT: f64 = 0.5 * f64::EPSILON;
+
+/// Lanes where polynomials are certainly positive on [0, 1], given Bernstein coefficients that may each be off by
+/// `error`, after so many halvings at most.
+///
+/// As in [`super::bernstein::positive`]: coefficients bound a piece from below, and a halving adds `K - 1` units of its
+/// largest coefficient. All lanes share the pieces. A lane that is not among them may be positive too.
+#[inline(always)]
+pub(crate) fn positive_lanes<S: Simd, const K: usize>(
+    simd: S,
+    c: &[S::f64s; K],
+    error: S::f64s,
+    wanted: u64,
+    halvings: usize,
+) -> u64 {
+    let rounding = COVER * ((K - 1) as f64 * UNIT);
+    let mut waiting = Vec::with_capacity(8);
+    waiting.push((*c, error, wanted));
+    let (mut left, mut failed) = (halvings, 0);
+    while let Some((c, error, lanes)) = waiting.pop() {
+        let (mut least, mut largest) = (c[0], c[0].abs());
+        for c in &c[1..] {
+            least = least.min(*c);
+            largest = largest.max(c.abs());
+        }
+        let open = lanes & !failed & !least.simd_gt(error).to_bitmask();
+        // Where an end is not positive, no halving makes it so.
+        let ends = (c[0].simd_gt(error) & c[K - 1].simd_gt(error)).to_bitmask();
+        failed |= open & if left == 0 { open } else { !ends };
+        let open = open & !failed;
+        if open == 0 {
+            continue;
+        }
+        left -= 1;
+        let half = S::f64s::splat(simd, 0.5);
+        let (mut first, mut second) = (c, c);
+        for step in 1..K {
+            first[step - 1] = second[0];
+            for i in 0..K - step {
+                second[i] = (second[i] + second[i + 1]) * half;
+            }
+        }
+        first[K - 1] = second[0];
+        let error = error + largest * rounding;
+        waiting.push((second, error, open));
+        waiting.push((first, error, open));
+    }
+    wanted & !failed
+}
+
+/// Lanes where `Σ ci s^i` is certainly negative at some s > 0, given how large the absolute terms of each coefficient
+/// are together and how far it may be off, relative to that.
+///
+/// Horner's scheme adds less than `2K` units of the sum of absolute terms, and as many relative ones to that sum.
+#[inline(always)]
+pub(crate) fn negative_lanes<S: Simd, const K: usize>(
+    simd: S,
+    c: &[S::f64s; K],
+    sizes: &[S::f64s; K],
+    relative: f64,
+    s: f64,
+) -> u64 {
+    let (mut value, mut size) = (c[K - 1], sizes[K - 1]);
+    for i in (0..K - 1).rev() {
+        value = value * s + c[i];
+        size = size * s + sizes[i];
+    }
+    let error = size * (COVER * (relative + 2.0 * K as f64 * UNIT));
+    value.simd_lt(S::f64s::splat(simd, 0.0) - error).to_bitmask()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::Noise;
+    use crate::num::Interval;
+    use crate::num::bernstein::positive;
+    use fearless_simd::{Level, dispatch};
+
+    #[inline(always)]
+    fn signs<S: Simd>(simd: S, c: &[f64; 8]) -> (bool, bool) {
+        const BINOMIALS: [f64; 8] = [1.0, 7.0, 21.0, 35.0, 35.0, 21.0, 7.0, 1.0];
+        let zero = S::f64s::splat(simd, 0.0);
+        let (mut lanes, mut powers, mut sizes) = ([zero; 8], [zero; 8], [zero; 8]);
+        for i in 0..8 {
+            lanes[i] = S::f64s::splat(simd, c[i]);
+            powers[i] = lanes[i] * BINOMIALS[i];
+            sizes[i] = powers[i].abs();
+        }
+        let low = [0.2, 0.5, 1.0, 2.0, 5.0].map(|s| negative_lanes(simd, &powers, &sizes, UNIT, s) & 1 == 1);
+        (positive_lanes(simd, &lanes, zero, 1, 12) == 1, low.contains(&true))
+    }
+
+    /// Random polynomials of degree 7, many of them close to 0 somewhere.
+    #[test]
+    fn signs_are_true() {
+        let mut noise = Noise(9);
+        let (mut yes, mut no) = (0, 0);
+        for round in 0..20_000 {
+            let mut c: [f64; 8] = std::array::from_fn(|_| noise.signed());
+            if round % 2 == 0 {
+                // A square, shifted by little.
+                let [a, b, d] = [noise.signed(), noise.signed(), noise.signed()];
+                let small = noise.signed() * 2f64.powi(-((noise.next() * 50.0) as i32));
+                let square = |i: f64| (a + b * i) * (a + b * i) + d * d * i * (7.0 - i) / 7.0 + small;
+                c = std::array::from_fn(|i| square(i as f64));
+            }
+            let (certain, dips) = dispatch!(Level::new(), simd => signs(simd, &c));
+            let truth = positive(&c.map(|x| Interval::new(x, 200)), 0.0, 0.0, 300);
+            assert!(!(certain && truth == Some(false)) && !(dips && truth == Some(true)) && !(certain && dips), "{c:?}");
+            yes += usize::from(certain);
+            no += usize::from(dips);
+        }
+        println!("{yes} positive, {no} negative");
+        assert!(yes > 2000 && no > 4000);
+    }
+}
