@@ -142,7 +142,7 @@ fn printed_figures_are_reproduced_and_are_no_spirals() {
         let request = Request { template: Template::LineCircle(Segment { shape, ..segment }), ..request };
         let Err(NoSpirals { why, .. }) = path(&request).unwrap() else { panic!("as asked") };
         assert!(why.contains("end curvature"), "{why}");
-        assert!(matches!(path(&Request { scaling: Scaling::Corrected, ..request }).unwrap(), Ok(_)));
+        assert!(path(&Request { scaling: Scaling::Corrected, ..request }).unwrap().is_ok());
     }
 }
 
