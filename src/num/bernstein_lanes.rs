@@ -114,7 +114,8 @@ mod tests {
             }
             let (certain, dips) = dispatch!(Level::new(), simd => signs(simd, &c));
             let truth = positive(&c.map(|x| Interval::new(x, 200)), 0.0, 0.0, 300);
-            assert!(!(certain && truth == Some(false)) && !(dips && truth == Some(true)) && !(certain && dips), "{c:?}");
+            assert!(!certain || truth != Some(false), "{c:?}");
+            assert!(!dips || truth != Some(true), "{c:?}");
             yes += usize::from(certain);
             no += usize::from(dips);
         }
