@@ -8,13 +8,20 @@ use crate::queue::Queue;
 /// The search ends when the best distance is at most 1 + this times the proved lower bound.
 const CLOSE: f64 = 1e-3;
 /// Most boxes that one answer looks at.
-const MOST_BOXES: usize = 60_000;
+const MOST_BOXES: usize = 30_000;
 /// Most boxes of each first search, in which two coordinates vary.
 const SLICE_BOXES: usize = 1000;
 /// One box in so many has its middle tried.
 const OFFERS: usize = 16;
-/// Rounds of moves of the best datum.
-const STEPS: usize = 60;
+/// Steps of the best datum, and the least of them, as a share of its distance.
+const STEPS: usize = 400;
+const LEAST_STEP: f64 = 1e-9;
+/// Random data that are tried, the powers of two between which their coordinates are, and how many of them descend.
+const TRIES: usize = 10_000;
+const SIZES: [f64; 2] = [-7.0, 3.0];
+const STARTS: usize = 10;
+/// The moves of two coordinates may be apart by so many powers of two.
+const SIZES_APART: f64 = 16.0;
 /// Coordinates that may change lie within this size, or between it and the datum's own.
 const FAR: f64 = 1e6;
 
@@ -66,7 +73,7 @@ impl Metric<'_> {
 ///
 /// # Accuracy
 /// The datum that is returned has the property: its verdict is exact. `at_least` is proved by boxes of which none has
-/// the property, rounded down. Both differ by 0.1 % at most, unless the answer stops after 60,000 boxes.
+/// the property, rounded down. Both differ by 0.1 % at most, unless the answer stops after 30,000 boxes.
 ///
 /// # Errors
 /// [`Error::Domain`] for a datum or weights that are none; [`Error::Undecided`] at the precision cap.
@@ -76,10 +83,11 @@ pub fn nearest(property: &Property, point: &[f64], weights: &[f64]) -> Result<Ne
     if property.at(point)? == Some(true) {
         return Ok(Nearest { point: Some(point.to_vec()), distance: Some(0.0), at_least: 0.0, boxes: 0 });
     }
-    let mut search = Search { property, metric, best: None, boxes: 0 };
-    // Searches over two coordinates at a time are cheap and give a first bound. Then the best is improved by small
-    // moves.
+    let mut search = Search { property, metric, best: None, boxes: 0, halvings: 8, noise: Noise(1) };
     let free: Vec<usize> = (0..point.len()).filter(|i| weights[*i].is_finite()).collect();
+    // Random data and searches over two coordinates at a time are cheap and give a first bound. Then the best is
+    // improved by small moves.
+    search.scatter(&free)?;
     for (k, i) in free.iter().enumerate() {
         for j in &free[..k] {
             let mut slice = property.point(point)?;
@@ -90,6 +98,7 @@ pub fn nearest(property: &Property, point: &[f64], weights: &[f64]) -> Result<Ne
         }
     }
     search.descend(&free)?;
+    search.halvings = 40;
     let budget = MOST_BOXES - search.boxes;
     let at_least = search.run(whole, budget)?;
     search.descend(&free)?;
@@ -107,6 +116,10 @@ struct Search<'p> {
     /// The nearest datum with the property so far, and its distance.
     best: Option<(f64, Vec<f64>)>,
     boxes: usize,
+    /// How often the way to the datum is halved to find where the property ends. Beside the end a verdict costs most,
+    /// so that only the last search goes near.
+    halvings: usize,
+    noise: Noise,
 }
 
 impl Search<'_> {
@@ -165,7 +178,7 @@ impl Search<'_> {
         };
         // At share 0 lies the given datum, which lacks the property.
         let (mut fails, mut holds, mut found) = (0.0, 1.0, to.clone());
-        for _ in 0..40 {
+        for _ in 0..self.halvings {
             let share = 0.5 * (fails + holds);
             let tried = at(share);
             if self.property.at(&tried)? == Some(true) {
@@ -182,24 +195,80 @@ impl Search<'_> {
         Ok(nearer)
     }
 
-    /// Moves the best along each coordinate and back towards the datum, by steps that halve, as long as that helps.
-    fn descend(&mut self, free: &[usize]) -> Result<()> {
-        let mut step = 0.25;
-        for _ in 0..STEPS {
-            let Some((distance, from)) = self.best.clone() else { return Ok(()) };
-            let mut moved = false;
+    /// Finds data with the property among random ones of all sizes, and lets each descend: one alone may end where
+    /// every small move fails.
+    fn scatter(&mut self, free: &[usize]) -> Result<()> {
+        let mut starts = 0;
+        for _ in 0..TRIES {
+            let mut to = self.metric.point.to_vec();
             for side in free {
-                for sign in [-1.0, 1.0] {
-                    let mut to = from.clone();
-                    to[*side] += sign * step * distance / self.metric.weights[*side];
-                    moved |= self.offer(to)?;
+                // A third of the coordinates stay.
+                if self.noise.unit() < 2.0 / 3.0 {
+                    let size = 2f64.powf(SIZES[0] + (SIZES[1] - SIZES[0]) * self.noise.unit());
+                    to[*side] = if self.noise.unit() < 0.25 { -size } else { size };
                 }
             }
-            if !moved {
-                step *= 0.5;
+            if self.property.at(&to)? != Some(true) {
+                continue;
+            }
+            let before = self.best.take();
+            self.offer(to)?;
+            self.descend(free)?;
+            let nearer = |a: &(f64, Vec<f64>), b: &(f64, Vec<f64>)| a.0 < b.0;
+            self.best = match (before, self.best.take()) {
+                (Some(a), Some(b)) => Some(if nearer(&a, &b) { a } else { b }),
+                (a, b) => a.or(b),
+            };
+            starts += 1;
+            if starts == STARTS {
+                break;
             }
         }
         Ok(())
+    }
+
+    /// Moves the best by random steps and back towards the datum. Steps grow where they help and shrink where not.
+    fn descend(&mut self, free: &[usize]) -> Result<()> {
+        let mut step = 0.5;
+        for _ in 0..STEPS {
+            let Some((distance, from)) = self.best.clone() else { return Ok(()) };
+            let to = self.moved(&from, step * distance, free);
+            // At this pace steps neither grow nor shrink where one in eight helps.
+            step *= if self.offer(to)? { 1.75 } else { 0.92 };
+            if step < LEAST_STEP {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// A datum in a random direction from another, no further than about this distance. The moves of its coordinates
+    /// are, every other time, of different sizes, since the room for them may be so, too.
+    fn moved(&mut self, from: &[f64], distance: f64, free: &[usize]) -> Vec<f64> {
+        let mut to = from.to_vec();
+        let even = self.noise.unit() < 0.5;
+        for side in free {
+            let size = distance * if even { 1.0 } else { 2f64.powf(-SIZES_APART * self.noise.unit().powi(2)) };
+            to[*side] += size * self.noise.bell() / self.metric.weights[*side];
+        }
+        to
+    }
+}
+
+/// Random numbers, the same in every search (splitmix64).
+struct Noise(u64);
+
+impl Noise {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 * 2f64.powi(-53)
+    }
+
+    /// About normal, of variance 1/4.
+    fn bell(&mut self) -> f64 {
+        self.unit() + self.unit() + self.unit() - 1.5
     }
 }
 

@@ -118,7 +118,7 @@ fn nothing_is_nearer_than_said() {
             let weights = if k % 2 == 0 { [f64::INFINITY, f64::INFINITY, 1.0, 0.5] } else { [1.0, 2.0, 1.0, 0.5] };
             let answer = nearest(&property, &point, &weights).unwrap();
             let place = format!("{family} {point:?} {weights:?}: {answer:?}");
-            assert!(answer.boxes <= 60_000, "{place}");
+            assert!(answer.boxes <= 30_000, "{place}");
             if let (Some(found), Some(distance)) = (&answer.point, answer.distance) {
                 assert!(holds(found), "{place}");
                 let kept = |i: usize| weights[i].is_finite() || found[i] == point[i];
@@ -216,4 +216,18 @@ fn what_cannot_be_asked_is_refused() {
         told(boundary(&spiral, &point, [2, 3], [[0.0, 1.0], [0.0, f64::INFINITY]], 64).unwrap_err()).contains("kappa1")
     );
     assert!(told(boundary(&spiral, &point, [2, 3], [[0.0, 1.0]; 2], 65).unwrap_err()).contains("65"));
+}
+
+/// From far out of the region, where a search that only divides boxes finds a far datum or none.
+#[test]
+fn a_near_datum_is_found_from_far_out() {
+    let far = [([1.0, 2.0, -1.0, 5.0], 1.25), ([0.01, 3.0, -5.0, 0.1], 5.75)];
+    for (point, most) in far {
+        for family in ["cubic", "ph-quintic"] {
+            let Asked { property, holds } = asked(family, 0, "SPIRAL");
+            let answer = nearest(&property, &point, &[1.0; 4]).unwrap();
+            let found = answer.point.as_ref().is_some_and(|found| holds(found));
+            assert!(found && answer.distance.is_some_and(|x| x < most), "{family} {point:?}: {answer:?}");
+        }
+    }
 }
