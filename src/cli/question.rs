@@ -108,7 +108,15 @@ fn ranges_text(property: &Property, name: &str, found: &Ranges) -> String {
     for range in &found.ranges {
         let ([a, b], [c, d], [e, f]) = (range.ends, range.inner, range.outer);
         text += &format!("{} holds for {name} from {a:?} to {b:?}\n", property.name());
-        text += &format!("  proved all over {c:?} to {d:?}, and to fail beyond {e:?} and {f:?}\n");
+        // Beside what is not decided nothing is proved to fail.
+        let beside = |end: f64| found.open.iter().any(|[low, high]| end == *low || end == *high);
+        let fails = match (beside(e), beside(f)) {
+            (false, false) => format!(", and to fail beyond {e:?} and {f:?}"),
+            (true, false) => format!(", and to fail beyond {f:?}"),
+            (false, true) => format!(", and to fail below {e:?}"),
+            (true, true) => String::new(),
+        };
+        text += &format!("  proved all over {c:?} to {d:?}{fails}\n");
     }
     if found.ranges.is_empty() && found.open.is_empty() {
         text += &format!("{} holds for no {name} there\n", property.name());
@@ -124,7 +132,10 @@ fn nearest_text(property: &Property, found: &Nearest) -> String {
     let (Some(point), Some(distance)) = (point, distance) else {
         return match at_least.is_finite() {
             true => format!("no datum with {} was found; any is farther than {at_least:?}\n", property.name()),
-            false => format!("no datum has {}, of those with coordinates up to 1e6\n", property.name()),
+            false => format!(
+                "no datum that was searched has {}: none with coordinates up to 1e6, of which those with an infinite weight stay as they are\n",
+                property.name()
+            ),
         };
     };
     let place: Vec<String> = property.axes().iter().zip(point).map(|(axis, x)| format!("{axis} = {x:?}")).collect();

@@ -40,3 +40,12 @@ fn questions_are_answered() {
     let plane = plane.iter().chain(&["--within", "0,0.8", "--within", "0,20", "--cells", "16"]);
     assert!(fine(plane).out.contains("open beside the outlines"));
 }
+
+/// Where a range ends at what is not decided, nothing is said to fail there: only the number of solutions changes.
+#[test]
+fn what_is_open_is_not_said_to_fail() {
+    let ph = ["query", "--family", "ph-quintic", "--phi0", "40deg", "--phi1", "80deg", "--kappa0", "0.4"];
+    let found = fine(ph.iter().chain(&["--ranges", "kappa1", "--within", "2.7,2.8"]));
+    assert!(found.out.contains("not decided for kappa1 from 2.72304831"), "{}", found.out);
+    assert!(!found.out.contains("fail beyond 2.72304831") && !found.out.contains("and 2.72304831"), "{}", found.out);
+}

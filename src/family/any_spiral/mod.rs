@@ -125,7 +125,10 @@ impl Family for AnySpiral {
         let [first, beta, k1, k2] = *coordinates(point)?;
         let found = involute(&Datum { alpha: if chart == 0 { first } else { -first }, beta, k1, k2 }, [0, 0])?;
         let other = CHARTS[1 - chart].axes.iter().zip([-first, beta, k1, k2]);
-        let invariants = [("Q", found.q), ("omega", found.omega)];
+        // A double nearest to ±π lies just inside here, as in every table, and is no half turn as it is to `involute`.
+        let exists = code.flags() & EXISTS != 0;
+        let omega = 0.5 * (found.chord.alpha + found.chord.beta) + 0.0;
+        let invariants = [("Q", found.q), ("omega", omega)];
         let solution = |curve: &Involute| {
             let [rho, lambda] = curve.map();
             let values = [
@@ -140,8 +143,8 @@ impl Family for AnySpiral {
         Ok(Answer {
             code,
             derived: other.map(|(name, x)| (*name, x)).chain(invariants).map(|(name, x)| (name, x.into())).collect(),
-            solutions: found.curve().map(solution).into_iter().collect(),
-            chosen: found.curve().map(|_| 0),
+            solutions: found.curve().filter(|_| exists).map(solution).into_iter().collect(),
+            chosen: found.curve().filter(|_| exists).map(|_| 0),
         })
     }
 }

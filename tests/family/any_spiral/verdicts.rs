@@ -215,3 +215,18 @@ fn nodes_without_a_spiral_have_no_theta() {
     assert_eq!(out[1..], [0.55f32, NO_VALUE, NO_VALUE]);
     assert!(out[0] > 0.0);
 }
+
+/// The double nearest to a half turn lies just inside: flags, numbers and curves of an answer are those of it alike.
+#[test]
+fn an_answer_beside_a_half_turn_is_one_of_the_doubles_given() {
+    use spiral_atlas::family::Value;
+    for [alpha, beta] in [[PI, -PI], [-PI, -PI], [-PI, PI], [-PI, 0.3], [-0.5, -PI], [PI, 0.2]] {
+        for [k1, k2] in [[-0.15, 0.5], [0.5, -0.15]] {
+            let answer = by_name("any-spiral").unwrap().answer(0, &[alpha, beta, k1, k2]).unwrap();
+            let exists = answer.code.flags() & EXISTS != 0;
+            assert_eq!(exists, !answer.solutions.is_empty(), "{alpha} {beta} {k1} {k2}");
+            let omega = answer.derived.iter().find(|(name, _)| *name == "omega").map(|(_, x)| x.clone());
+            assert_eq!(omega, Some(Value::from(0.5 * (alpha + beta) + 0.0)), "{alpha} {beta}");
+        }
+    }
+}
