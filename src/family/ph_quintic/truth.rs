@@ -88,7 +88,14 @@ pub(super) trait Measured: Real {
     fn margin(quintic: &[Self; 6]) -> Option<Self>;
     /// `∫ h²/σ³`.
     fn energy(speed: &[Self; 5], turn: &[Self; 3]) -> Option<Self>;
+    /// The number to [`BRIEF`] bits, where it has many more.
+    fn brief(&self) -> Option<Self> {
+        None
+    }
 }
+
+/// More bits than [`ENOUGH`] asks for, with what sums of positive terms and a series lose.
+const BRIEF: usize = 160;
 
 impl Measured for Ball {
     fn margin(c: &[Ball; 6]) -> Option<Ball> {
@@ -117,16 +124,31 @@ impl Measured for Interval {
     fn energy(speed: &[Interval; 5], turn: &[Interval; 3]) -> Option<Interval> {
         energy(speed, turn)
     }
+    fn brief(&self) -> Option<Interval> {
+        (self.bits() > BRIEF).then(|| self.rounded(BRIEF))
+    }
 }
 
 /// An energy as accurate as [`super::solve`] promises, not more: in doubles where they do, since a series of intervals
-/// costs a hundred times as much and more the longer they are. The f64 step seldom gets so far, because its solution is
-/// off by more than the roundings of the series.
+/// costs a hundred times as much and more the longer they are; else in intervals of few bits. The f64 step seldom gets
+/// so far, because its solution is off by more than the roundings of the series.
 fn about<N: Measured>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
     let bits = speed[0].bits();
     let ball = energy(&speed.each_ref().map(Ball::enclosing), &turn.each_ref().map(Ball::enclosing));
     let ends = |ball: Ball| Some(N::of(ball.value, bits).add(&N::of(ball.error, bits).size()));
-    ball.filter(|ball| ball.error <= ball.value * ENOUGH).and_then(ends).or_else(|| N::energy(speed, turn))
+    ball.filter(|ball| ball.error <= ball.value * ENOUGH)
+        .and_then(ends)
+        .or_else(|| briefly(speed, turn))
+        .or_else(|| N::energy(speed, turn))
+}
+
+/// In few bits, where numbers have many: the same pieces, of which each takes as many terms as there are bits.
+fn briefly<N: Measured>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
+    let [s0, s1, s2, s3, s4] = speed.each_ref().map(N::brief);
+    let [h0, h1, h2] = turn.each_ref().map(N::brief);
+    let energy = N::energy(&[s0?, s1?, s2?, s3?, s4?], &[h0?, h1?, h2?])?;
+    let off = energy.sub(&energy.middle()).size();
+    formula!(energy * { ENOUGH } - off).is_positive().then_some(energy)
 }
 
 /// How an energy is computed.
@@ -184,4 +206,26 @@ pub(super) fn chosen<N: Measured>(
         }
     }
     Some(Some(best.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Terms and digits of an energy do not grow with the precision that the solution took.
+    #[test]
+    fn energies_in_few_bits_hold_the_truth() {
+        let mut compared = 0;
+        for small in [1e-3, 1e-10, 1e-20] {
+            let pair = Pair::exact(small, 2.0 * small, 400).expect("enough bits");
+            for solution in solve(&pair, [small, 3.0]).expect("enough bits").solutions {
+                let CurveShape { speed, turn } = &solution.shape;
+                let (brief, full) =
+                    (briefly(speed, turn).expect("accurate"), Interval::energy(speed, turn).expect("all"));
+                assert!(brief.bits() == BRIEF && (&brief - &full).sign().is_none(), "{small}");
+                compared += 1;
+            }
+        }
+        assert!(compared >= 3, "{compared}");
+    }
 }
