@@ -153,7 +153,7 @@ def main():
         # Far from the origin a coordinate of 5,200,000 m has a rounding of 1e-9 m.
         place = 4e-9 if "far" in name else 1e-10
         joint, heading, curvature, distance = check(name, text, path, 0.001)
-        fitted = "PH quintics" in note
+        fitted = "PH quintic" in note
         assert fitted == ("quintic" in name or name == "spline")
         assert joint <= place and heading <= 1e-9 and distance <= (0.001 if fitted else 0) + place, (name, joint, heading, distance)
         told = float(note.rsplit("at most ", 1)[1].split()[0]) if fitted else 0.02

@@ -2,9 +2,8 @@
 //!
 //! The sides of the control polygon are polynomials in the ratio, so the numerator is one, too: `ratio f`, f of degree
 //! 6. In every case looked at, f grows with the ratio from the threshold up to [`MOST`], everywhere on the curve; then
-//!    that it is positive at one ratio
-//! proves it positive above. That f grows is proved for each datum, by Bernstein's basis in both variables; where it
-//! does not, pieces of the range are proved one by one.
+//! that it is positive at one ratio proves it positive above. That f grows is proved for each datum, by Bernstein's
+//! basis in both variables; where it does not, pieces of the range are proved one by one.
 //!
 //! No theorem says that a smaller ratio gives no spiral, and for small m large ratios give none at all; hence the
 //! definition.
