@@ -55,25 +55,16 @@ pub(crate) fn positive_lanes<S: Simd, const K: usize>(
     wanted & !failed
 }
 
-/// Lanes where `Σ ci s^i` is certainly negative at some s > 0, given how large the absolute terms of each coefficient
-/// are together and how far it may be off, relative to that.
-///
-/// Horner's scheme adds less than `2K` units of the sum of absolute terms, and as many relative ones to that sum.
+/// Lanes where `Σ ci s^i` is certainly negative at some s > 0, given how far each coefficient may be off, with what
+/// follows from its size: Horner's scheme adds less than `2K` units of the absolute terms.
 #[inline(always)]
-pub(crate) fn negative_lanes<S: Simd, const K: usize>(
-    simd: S,
-    c: &[S::f64s; K],
-    sizes: &[S::f64s; K],
-    relative: f64,
-    s: f64,
-) -> u64 {
-    let (mut value, mut size) = (c[K - 1], sizes[K - 1]);
+pub(crate) fn negative_lanes<S: Simd, const K: usize>(simd: S, c: &[S::f64s; K], errors: &[S::f64s; K], s: f64) -> u64 {
+    let (mut value, mut bound) = (c[K - 1], errors[K - 1]);
     for i in (0..K - 1).rev() {
         value = value * s + c[i];
-        size = size * s + sizes[i];
+        bound = bound * s + errors[i];
     }
-    let error = size * (COVER * (relative + 2.0 * K as f64 * UNIT));
-    value.simd_lt(S::f64s::splat(simd, 0.0) - error).to_bitmask()
+    value.simd_lt(S::f64s::splat(simd, 0.0) - bound).to_bitmask()
 }
 
 #[cfg(test)]
@@ -88,13 +79,14 @@ mod tests {
     fn signs<S: Simd>(simd: S, c: &[f64; 8]) -> (bool, bool) {
         const BINOMIALS: [f64; 8] = [1.0, 7.0, 21.0, 35.0, 35.0, 21.0, 7.0, 1.0];
         let zero = S::f64s::splat(simd, 0.0);
-        let (mut lanes, mut powers, mut sizes) = ([zero; 8], [zero; 8], [zero; 8]);
+        let (mut lanes, mut powers, mut errors) = ([zero; 8], [zero; 8], [zero; 8]);
         for i in 0..8 {
             lanes[i] = S::f64s::splat(simd, c[i]);
             powers[i] = lanes[i] * BINOMIALS[i];
-            sizes[i] = powers[i].abs();
+            // One unit for the product.
+            errors[i] = powers[i].abs() * (COVER * 17.0 * UNIT);
         }
-        let low = [0.2, 0.5, 1.0, 2.0, 5.0].map(|s| negative_lanes(simd, &powers, &sizes, UNIT, s) & 1 == 1);
+        let low = [0.2, 0.5, 1.0, 2.0, 5.0].map(|s| negative_lanes(simd, &powers, &errors, s) & 1 == 1);
         (positive_lanes(simd, &lanes, zero, 1, 12) == 1, low.contains(&true))
     }
 

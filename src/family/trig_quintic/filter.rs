@@ -60,10 +60,13 @@ const HALVINGS: usize = 12;
 /// Lanes whose numerator is certainly positive, and those where it is certainly negative somewhere.
 #[inline(always)]
 fn spirals<S: Simd>(simd: S, value: &[S::f64s; K], size: &[S::f64s; K], wanted: u64) -> (u64, u64) {
-    let (mut no, zero) = (0, S::f64s::splat(simd, 0.0));
+    let (mut no, mut errors) = (0, *size);
+    for error in &mut errors {
+        *error *= COVER * (ERROR + 2.0 * K as f64 * UNIT);
+    }
     for s in DIPS {
         if wanted & !no != 0 {
-            no |= negative_lanes(simd, value, size, ERROR, s) & wanted;
+            no |= negative_lanes(simd, value, &errors, s) & wanted;
         }
     }
     let open = wanted & !no;
@@ -71,7 +74,7 @@ fn spirals<S: Simd>(simd: S, value: &[S::f64s; K], size: &[S::f64s; K], wanted: 
         return (0, no);
     }
     // The least polynomial, as in `decide`.
-    let (mut least, mut largest) = (*value, zero);
+    let (mut least, mut largest) = (*value, S::f64s::splat(simd, 0.0));
     for i in 0..K {
         least[i] = (value[i] - size[i] * (COVER * ERROR)) * BERNSTEIN[i];
         largest = largest.max(size[i] * BERNSTEIN[i]);

@@ -5,6 +5,7 @@ use super::march::Bracket;
 use crate::family::ph_quintic::shape::CurveShape;
 use crate::num::Lanes;
 use crate::num::bernstein::positive;
+use crate::num::bernstein_lanes::negative_lanes;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase};
 
@@ -38,8 +39,15 @@ pub(super) fn spirals<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, w
     let mut no = (falls(0) | falls(5)).to_bitmask() & wanted;
     let mut open = wanted & !(yes | no);
     if open != 0 {
+        // Most of those that are no spirals, without halving. Products and Horner's scheme add less than 16 units.
+        const BINOMIALS: [f64; 6] = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
+        let (mut terms, mut errors) = (value, error);
+        for i in 0..6 {
+            terms[i] *= BINOMIALS[i];
+            errors[i] = error[i] * BINOMIALS[i] + terms[i].abs() * (8.0 * f64::EPSILON);
+        }
         for s in [0.5, 1.0, 2.0] {
-            no |= dips(equations, &value, &error, s) & open;
+            no |= negative_lanes(equations.simd, &terms, &errors, s) & open;
         }
         open &= !no;
     }
@@ -77,20 +85,6 @@ pub(super) fn quintic<S: Simd>(equations: &Equations<S>, root: &Root<S>) -> ([S:
         error[i] = (gain.0 + loss.0) * relative;
     }
     (value, error)
-}
-
-/// Lanes where the quintic is certainly negative at `t/(1 - t) = s`: most of those that are no spirals, without
-/// halving. Products, and the ten operations of Horner's scheme, add less than 16 units.
-#[inline(always)]
-fn dips<S: Simd>(equations: &Equations<S>, value: &[S::f64s; 6], error: &[S::f64s; 6], s: f64) -> u64 {
-    const BINOMIALS: [f64; 6] = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
-    let (mut sum, mut bound) = (equations.splat(0.0), equations.splat(0.0));
-    for i in (0..6).rev() {
-        let c = value[i] * BINOMIALS[i];
-        sum = sum * s + c;
-        bound = bound * s + (error[i] * BINOMIALS[i] + c.abs() * (8.0 * f64::EPSILON));
-    }
-    sum.simd_lt(equations.splat(0.0) - bound).to_bitmask()
 }
 
 /// Newton's method for both equations in logarithms of t and Z, then what the residuals prove.
