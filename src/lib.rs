@@ -141,6 +141,7 @@ pub mod plot;
 pub mod question;
 #[cfg(feature = "recipe")]
 pub mod recipe;
+pub mod tools;
 pub mod transition;
 
 mod queue;

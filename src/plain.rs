@@ -2,8 +2,10 @@
 //!
 //! Serde's messages have few forms and speak of Rust's types; tests hold the sentences to them.
 
+mod angle;
 mod name;
 
+pub use angle::{bare_angle, parse_angle};
 pub use name::{name, names};
 use std::ops::Range;
 

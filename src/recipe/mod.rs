@@ -32,9 +32,10 @@ mod raw;
 mod reference;
 mod words;
 
+pub use crate::plain::parse_angle;
 pub use levels::Levels;
 pub use look::{DPI, Look, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, SLICE_SIZE};
-pub use raw::{bare_angle, is_angle, parse_angle, parse_coordinate};
+pub use raw::{is_angle, parse_coordinate};
 pub use reference::reference;
 
 use crate::error::{Error, Result};

@@ -9,12 +9,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each room of `src/` with the rooms that it may import.
-const ROOMS: [(&str, &[&str]); 20] = [
+const ROOMS: [(&str, &[&str]); 21] = [
     ("error", &[]),
     ("steps", &[]),
     ("queue", &[]),
     ("files", &["error"]),
-    ("plain", &[]),
+    ("plain", &["error"]),
     ("num", &["steps", "error"]),
     ("plot", &["error"]),
     ("grid", &["num", "error"]),
@@ -27,6 +27,7 @@ const ROOMS: [(&str, &[&str]); 20] = [
     ("question", &["family", "num", "queue", "error"]),
     ("transition", &["family", "curve", "num", "plain", "error"]),
     ("path", &["transition", "family", "curve", "num", "queue", "steps", "plain", "error"]),
+    ("tools", &["path", "transition", "curve", "plain", "error"]),
     ("export", &["path", "transition", "curve", "error"]),
     ("picture", &["cells", "atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
     (
@@ -34,6 +35,7 @@ const ROOMS: [(&str, &[&str]); 20] = [
         &[
             "export",
             "picture",
+            "tools",
             "path",
             "transition",
             "cells",

@@ -50,6 +50,9 @@ typedef struct SpiralCurve SpiralCurve;
 // All that is known of a property along one coordinate.
 typedef struct SpiralRanges SpiralRanges;
 
+// What a path tool answered.
+typedef struct SpiralReport SpiralReport;
+
 // One end of a curve, in the user's unit of length.
 typedef struct {
     double x;
@@ -357,6 +360,30 @@ SpiralStatus spiral_curve_control_points(const SpiralCurve *curve,
 // # Safety
 // `curve` is null or open; `out` has room for `count` stations.
 SpiralStatus spiral_curve_stations(const SpiralCurve *curve, SpiralStation *out, size_t count);
+
+// Answers a request to a path tool: "hermite", "equal-length", "least-curvature", "spline", "plan", "separation" or
+// "measure". `request` is a JSON object with the fields of docs/path.md; the options of the commands are fields too:
+// `minimum` of separation, `samples` and `offset` of measure, `paper` of equal-length. The answer is what the command
+// prints; where there is no path such as was asked for, its `paths` is empty, and its `reason` says why. Close the
+// report with spiral_report_close.
+//
+// # Safety
+// `tool` and `request` are null or texts that end with a zero byte; `report` is null or valid for a write.
+SpiralStatus spiral_path(const char *tool,
+                         const char *request,
+                         SpiralReport **report);
+
+// The answer in JSON. It lives as long as the report, and is null for a null report.
+//
+// # Safety
+// `report` is null or comes from spiral_path and is not closed.
+const char *spiral_report_json(const SpiralReport *report);
+
+// Closes a report. Null is allowed.
+//
+// # Safety
+// `report` comes from spiral_path and is not used any more, nor is its text.
+void spiral_report_close(SpiralReport *report);
 
 // All intervals of the coordinate number `axis`, from `from` to `to`, in which a property holds; in `datum` that
 // coordinate does not matter. `flag` is the property's name; null stands for the flag that says that a spiral exists.

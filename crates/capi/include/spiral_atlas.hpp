@@ -333,6 +333,14 @@ inline std::optional<Curve> join(const End &start, const End &end, double greate
     return Curve(curve);
 }
 
+/// Answers a request to a path tool, such as "spline" or "plan", with what the command `path` prints: JSON in and out.
+inline std::string path(const std::string &tool, const std::string &request) {
+    SpiralReport *handle = nullptr;
+    detail::check(spiral_path(tool.c_str(), request.c_str(), &handle));
+    const detail::Handle<SpiralReport, spiral_report_close> owner(handle);
+    return spiral_report_json(handle);
+}
+
 } // namespace spiral_atlas
 
 #include "spiral_atlas_questions.hpp"

@@ -7,6 +7,7 @@ mod answer;
 mod atlas;
 mod cells;
 mod curve;
+mod path;
 mod question;
 mod status;
 
@@ -14,6 +15,7 @@ pub use answer::*;
 pub use atlas::*;
 pub use cells::*;
 pub use curve::*;
+pub use path::*;
 pub use question::*;
 pub use status::*;
 

@@ -220,6 +220,21 @@ static void questions(void) {
     CHECK(spiral_boundary("cubic", NULL, NULL, datum, NULL, within, 64, &boundary) == SPIRAL_ARGUMENT && boundary == NULL);
 }
 
+static void paths(void) {
+    SpiralReport *report = NULL;
+    const char *wave = "{\"points\": [[0, 0], [1, 1], [2, 0], [3, 1]]}";
+    CHECK(spiral_path("spline", wave, &report) == SPIRAL_OK);
+    CHECK(strncmp(spiral_report_json(report), "{\"paths\":[{\"length\":", 21) == 0);
+    spiral_report_close(report);
+    spiral_report_close(NULL);
+    CHECK(spiral_report_json(NULL) == NULL);
+    CHECK(spiral_path("splines", wave, &report) == SPIRAL_DOMAIN && says("`splines`") && says("`hermite`"));
+    CHECK(spiral_path("spline", "{\"points\": [[0, 0], [1]]}", &report) == SPIRAL_DOMAIN && says("points[1]"));
+    CHECK(spiral_path("spline", "\xff", &report) == SPIRAL_ARGUMENT && says("UTF-8"));
+    CHECK(spiral_path(NULL, wave, &report) == SPIRAL_ARGUMENT && says("`tool`"));
+    CHECK(spiral_path("spline", wave, NULL) == SPIRAL_ARGUMENT && says("`report`"));
+}
+
 int main(int count, char **arguments) {
     CHECK(count == 3 && strlen(spiral_version()) > 4 && strlen(spiral_last_error()) == 0);
     atlases(arguments[1]);
@@ -228,6 +243,7 @@ int main(int count, char **arguments) {
     curves();
     joins();
     questions();
+    paths();
     puts("C: all as it should be");
     return 0;
 }

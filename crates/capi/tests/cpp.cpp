@@ -81,6 +81,8 @@ int main(int, char **arguments) {
     const auto ramp = sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166);
     CHECK(ramp && ramp->kind() == "path" && std::abs(ramp->stations(3)[2].y - 150) < 1e-9);
     CHECK(!sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166, "cubic", 100, &reason));
+    CHECK(sa::path("spline", "{\"points\": [[0, 0], [1, 1]]}").find("\"kind\":\"ph-quintic\"") != std::string::npos);
+    throws(SPIRAL_DOMAIN, "points[1]", [] { sa::path("spline", "{\"points\": [[0, 0], 7]}"); });
     throws(SPIRAL_DOMAIN, "NaN", [] { sa::fit({std::nan(""), 0, 0, 0}, {1, 0, 0, 0}); });
 
     const auto spirals = sa::ranges("cubic", datum, 3, {0, 100});

@@ -9,6 +9,7 @@ mod generate;
 mod join;
 mod legend;
 mod outline;
+mod path;
 mod picture;
 mod question;
 mod writer;
@@ -34,6 +35,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(cells::open_cells, module)?)?;
     module.add_function(wrap_pyfunction!(curve::fit, module)?)?;
     module.add_function(wrap_pyfunction!(join::join, module)?)?;
+    module.add_function(wrap_pyfunction!(path::path, module)?)?;
     module.add_function(wrap_pyfunction!(family::families, module)?)?;
     module.add_function(wrap_pyfunction!(family::solve, module)?)?;
     module.add_function(wrap_pyfunction!(family::solve_batch, module)?)?;

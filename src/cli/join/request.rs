@@ -1,9 +1,10 @@
 //! A request that stands in a file.
 
-use super::super::path::input::{self, Named};
+use super::super::path::read;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use spiral_atlas::plain::name;
+use spiral_atlas::tools::input::{Named, angle};
 use spiral_atlas::transition::Turn;
 use spiral_atlas::transition::join::{self, Family, Objective, State};
 use spiral_atlas::{Error, Result};
@@ -41,7 +42,7 @@ struct End {
 #[serde(deny_unknown_fields)]
 struct StateEnd {
     point: [f64; 2],
-    #[serde(deserialize_with = "input::angle")]
+    #[serde(deserialize_with = "angle")]
     direction: f64,
     #[serde(default)]
     curvature: f64,
@@ -51,7 +52,7 @@ struct StateEnd {
 #[serde(deny_unknown_fields)]
 struct LineEnd {
     point: [f64; 2],
-    #[serde(deserialize_with = "input::angle")]
+    #[serde(deserialize_with = "angle")]
     direction: f64,
 }
 
@@ -83,7 +84,7 @@ pub(super) fn read(path: &Path) -> Result<join::Request> {
     let toml = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     let name = if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
     let Request { from, to, greatest_curvature, family, objective, longest, most_pieces } =
-        input::parse(&text, toml).map_err(|e| Error::invalid(format!("{name}: {e}")))?;
+        read::parse(&text, toml).map_err(|e| Error::invalid(format!("{name}: {e}")))?;
     Ok(join::Request {
         family,
         objective,

@@ -1,10 +1,8 @@
 //! `path equal-length`.
 
-use super::input::{angle, objects};
-use super::{Files, Outcome, PathReport, Paths, figure};
-use serde::Deserialize;
-use spiral_atlas::curve::{EqualLength, equal_length};
-use spiral_atlas::{Error, Result};
+use super::{Files, Outcome, figure};
+use spiral_atlas::Result;
+use spiral_atlas::tools::{EqualLengths, Tool};
 
 /// Join points and directions by paths of one given length, so that vehicles of one speed arrive at the same time.
 ///
@@ -23,40 +21,10 @@ pub(super) struct Args {
     paper: bool,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    length: f64,
-    #[serde(deserialize_with = "objects")]
-    paths: Vec<Ends>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Ends {
-    start: [f64; 2],
-    end: [f64; 2],
-    #[serde(deserialize_with = "angle")]
-    start_direction: f64,
-    #[serde(deserialize_with = "angle")]
-    end_direction: f64,
-}
-
 pub(super) fn run(args: &Args) -> Result<Outcome> {
-    let input: Input = args.files.read()?;
-    if input.paths.is_empty() {
-        return Err(args.files.blame(Error::invalid("`paths` is empty; give the ends of one at least")));
-    }
-    let path = |(i, ends): (usize, &Ends)| {
-        let Ends { start, end, start_direction, end_direction } = *ends;
-        let choice = equal_length(&EqualLength { start, end, start_direction, end_direction, length: input.length })
-            .map_err(|e| args.files.blame(e.at(format!("paths[{i}]"))))?;
-        let paper = EqualLength::paper(&choice);
-        Ok(PathReport::chosen(&choice, if args.paper { paper } else { choice.best }, Some(paper)))
-    };
-    let paths = input.paths.iter().enumerate().map(path).collect::<Result<Vec<_>>>()?;
-    let paths = Paths { paths };
-    let title = format!("Paths of length {}", input.length);
-    args.files
-        .finish(&paths, || figure::curves(&paths.paths.iter().map(PathReport::curves).collect::<Vec<_>>(), &title))
+    let asked: EqualLengths = args.files.read()?;
+    let title = format!("Paths of length {}", asked.length);
+    let asked = EqualLengths { paper: asked.paper || args.paper, ..asked };
+    let found = asked.answer().map_err(|e| args.files.blame(e))?;
+    args.files.finish(&found, || figure::reported(&found.paths, &title))
 }

@@ -2,9 +2,10 @@
 
 use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
-use spiral_atlas::path::{Course, Motion, Plan, Scene, Separation};
+use spiral_atlas::path::{Course, Motion, Plan, Scene};
 use spiral_atlas::plain::count;
 use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
+use spiral_atlas::tools::{Pair, PathReport, Separations};
 use spiral_atlas::transition::{Piece, Station};
 use spiral_atlas::{Error, Result};
 
@@ -52,8 +53,9 @@ fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2
 }
 
 /// Paths and their curvatures.
-pub(crate) fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
-    beside_others(paths, vec![], title, "dots: starts")
+pub(crate) fn reported(paths: &[PathReport], title: &str) -> Result<Vec<u8>> {
+    let paths: Vec<_> = paths.iter().map(|path| path.pieces.clone()).collect();
+    beside_others(&paths, vec![], title, "dots: starts")
 }
 
 /// Paths with their curvatures and offset curves.
@@ -134,13 +136,9 @@ fn length(spans: &[PhQuintic]) -> f64 {
 }
 
 /// The paths of several motions and the separation of each pair over time.
-pub(crate) fn separations(
-    motions: &[Motion],
-    found: &[(usize, usize, Separation)],
-    minimum: f64,
-    title: String,
-) -> Result<Vec<u8>> {
-    let line = |(first, second, found): &(usize, usize, Separation)| {
+pub(crate) fn separations(motions: &[Motion], found: &Separations, title: String) -> Result<Vec<u8>> {
+    let minimum = found.minimum;
+    let line = |Pair { first, second, found }: &Pair| {
         let (a, b) = (&motions[*first], &motions[*second]);
         let (from, to) = (a.times()[0].min(b.times()[0]), a.times()[1].max(b.times()[1]));
         let n = SAMPLES / 4;
@@ -153,7 +151,7 @@ pub(crate) fn separations(
         };
         times.into_iter().map(apart).collect()
     };
-    let lines = found.iter().map(line).collect();
+    let lines = found.pairs.iter().map(line).collect();
     let figure = PathsFigure {
         title,
         note: format!("dots: starts; on the right a line for each pair; red: the minimum {minimum}"),

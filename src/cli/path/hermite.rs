@@ -1,8 +1,9 @@
 //! `path hermite`.
 
-use super::{Files, Outcome, PathReport, Paths, figure};
+use super::{Files, Outcome, figure};
 use spiral_atlas::Result;
-use spiral_atlas::curve::{Hermite, hermite};
+use spiral_atlas::curve::Hermite;
+use spiral_atlas::tools::Tool;
 
 /// Join two points with given derivatives: the curve of least absolute rotation of the four there are.
 ///
@@ -19,7 +20,6 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<Outcome> {
     let ends: Hermite = args.files.read()?;
-    let choice = hermite(&ends).map_err(|e| args.files.blame(e))?;
-    let paths = vec![PathReport::chosen(&choice, choice.best, None)];
-    args.files.finish(&Paths { paths }, || figure::choice(&choice))
+    let found = ends.answer().map_err(|e| args.files.blame(e))?;
+    args.files.finish(&found, || figure::choice(&found.choice))
 }

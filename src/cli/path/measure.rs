@@ -2,8 +2,7 @@
 
 use super::{Files, Outcome, figure};
 use crate::cli::{numbers, output};
-use serde::Serialize;
-use spiral_atlas::path::{Course, OffsetCurve, Spot, Summary};
+use spiral_atlas::tools::{Measured, Measures};
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::Write;
@@ -39,32 +38,6 @@ pub(super) struct Args {
     offset: Option<f64>,
 }
 
-#[derive(Serialize)]
-struct Output {
-    paths: Vec<Measured>,
-}
-
-#[derive(Serialize)]
-struct Measured {
-    #[serde(flatten)]
-    summary: Summary,
-    curvature_extrema: Vec<Spot>,
-    inflections: Vec<Spot>,
-    samples: Vec<Station>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    offset: Option<Vec<OffsetCurve>>,
-}
-
-fn measured(course: &Course, args: &Args) -> Result<Measured> {
-    Ok(Measured {
-        summary: course.summary(),
-        curvature_extrema: course.curvature_extrema(),
-        inflections: course.inflections(),
-        samples: args.samples.map_or(Ok(vec![]), |count| course.stations(count as usize))?,
-        offset: args.offset.map(|d| course.offset(d)).transpose()?,
-    })
-}
-
 pub(super) fn run(args: &Args) -> Result<Outcome> {
     if let Some(d) = args.offset.filter(|d| !d.is_finite()) {
         return Err(Error::domain("--offset", d, "finite"));
@@ -82,7 +55,9 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
         })?;
         return args.files.draw(figure);
     }
-    let paths = courses.iter().map(|(place, course)| measured(course, args).map_err(|e| blame(place, e)));
-    let output = Output { paths: paths.collect::<Result<_>>()? };
+    let paths = courses
+        .iter()
+        .map(|(place, course)| Measured::new(course, args.samples, args.offset).map_err(|e| blame(place, e)));
+    let output = Measures { paths: paths.collect::<Result<_>>()? };
     args.files.finish(&output, figure)
 }

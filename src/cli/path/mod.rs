@@ -3,10 +3,10 @@
 mod equal_length;
 pub(super) mod figure;
 mod hermite;
-pub(super) mod input;
 mod least_curvature;
 mod measure;
 mod plan;
+pub(super) mod read;
 mod separation;
 mod source;
 mod spline;
@@ -15,9 +15,8 @@ use super::{Outcome, output};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 pub(super) use source::Source;
-use spiral_atlas::curve::Choice;
-use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::Course;
+use spiral_atlas::tools::{self, NoPath};
 use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
 
@@ -110,98 +109,11 @@ impl Files {
     }
 }
 
-/// A path as it is printed.
-#[derive(Serialize)]
-struct PathReport {
-    length: f64,
-    /// Null where the path stands still.
-    bending_energy: f64,
-    absolute_rotation: f64,
-    /// As of a [`Candidate`].
-    greatest_curvature: f64,
-    pieces: Vec<PhQuintic>,
-    #[serde(flatten)]
-    choice: Option<Others>,
-}
-
-/// All curves among which one was chosen.
-#[derive(Serialize)]
-struct Others {
-    candidates: Vec<Candidate>,
-    best: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    paper: Option<usize>,
-}
-
-#[derive(Serialize)]
-struct Candidate {
-    absolute_rotation: f64,
-    regular: bool,
-    length: f64,
-    /// Null where it is not regular.
-    greatest_curvature: f64,
-    preimage: [[f64; 2]; 3],
-}
-
-/// None, which is written null, where the curve stands still: there it is unbounded, or on a straight line there is
-/// none.
-fn greatest_curvature(curve: &PhQuintic) -> f64 {
-    if curve.is_regular() { curve.greatest_curvature().1 } else { f64::NAN }
-}
-
-impl PathReport {
-    fn new(pieces: &[PhQuintic]) -> PathReport {
-        let sum = |f: fn(&PhQuintic) -> f64| pieces.iter().map(f).sum();
-        let most = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
-        PathReport {
-            length: sum(PhQuintic::length),
-            bending_energy: sum(PhQuintic::bending_energy),
-            absolute_rotation: sum(PhQuintic::absolute_rotation),
-            greatest_curvature: pieces.iter().map(greatest_curvature).fold(0.0, most),
-            pieces: pieces.to_vec(),
-            choice: None,
-        }
-    }
-
-    /// One of several.
-    fn chosen(choice: &Choice, taken: usize, paper: Option<usize>) -> PathReport {
-        let candidate = |c: &spiral_atlas::curve::Candidate| Candidate {
-            absolute_rotation: c.absolute_rotation,
-            regular: c.regular,
-            length: c.curve.length(),
-            greatest_curvature: greatest_curvature(&c.curve),
-            preimage: c.curve.preimage,
-        };
-        let candidates = choice.candidates.iter().map(candidate).collect();
-        PathReport {
-            choice: Some(Others { candidates, best: choice.best, paper }),
-            ..PathReport::new(&[choice.candidates[taken].curve])
-        }
-    }
-
-    fn curves(&self) -> Vec<PhQuintic> {
-        self.pieces.clone()
-    }
-}
-
-/// The answer that there is no path.
-#[derive(Serialize)]
-struct NoPath {
-    paths: [PathReport; 0],
-    reason: String,
-}
-
-/// What was found; where there is no path, that is printed with the reason, and nothing is left to do.
-fn found<T>(found: Result<T>, files: &Files) -> Result<std::result::Result<T, Outcome>> {
-    match found {
+/// The answer to a request; where there is no path, that is printed with the reason, and nothing is left to do.
+fn answer<T: tools::Tool>(request: T, files: &Files) -> Result<std::result::Result<T::Answer, Outcome>> {
+    match request.answer() {
         Ok(found) => Ok(Ok(found)),
-        Err(Error::NoPath(reason)) => output::print_json(&NoPath { paths: [], reason }).map(|()| Err(Outcome::Bad)),
+        Err(Error::NoPath(reason)) => output::print_json(&NoPath::new(reason)).map(|()| Err(Outcome::Bad)),
         Err(e) => Err(files.blame(e)),
     }
-}
-
-/// Paths as they are printed.
-#[derive(Serialize)]
-struct Paths {
-    paths: Vec<PathReport>,
 }

@@ -1,9 +1,8 @@
 //! `path plan`.
 
-use super::{Files, Outcome, PathReport, figure, found};
-use serde::Serialize;
+use super::{Files, Outcome, answer, figure};
 use spiral_atlas::Result;
-use spiral_atlas::path::{Clearance, Corner, Scene, plan};
+use spiral_atlas::path::Scene;
 
 /// Plan a path of bounded curvature among polygons: a short polyline around them whose corners can be rounded, rounded.
 ///
@@ -22,36 +21,10 @@ pub(super) struct Args {
     files: Files,
 }
 
-#[derive(Serialize)]
-struct Planned<'p> {
-    #[serde(flatten)]
-    found: PathReport,
-    length_saved: f64,
-    curvature_at_most: f64,
-    /// Null without obstacles.
-    clearance: Option<Clearance>,
-    polyline: &'p [[f64; 2]],
-    corners: &'p [Corner],
-}
-
-#[derive(Serialize)]
-struct Output<'p> {
-    paths: [Planned<'p>; 1],
-}
-
 pub(super) fn run(args: &Args) -> Result<Outcome> {
     let scene: Scene = args.files.read()?;
-    let plan = match found(plan(&scene), &args.files)? {
-        Ok(plan) => plan,
-        Err(none) => return Ok(none),
-    };
-    let planned = Planned {
-        found: PathReport::new(&plan.spans),
-        length_saved: plan.length_saved,
-        curvature_at_most: plan.proof.curvature_at_most,
-        clearance: plan.proof.clearance,
-        polyline: &plan.polyline,
-        corners: &plan.corners,
-    };
-    args.files.finish(&Output { paths: [planned] }, || figure::planned(&scene, &plan))
+    Ok(match answer(scene.clone(), &args.files)? {
+        Ok(found) => args.files.finish(&found, || figure::planned(&scene, &found.plan))?,
+        Err(none) => none,
+    })
 }

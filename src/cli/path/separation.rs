@@ -1,13 +1,11 @@
 //! `path separation`.
 
-use super::input::objects;
 use super::{Files, Outcome, figure};
 use crate::cli::numbers;
-use serde::{Deserialize, Serialize};
-use spiral_atlas::path::{Motion, Separation, Verdict, separations};
+use spiral_atlas::Result;
+use spiral_atlas::path::Verdict;
 use spiral_atlas::plain::count;
-use spiral_atlas::transition::Piece;
-use spiral_atlas::{Error, Result};
+use spiral_atlas::tools::{Separations, Vehicle};
 
 /// Prove whether vehicles keep a minimum distance at all times, and tell how near they come.
 ///
@@ -30,59 +28,14 @@ pub(super) struct Args {
     minimum: f64,
 }
 
-#[derive(Deserialize)]
-struct Path {
-    #[serde(deserialize_with = "objects")]
-    pieces: Vec<Piece>,
-    #[serde(default = "one")]
-    speed: f64,
-    #[serde(default)]
-    start_time: f64,
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-#[derive(Serialize)]
-struct Output {
-    minimum: f64,
-    /// Of all pairs: the worst.
-    verdict: Verdict,
-    pairs: Vec<Pair>,
-}
-
-#[derive(Serialize)]
-struct Pair {
-    first: usize,
-    second: usize,
-    #[serde(flatten)]
-    found: Separation,
-}
-
-fn motion(path: Path) -> Result<Motion> {
-    Motion::new(path.pieces, path.speed, path.start_time)
-}
-
 pub(super) fn run(args: &Args) -> Result<Outcome> {
-    let paths: Vec<(String, Path)> = args.files.paths()?;
+    let paths: Vec<(String, Vehicle)> = args.files.paths()?;
     let blame = |e| args.files.blame(e);
-    if paths.len() < 2 {
-        return Err(blame(Error::invalid(format!(
-            "`paths` has {}; it takes two to be apart",
-            count(paths.len(), "path")
-        ))));
-    }
-    let named = |(place, path): (String, Path)| motion(path).map_err(|e| blame(e.at(place)));
+    let named = |(place, path): (String, Vehicle)| path.motion().map_err(|e| blame(e.at(place)));
     let motions = paths.into_iter().map(named).collect::<Result<Vec<_>>>()?;
-    let found = separations(&motions, args.minimum)?;
-    let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);
-    let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);
-    let pairs =
-        found.iter().map(|(first, second, found)| Pair { first: *first, second: *second, found: *found }).collect();
-    let output = Output { minimum: args.minimum, verdict, pairs };
-    let least = found.iter().map(|(_, _, f)| f.closest.at_most).fold(f64::INFINITY, f64::min);
-    let title = format!("{} vehicles, {}, least separation {least:.6}", motions.len(), count(found.len(), "pair"));
-    let done = args.files.finish(&output, || figure::separations(&motions, &found, args.minimum, title))?;
-    Ok(if verdict == Verdict::Kept { done } else { Outcome::Bad })
+    let found = Separations::new(&motions, args.minimum).map_err(blame)?;
+    let pairs = count(found.pairs.len(), "pair");
+    let title = format!("{} vehicles, {pairs}, least separation {:.6}", motions.len(), found.least());
+    let done = args.files.finish(&found, || figure::separations(&motions, &found, title))?;
+    Ok(if found.verdict == Verdict::Kept { done } else { Outcome::Bad })
 }

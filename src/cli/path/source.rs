@@ -1,11 +1,12 @@
 //! Files of paths: one JSON or TOML text, or lines of JSON as batches print them.
 
 use super::super::output;
-use super::input;
+use super::read;
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
 use spiral_atlas::path::Course;
-use spiral_atlas::transition::Piece;
+use spiral_atlas::tools::GivenPath;
+use spiral_atlas::tools::input::objects;
 use spiral_atlas::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -25,7 +26,7 @@ pub(in super::super) struct Source {
 #[derive(Deserialize)]
 #[serde(bound = "P: DeserializeOwned")]
 struct Given<P> {
-    #[serde(deserialize_with = "input::objects")]
+    #[serde(deserialize_with = "objects")]
     paths: Vec<P>,
 }
 
@@ -38,17 +39,11 @@ struct Shape {
     reason: Option<String>,
 }
 
-#[derive(Deserialize)]
-struct GivenPath {
-    #[serde(deserialize_with = "input::objects")]
-    pieces: Vec<Piece>,
-}
-
 impl Source {
     /// What stands in the input.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T> {
         let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
-        input::parse(&text, self.is_toml()).map_err(|e| self.blame(Error::invalid(e)))
+        read::parse(&text, self.is_toml()).map_err(|e| self.blame(Error::invalid(e)))
     }
 
     /// The paths in the input, each with its place for messages. Of several lines that are objects each, which batches
@@ -122,13 +117,13 @@ enum Read<P> {
 fn one<P: DeserializeOwned>(text: &str, toml: bool, place: &str) -> std::result::Result<Read<P>, String> {
     match if toml { None } else { serde_json::from_str::<Shape>(text).ok() } {
         Some(Shape { paths: None, pieces: Some(_), .. }) => {
-            Ok(Read::Paths(vec![(format!("{place}the path"), input::parse(text, false)?)]))
+            Ok(Read::Paths(vec![(format!("{place}the path"), read::parse(text, false)?)]))
         }
         Some(Shape { paths, reason: Some(reason), .. }) if paths.as_ref().is_none_or(Vec::is_empty) => {
             Ok(Read::None(reason))
         }
         _ => {
-            let Given { paths } = input::parse(text, toml)?;
+            let Given { paths } = read::parse(text, toml)?;
             Ok(Read::Paths((0..).zip(paths).map(|(i, path)| (format!("{place}paths[{i}]"), path)).collect()))
         }
     }

@@ -1,9 +1,8 @@
 //! `path spline`.
 
-use super::{Files, Outcome, PathReport, Paths, figure};
-use serde::Deserialize;
+use super::{Files, Outcome, figure};
 use spiral_atlas::Result;
-use spiral_atlas::path::spline;
+use spiral_atlas::tools::{Through, Tool};
 
 /// Lay a curve with continuous second derivative through points, open or closed.
 ///
@@ -17,19 +16,10 @@ pub(super) struct Args {
     files: Files,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    points: Vec<[f64; 2]>,
-    #[serde(default)]
-    closed: bool,
-}
-
 pub(super) fn run(args: &Args) -> Result<Outcome> {
-    let input: Input = args.files.read()?;
-    let found = spline(&input.points, input.closed).map_err(|e| args.files.blame(e))?;
-    let kind = if input.closed { "Closed" } else { "Open" };
-    let title = format!("{kind} spline through {} points", input.points.len());
-    let paths = vec![PathReport::new(&found.spans)];
-    args.files.finish(&Paths { paths }, || figure::curves(&[found.spans], &title))
+    let asked: Through = args.files.read()?;
+    let kind = if asked.closed { "Closed" } else { "Open" };
+    let title = format!("{kind} spline through {} points", asked.points.len());
+    let found = asked.answer().map_err(|e| args.files.blame(e))?;
+    args.files.finish(&found, || figure::reported(&found.paths, &title))
 }

@@ -31,6 +31,7 @@ from ._core import (
     solve,
     solve_batch,
 )
+from ._paths import path
 from ._stores import open, to_safetensors, to_zarr
 
 __all__ = [
@@ -52,6 +53,7 @@ __all__ = [
     "nearest",
     "open",
     "open_cells",
+    "path",
     "ranges",
     "solve",
     "solve_batch",

@@ -32,6 +32,7 @@ __all__ = [
     "nearest",
     "open",
     "open_cells",
+    "path",
     "ranges",
     "solve",
     "solve_batch",
@@ -231,6 +232,7 @@ def join(
     longest: float | None = None,
     most_pieces: int | None = None,
 ) -> Join: ...
+def path(tool: str, request: str) -> str: ...
 def ranges(
     family: str,
     axis: str,

@@ -1,0 +1,189 @@
+//! What is asked of paths that are given.
+
+use super::Tool;
+use super::input::objects;
+use crate::error::{Error, Result};
+use crate::path::{Course, Motion, OffsetCurve, Separation, Spot, Summary, Verdict, separations};
+use crate::plain::count;
+use crate::transition::{Piece, Station};
+use serde::{Deserialize, Serialize};
+
+/// Most samples of a path.
+pub const MOST_SAMPLES: u32 = 1_000_000;
+
+/// A path as all tools report it; other fields are left out of account.
+#[derive(Debug, Clone, Deserialize)]
+pub struct GivenPath {
+    /// In order.
+    #[serde(deserialize_with = "objects")]
+    pub pieces: Vec<Piece>,
+}
+
+/// The same, and when and how fast a vehicle travels along it.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Vehicle {
+    /// Its path.
+    #[serde(deserialize_with = "objects")]
+    pub pieces: Vec<Piece>,
+    /// Its constant speed; 1 where it is left out.
+    #[serde(default = "one")]
+    pub speed: f64,
+    /// When it starts; 0 where it is left out.
+    #[serde(default)]
+    pub start_time: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Vehicle {
+    /// Its motion.
+    ///
+    /// # Errors
+    /// Those of [`Motion::new`].
+    pub fn motion(self) -> Result<Motion> {
+        Motion::new(self.pieces, self.speed, self.start_time)
+    }
+}
+
+/// Whether vehicles keep a distance.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Apart {
+    /// Two at least.
+    #[serde(deserialize_with = "objects")]
+    pub paths: Vec<Vehicle>,
+    /// The distance to keep.
+    pub minimum: f64,
+}
+
+/// How near vehicles come.
+#[derive(Debug, Serialize)]
+pub struct Separations {
+    /// The distance to keep.
+    pub minimum: f64,
+    /// Of all pairs: the worst.
+    pub verdict: Verdict,
+    /// Each two.
+    pub pairs: Vec<Pair>,
+}
+
+/// Two vehicles.
+#[derive(Debug, Serialize)]
+pub struct Pair {
+    /// Index of one.
+    pub first: usize,
+    /// Index of the other, which is larger.
+    pub second: usize,
+    /// What is known of them.
+    #[serde(flatten)]
+    pub found: Separation,
+}
+
+impl Separations {
+    /// Of the motions of vehicles.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for fewer than two, or a minimum that is negative or not finite.
+    pub fn new(motions: &[Motion], minimum: f64) -> Result<Separations> {
+        if motions.len() < 2 {
+            return Err(Error::invalid(format!(
+                "`paths` has {}; it takes two to be apart",
+                count(motions.len(), "path")
+            )));
+        }
+        let found = separations(motions, minimum)?;
+        let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);
+        let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);
+        let pairs = found.into_iter().map(|(first, second, found)| Pair { first, second, found }).collect();
+        Ok(Separations { minimum, verdict, pairs })
+    }
+
+    /// The least separation of all pairs is no more than this.
+    pub fn least(&self) -> f64 {
+        self.pairs.iter().map(|pair| pair.found.closest.at_most).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// At all times, proved.
+impl Tool for Apart {
+    type Answer = Separations;
+
+    fn answer(self) -> Result<Separations> {
+        let motion = |(i, vehicle): (usize, Vehicle)| vehicle.motion().map_err(|e| e.at(format!("paths[{i}]")));
+        let motions = self.paths.into_iter().enumerate().map(motion).collect::<Result<Vec<_>>>()?;
+        Separations::new(&motions, self.minimum)
+    }
+}
+
+/// Numbers, places and offset curves of paths.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measure {
+    /// One or more.
+    #[serde(deserialize_with = "objects")]
+    pub paths: Vec<GivenPath>,
+    /// So many points at equal steps of length, both ends included.
+    pub samples: Option<u32>,
+    /// Distance of an offset curve, positive to the left.
+    pub offset: Option<f64>,
+}
+
+/// What was measured.
+#[derive(Debug, Serialize)]
+pub struct Measures {
+    /// Of each path.
+    pub paths: Vec<Measured>,
+}
+
+/// A path, measured.
+#[derive(Debug, Serialize)]
+pub struct Measured {
+    /// In a few numbers.
+    #[serde(flatten)]
+    pub summary: Summary,
+    /// Where its curvature is extreme.
+    pub curvature_extrema: Vec<Spot>,
+    /// Where its curvature changes its sign.
+    pub inflections: Vec<Spot>,
+    /// As many as were asked for.
+    pub samples: Vec<Station>,
+    /// Where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub offset: Option<Vec<OffsetCurve>>,
+}
+
+impl Measured {
+    /// Of a path.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for numbers of samples outside 2 to [`MOST_SAMPLES`], and for an offset that is not finite.
+    pub fn new(course: &Course, samples: Option<u32>, offset: Option<f64>) -> Result<Measured> {
+        if let Some(n) = samples.filter(|n| !(2..=MOST_SAMPLES).contains(n)) {
+            return Err(Error::domain("`samples`", f64::from(n), format!("from 2 to {MOST_SAMPLES}")));
+        }
+        Ok(Measured {
+            summary: course.summary(),
+            curvature_extrema: course.curvature_extrema(),
+            inflections: course.inflections(),
+            samples: samples.map_or(Ok(vec![]), |count| course.stations(count as usize))?,
+            offset: offset.map(|d| course.offset(d)).transpose()?,
+        })
+    }
+}
+
+/// Of each path in turn.
+impl Tool for Measure {
+    type Answer = Measures;
+
+    fn answer(self) -> Result<Measures> {
+        let (samples, offset) = (self.samples, self.offset);
+        let measured = |(i, path): (usize, GivenPath)| {
+            Course::new(path.pieces)
+                .and_then(|course| Measured::new(&course, samples, offset))
+                .map_err(|e| e.at(format!("paths[{i}]")))
+        };
+        Ok(Measures { paths: self.paths.into_iter().enumerate().map(measured).collect::<Result<_>>()? })
+    }
+}
