@@ -46,7 +46,7 @@ pub struct SpiralEnd {
 
 /// A point of a curve.
 #[repr(C)]
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct SpiralStation {
     /// Arc length from the start.
     pub station: f64,

@@ -224,7 +224,7 @@ static void paths(void) {
     SpiralReport *report = NULL;
     const char *wave = "{\"points\": [[0, 0], [1, 1], [2, 0], [3, 1]]}";
     CHECK(spiral_path("spline", wave, &report) == SPIRAL_OK);
-    CHECK(strncmp(spiral_report_json(report), "{\"paths\":[{\"length\":", 21) == 0);
+    CHECK(strncmp(spiral_report_json(report), "{\"paths\":[{\"length\":", 20) == 0);
     spiral_report_close(report);
     spiral_report_close(NULL);
     CHECK(spiral_report_json(NULL) == NULL);

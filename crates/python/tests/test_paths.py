@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import spiral_atlas
 
-LINE = {"kind": "line", "start": (0, 0), "direction": 0, "curvature": 0, "length": 1}
+LINE = {"kind": "line", "start": (0, 0), "direction": 0, "end": (1, 0)}
 
 
 def test_a_spline_goes_through_its_points_and_is_measured():
@@ -55,7 +55,7 @@ def test_the_other_tools_answer_too():
     [
         ("splines", {}, ValueError, "unknown tool `splines`; known are `hermite`"),
         ("spline", {"points": [(0, 0), (1, "x")]}, ValueError, "points[1][1]"),
-        ("spline", {"points": [(0, 0), (1, math.nan)]}, ValueError, "nan"),
+        ("spline", {"points": [(0, 0), (1, math.nan)]}, ValueError, "JSON compliant"),
         ("spline", {"points": {1, 2}}, TypeError, "no form in JSON"),
         ("spline", {"points": [(0, 0), (1, 1)], "close": True}, ValueError, "close"),
         ("separation", {"paths": [], "minimum": 1}, ValueError, "it takes two"),
