@@ -112,7 +112,8 @@
 //! | --- | --- |
 //! | `gpu` | the evaluator on GPUs, by wgpu |
 //! | `cli` | the program, with `picture` and `export` |
-//! | `export` | paths as files of other programs: OpenDRIVE |
+//! | `dxf` | drawings in DXF, with `export` |
+//! | `export` | paths as files of other programs: OpenDRIVE, motion primitives for nav2 |
 //! | `picture` | pictures as PNG files, with `recipe` |
 //! | `recipe` | the reader of recipes alone |
 

@@ -1,15 +1,17 @@
-"""Roads made by `export opendrive`: each file is read back here, geometry by geometry, and judged by others' programs.
+"""Roads made by `export opendrive`, and drawings by `export dxf`: each file is read back, and judged by others' programs.
 
     python tests/opendrive.py PROGRAM FOLDER
 """
 
 import json
 import math
+import os
 import subprocess
 import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import ezdxf
 import numpy as np
 from scipy.integrate import quad
 
@@ -146,6 +148,42 @@ def judged(path):
     return checkers.count("completed"), len(ElementTree.parse(network).getroot().findall("edge"))
 
 
+def drawing(name, text):
+    """The same paths in DXF, read by ezdxf: control points and ends of arcs are those of the JSON."""
+    path = folder / f"{name}.dxf"
+    run("export", "dxf", "-", "--out", str(path), stdin=text)
+    document = ezdxf.readfile(path)
+    assert not document.audit().errors, name
+    entities = list(document.modelspace())
+    pieces = [(i, piece) for i, asked in enumerate(json.loads(text)["paths"]) for piece in asked["pieces"]]
+    assert len(entities) == len(pieces)
+    worst = 0.0
+    for entity, (i, piece) in zip(entities, pieces):
+        assert entity.dxf.layer == f"PATH_{i + 1}"
+        if entity.dxftype() == "SPLINE":
+            n = len(piece["control_points"])
+            assert entity.dxf.degree == n - 1 and list(entity.knots) == [0] * n + [1] * n
+            found, true = np.array(entity.control_points)[:, :2], np.array(piece["control_points"])
+        elif entity.dxftype() == "LINE":
+            found, true = np.array([entity.dxf.start, entity.dxf.end])[:, :2], np.array([piece["start"], piece["end"]])
+        else:
+            found = np.array([entity.start_point, entity.end_point])[:, :2]
+            k, turn = piece["curvature"], piece["curvature"] * piece["length"]
+            if k < 0:
+                found = found[::-1]
+            heading = piece.get("start_direction", piece.get("direction"))
+            normal = np.array([-math.sin(heading), math.cos(heading)])
+            end = np.array(piece["start"]) + (math.sin(turn) * np.array([normal[1], -normal[0]]) + (1 - math.cos(turn)) * normal) / k
+            true = np.array([piece["start"], end])
+        worst = max(worst, np.abs(found - true).max() / max(1, np.abs(true).max()))
+    assert worst < 2e-12, (name, worst)
+    first = path.read_bytes()
+    environment = dict(os.environ, TZ="Asia/Tokyo")
+    subprocess.run([program, "export", "dxf", "-", "--out", path], input=text, text=True, check=True, env=environment)
+    assert path.read_bytes() == first, f"{name}: other bytes in another time zone"
+    print(f"{name:16} in DXF: {len(entities)} entities, {worst:.1e} of the size")
+
+
 def main():
     for name, text in CASES.items():
         path = folder / f"{name}.xodr"
@@ -161,6 +199,8 @@ def main():
         checks, edges = judged(path)
         assert edges >= 1
         print(f"{name:16} joints {joint:.1e} m, {heading:.1e} rad, {curvature:.1e} / m; distance {distance:.1e} m; {checks} checks")
+    for name, text in CASES.items():
+        drawing(name, text)
     tight = run("export", "opendrive", "-", "--tolerance", "1e-9", stdin=CASES["ph-quintic"])[1]
     assert float(tight.rsplit("at most ", 1)[1].split()[0]) < 1e-6, tight
     broken = (folder / "cubic.xodr").read_text().replace('length="229', 'length="228')
@@ -171,6 +211,14 @@ def main():
         print("a wrong length is seen")
     else:
         sys.exit("the check cannot fail")
+    far_arc = {"kind": "arc", "start": [0, 0], "direction": 0, "curvature": 1e-10, "length": 1}
+    for piece, words in [(far_arc, "radius"), ({"kind": "line", "start": [0, 0], "end": [1e-6, 0]}, "length"),
+                         ({"kind": "line", "start": [0, 0], "end": [1e10, 0]}, "beyond 1e9")]:
+        text = json.dumps({"paths": [{"pieces": [piece]}]})
+        _, wrong = run("export", "dxf", "-", "--out", str(folder / "none.dxf"), stdin=text, status=2)
+        assert words in wrong and "paths[0].pieces[0]" in wrong and not (folder / "none.dxf").exists(), wrong
+    involute = curve(ENDS + " --family involute")
+    assert "involute" in run("export", "dxf", "-", "--out", str(folder / "none.dxf"), stdin=involute, status=2)[1]
 
 
 main()

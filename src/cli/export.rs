@@ -6,7 +6,7 @@ use super::path::Source;
 use super::{Outcome, numbers, output};
 use lattice::LatticeArgs;
 use spiral_atlas::Result;
-use spiral_atlas::export::{OpenDrive, opendrive};
+use spiral_atlas::export::{OpenDrive, dxf, opendrive};
 use spiral_atlas::files::write_file;
 use spiral_atlas::path::Course;
 use spiral_atlas::plain::count;
@@ -26,6 +26,7 @@ pub(super) struct Args {
 #[derive(clap::Subcommand)]
 enum Format {
     Opendrive(RoadArgs),
+    Dxf(DrawingArgs),
     Lattice(LatticeArgs),
 }
 
@@ -53,12 +54,36 @@ struct RoadArgs {
     out: Option<PathBuf>,
 }
 
+/// DXF: a drawing of all paths for CAD programs, with a layer PATH_1, PATH_2, .. for each.
+///
+/// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in any unit, as `curve --json`, `join` and the tools of `path` print
+/// it, or a line of JSON for each of several, as with --points; lines without a path are told on standard error.
+///
+/// Lines, arcs, cubic curves and PH quintics are exact: LINE, ARC, and SPLINE of degree 3 and 5, with 12 decimals.
+/// Involutes and trigonometric curves are refused.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  spiral-atlas export dxf path.json --out path.dxf")]
+struct DrawingArgs {
+    #[command(flatten)]
+    source: Source,
+    /// Where the file goes.
+    #[arg(long, value_name = "FILE.dxf")]
+    out: PathBuf,
+}
+
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<Outcome> {
     match &args.format {
         Format::Opendrive(args) => road(args),
+        Format::Dxf(args) => drawing(args),
         Format::Lattice(args) => lattice::run(args),
     }
+}
+
+fn drawing(args: &DrawingArgs) -> Result<Outcome> {
+    let paths: Vec<Course> = args.source.courses()?.into_iter().map(|(_, course)| course).collect();
+    write_file(&args.out, &dxf(&paths).map_err(|e| args.source.blame(e))?)?;
+    Ok(Outcome::Fine)
 }
 
 fn road(args: &RoadArgs) -> Result<Outcome> {
