@@ -275,7 +275,7 @@ def the_page_and_the_program_agree(browser):
     table = "x0,y0,direction0,curvature0,x1,y1,direction1,curvature1\n" + "".join(",".join(map(repr, row)) + "\n" for row in data)
     worst, yes = 0.0, {}
     for kind in ("cubic", "ph-quintic", "involute"):
-        lines = run("curve", "--family", kind, "--points", "-", stdin=table).splitlines()
+        lines = run("curve", kind, "--points", "-", stdin=table).splitlines()
         assert len(lines) == len(data)
         for row, line, answer in zip(data, lines, shown):
             native, curve = json.loads(line), answer["curves"][kind]

@@ -26,8 +26,8 @@ def run(*arguments, stdin=None, status=0):
     return done.stdout, done.stderr
 
 
-def curve(options):
-    return run("curve", *options.split(), "--json")[0]
+def curve(kind, options):
+    return run("curve", kind, *options.split(), "--json")[0]
 
 
 LINE_ARC = json.dumps({"paths": [
@@ -39,10 +39,10 @@ LINE_ARC = json.dumps({"paths": [
 ]})
 CASES = {
     "line-arc": LINE_ARC,
-    "cubic": curve(ENDS),
-    "cubic-far": curve(FAR),
-    "ph-quintic": curve(ENDS + " --family ph-quintic"),
-    "ph-quintic-far": curve(FAR + " --family ph-quintic"),
+    "cubic": curve("cubic", ENDS),
+    "cubic-far": curve("cubic", FAR),
+    "ph-quintic": curve("ph-quintic", ENDS),
+    "ph-quintic-far": curve("ph-quintic", FAR),
     "spline": run("path", "spline", "examples/lap.json")[0],
 }
 

@@ -226,7 +226,7 @@ impl fmt::Display for NoSpiral {
                     degrees(start_angle + end_angle)
                 )?;
                 if *turned {
-                    f.write_str("; only a spiral that goes round an end does: `--family involute --turns 0,1`")
+                    f.write_str("; only a spiral that goes round an end does: `curve involute --turns 0,1`")
                 } else {
                     Ok(())
                 }

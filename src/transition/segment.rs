@@ -8,10 +8,10 @@ use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::{Error, Result, finite, positive, written};
 use crate::family::reach::{Datum, Kind, Level, legs, level_of_shape, preimage, solve};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What the segment is added to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Base {
     /// The end of a straight line: curvature grows from 0 to 1/r (case 1).

@@ -277,7 +277,7 @@ public:
     double length() const noexcept { return spiral_curve_length(handle_.get()); }
     std::string kind() const { return spiral_curve_kind(handle_.get()); }
 
-    /// All that rebuilds it exactly: the piece as `curve --json` has it, or {"pieces": [..]} of several.
+    /// All that rebuilds it exactly: the piece as `curve` has it, or {"pieces": [..]} of several.
     std::string json() const { return spiral_curve_json(handle_.get()); }
 
     /// Control points; an involute, a line, an arc and a curve of several pieces have none.

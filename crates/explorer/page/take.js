@@ -23,7 +23,7 @@ export function command(s) {
   }
   const e = s.ends;
   return [
-    `spiral-atlas curve --family ${s.kind}`,
+    `spiral-atlas curve ${s.kind}`,
     `--from=${e.start.join(",")} --to=${e.end.join(",")}`,
     `--start-direction=${tellAngle(e.start_direction)} --end-direction=${tellAngle(e.end_direction)}`,
     `--start-curvature=${e.start_curvature} --end-curvature=${e.end_curvature}`,

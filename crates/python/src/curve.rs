@@ -45,7 +45,7 @@ impl Curve {
 
 #[pymethods]
 impl Curve {
-    /// Makes a curve of what `to_dict`, `curve --json` under `pieces`, or `join` says: one piece, or {"pieces": [..]}.
+    /// Makes a curve of what `to_dict`, `curve` under `pieces`, or `join` says: one piece, or {"pieces": [..]}.
     #[staticmethod]
     fn from_dict(dict: &Bound<'_, PyAny>) -> PyResult<Curve> {
         let wrong = |what: String| PyValueError::new_err(format!("this is no curve: {what}"));

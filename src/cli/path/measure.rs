@@ -11,7 +11,7 @@ use std::io::Write;
 /// Tell of paths: points at equal steps of arc length, where the curvature is extreme and where it changes its sign,
 /// and offset curves.
 ///
-/// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools, `join` and `curve --json` print it, or a line
+/// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools, `join` and `curve NAME --json` print it, or a line
 /// of JSON for each of several, as with --points; lines without a path are told on standard error, and not counted.
 /// Other fields are left out of account. Pieces of all kinds are read. A `station` is the length from the start of the
 /// path, a `parameter` that of the piece.

@@ -25,7 +25,7 @@ use std::path::PathBuf;
 /// among obstacles, and apart from each other.
 ///
 /// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others
-/// print has `paths`, which `separation` and `measure` read, and so they read what `curve --json` and `join` print,
+/// print has `paths`, which `separation` and `measure` read, and so they read what `curve NAME --json` and `join` print,
 /// also with --points. Any unit of length; angles are radians, or degrees when written like "40deg".
 #[derive(clap::Args)]
 #[command(
