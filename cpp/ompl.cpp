@@ -244,7 +244,8 @@ int main(int count, char **arguments) {
         std::printf("%-8s %15.3f %8.2f %15.3f %8.2f %15.3f %8.2f\n", scene.name, rrt.seconds, rrt.length, star.seconds, star.length,
                     curves.seconds, curves.length);
     }
-    // Random pairs within ten least radii: how many are joined, how much longer than Dubins' curves, and the time of each.
+    // Random pairs within ten least radii: how many are joined, how much longer than Dubins' curves, and the time of
+    // each.
     const std::size_t pairs = 5000;
     auto dubins_space = std::make_shared<ob::DubinsStateSpace>(1 / limit);
     ompl::RNG random;

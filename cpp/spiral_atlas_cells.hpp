@@ -261,7 +261,8 @@ public:
     }
 
 private:
-    /// Of a number within the ends: it never falls while x rises. The bits of positive doubles rise like their logarithm.
+    /// Of a number within the ends: it never falls while x rises. The bits of positive doubles rise like their
+    /// logarithm.
     double position(double x) const noexcept {
         if (!log_) return 0.5 * x;
         std::uint64_t bits;

@@ -7,8 +7,8 @@
  *
  * Steering can fail: between two states there may be no join. checkMotion() is false then, and interpolate() gives the
  * second state. Set the planner's range so large that motions are not cut (a state in the middle of a join is often
- * not reached by a shorter one), and use planners that build their tree from the start: RRT, RRTstar, EST. docs/planners.md
- * has an example and figures.
+ * not reached by a shorter one), and use planners that build their tree from the start: RRT, RRTstar, EST.
+ * docs/planners.md has an example and figures.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0 */
 

@@ -1,7 +1,7 @@
-// Paths of PH quintics in f32: which solution bends least, and how; twin of curve/hodograph.rs, with one error bound for
-// all coefficients of a piece. The fragment of a family adds `ends`. Guesses use / and sqrt. Proofs use + - * and
-// comparisons, and / and sqrt only where a thousandth more covers them; they count roundings per term, so they hold with
-// fused multiply-adds and reassociated sums.
+// Paths of PH quintics in f32: which solution bends least, and how; twin of curve/hodograph.rs, with one error bound
+// for all coefficients of a piece. The fragment of a family adds `ends`. Guesses use / and sqrt. Proofs use + - * and
+// comparisons, and / and sqrt only where a thousandth more covers them; they count roundings per term, so they hold
+// with fused multiply-adds and reassociated sums.
 
 // Pre-image; each coefficient is off by at most `error`.
 struct Curve {

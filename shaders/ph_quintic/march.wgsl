@@ -66,7 +66,8 @@ fn meets(a: Knot, b: Knot) -> u32 {
     return OPEN;
 }
 
-// A knot's heights against the limits of both curves beyond it: `high` is that of one curve, `low`, if positive, that of the other.
+// A knot's heights against the limits of both curves beyond it: `high` is that of one curve, `low`, if positive, that
+// of the other.
 fn clear_of(first: f32, second: f32, error: f32, high: Near, low: Near) -> bool {
     return first * (1.0 - error) > high.value * (1.0 + high.error) + 8.0 * UNIT * first
         || (low.value > 0.0 && second * (1.0 - error) > low.value * (1.0 + low.error) + 8.0 * UNIT * second);

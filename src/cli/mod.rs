@@ -65,9 +65,8 @@ enum Command {
     Path(path::Args),
     Export(export::Args),
     /// Print shell completions.
-    #[command(
-        after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas"
-    )]
+    #[command(after_help = "Example:\n  \
+                  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]
     Completions {
         /// The shell.
         shell: clap_complete::Shell,

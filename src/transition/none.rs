@@ -219,8 +219,8 @@ impl fmt::Display for NoSpiral {
                 let (goes, sign) = if *rising { ("rises", "above") } else { ("falls", "below") };
                 write!(
                     f,
-                    "against the chord the start direction is {} and the end direction {} (positive to the left); where the curvature \
-                     {goes} from start to end, as here, their sum must be {sign} 0, and it is {}",
+                    "against the chord the start direction is {} and the end direction {} (positive to the left); \
+                     where the curvature {goes} from start to end, as here, their sum must be {sign} 0, and it is {}",
                     degrees(*start_angle),
                     degrees(*end_angle),
                     degrees(start_angle + end_angle)

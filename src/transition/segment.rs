@@ -174,7 +174,8 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
     }
     if !control_points.iter().flatten().all(|x| x.is_finite()) {
         let what = format!(
-            "the segment from {start:?} with the radius {radius:?} leaves the range of doubles; change the unit of length"
+            "the segment from {start:?} with the radius {radius:?} leaves the range of doubles; change the unit of \
+             length"
         );
         return Err(Error::invalid(what));
     }
@@ -213,7 +214,8 @@ fn why(case: u8, theta: f64, point: Vector, [xi, eta]: Vector) -> String {
     };
     let ([x, y], [xi, eta], theta) = (point.map(written), [xi, eta].map(written), degrees(theta));
     format!(
-        "the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, {what}"
+        "the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, \
+         {what}"
     )
 }
 

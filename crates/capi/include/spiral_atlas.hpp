@@ -32,7 +32,8 @@ private:
     SpiralStatus status_;
 };
 
-/// A view of numbers side by side in memory: what std::span is in C++20. Containers with data() and size() turn into it.
+/// A view of numbers side by side in memory: what std::span is in C++20. Containers with data() and size() turn into
+/// it.
 template <typename T> class View {
 public:
     constexpr View() noexcept = default;

@@ -82,8 +82,8 @@ struct Boundary {
     std::array<double, 2> cell;                             ///< sides of a cell
 };
 
-/// The outline in the slice in which the coordinates with the numbers `axes` vary within `within`, in `cells` cells along
-/// each side: a power of two up to 4096.
+/// The outline in the slice in which the coordinates with the numbers `axes` vary within `within`, in `cells` cells
+/// along each side: a power of two up to 4096.
 inline Boundary boundary(const std::string &family, View<const double> datum, std::array<std::size_t, 2> axes,
                          std::array<std::array<double, 2>, 2> within, std::size_t cells = 256, const std::string &flag = {},
                          const std::string &chart = {}) {

@@ -51,8 +51,8 @@ function contrast(a, b) {
 }
 
 /**
- * Paints a picture. `rank` has for each pixel, top row first, how many regions hold it, innermost last; `within` whether the outlined
- * condition holds.
+ * Paints a picture. `rank` has for each pixel, top row first, how many regions hold it, innermost last; `within`
+ * whether the outlined condition holds.
  */
 export function paint(canvas, width, height, rank, fills, within) {
   const { paper, edge, line } = colours();

@@ -166,7 +166,8 @@ fn told(found: Option<(Piece, Value)>, why: Option<(String, Value)>, others: Vec
 fn drawn(piece: &Piece, facts: &Value, samples: &Samples) -> Result<Value> {
     let greatest = samples.iter().map(|s| s[4].abs()).fold(0.0, f64::max);
     Ok(json!({
-        "spiral": true, "length": piece.length(), "greatest_curvature": greatest, "control_points": piece.control_points(),
+        "spiral": true, "length": piece.length(), "greatest_curvature": greatest,
+        "control_points": piece.control_points(),
         "piece": piece, "facts": facts, "samples": samples,
     }))
 }

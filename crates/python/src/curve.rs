@@ -235,7 +235,9 @@ impl Direction {
 /// Raises:
 ///     ValueError: a value is not finite, both points are one, or the like.
 #[pyfunction]
-#[pyo3(signature = (start, end, start_direction, end_direction, start_curvature, end_curvature, *, family = "cubic", longest = None))]
+#[pyo3(signature = (
+    start, end, start_direction, end_direction, start_curvature, end_curvature, *, family = "cubic", longest = None
+))]
 #[expect(clippy::too_many_arguments, reason = "two ends have six values; in Python all of them have names")]
 pub(crate) fn fit(
     py: Python<'_>,

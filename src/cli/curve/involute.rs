@@ -89,7 +89,8 @@ impl Reportable for Answer {
             Ok(Image { curve, split }) => {
                 let [rho, lambda] = curve.map();
                 let mut text = format!(
-                    "spiral, the image of an involute, length {:?}; it has no control points: ask for points with `--samples 101`\n\
+                    "spiral, the image of an involute, length {:?}; it has no control points: ask for points with \
+                     `--samples 101`\n\
                      theta = {:?}, t0 = {:?}, rho = {rho:?}, lambda = {lambda:?}\n",
                     self.length.unwrap_or_default(),
                     curve.theta(),
@@ -102,12 +103,13 @@ impl Reportable for Answer {
                         format!("turns {n1} times about its start and {n2} times about its end, as asked\n")
                     }
                     Split::Other => format!(
-                        "turns {n1} times about its start and {n2} times about its end, not {},{}, which some other spiral does\n",
+                        "turns {n1} times about its start and {n2} times about its end, not {},{}, which some other \
+                         spiral does\n",
                         turns[0], turns[1]
                     ),
                     Split::Impossible { least, most } => format!(
-                        "turns {n1} times about its start and {n2} times about its end, not {},{}: any spiral turns {least} to {most} \
-                         times about its start\n",
+                        "turns {n1} times about its start and {n2} times about its end, not {},{}: any spiral turns \
+                         {least} to {most} times about its start\n",
                         turns[0], turns[1]
                     ),
                 };

@@ -37,41 +37,35 @@ pub(super) struct Args {
 #[derive(clap::Subcommand)]
 enum Family {
     /// Join two ends by a cubic Bézier spiral: of several the one with the largest margin.
-    #[command(
-        after_help = "Examples:\n  spiral-atlas curve cubic --from 0,0 --to 200,0 --start-direction -40deg --end-direction 80deg \\\n      \
-                            --start-curvature 0.004 --end-curvature 0.04 --figure spiral.png\n  \
-                            spiral-atlas curve cubic --points ends.csv --samples 101 --csv"
-    )]
+    #[command(after_help = "Examples:\n  \
+            spiral-atlas curve cubic --from 0,0 --to 200,0 --start-direction -40deg --end-direction 80deg \\\n      \
+            --start-curvature 0.004 --end-curvature 0.04 --figure spiral.png\n  \
+            spiral-atlas curve cubic --points ends.csv --samples 101 --csv")]
     Cubic(options::Between),
     /// Join two ends by a PH quintic spiral: of several the one of least bending energy.
-    #[command(
-        after_help = "Example:\n  spiral-atlas curve ph-quintic --from 0,0 --to 200,0 --start-direction -25deg --end-direction 50deg \\\n      \
-                            --start-curvature 0 --end-curvature 0.012 --json"
-    )]
+    #[command(after_help = "Example:\n  \
+            spiral-atlas curve ph-quintic --from 0,0 --to 200,0 --start-direction -25deg \\\n      \
+            --end-direction 50deg --start-curvature 0 --end-curvature 0.012 --json")]
     PhQuintic(options::Between),
     /// Join two ends by the image of an involute of a circle, which exists whenever any spiral does.
-    #[command(
-        after_help = "Example:\n  spiral-atlas curve involute --from 0,0 --to 2,0 --start-direction 1,-0.84 \\\n      \
-                            --end-direction 0.17,0.98 --start-curvature -0.3 --end-curvature 4 --json"
-    )]
+    #[command(after_help = "Example:\n  \
+            spiral-atlas curve involute --from 0,0 --to 2,0 --start-direction 1,-0.84 \\\n      \
+            --end-direction 0.17,0.98 --start-curvature -0.3 --end-curvature 4 --json")]
     Involute(involute::Args),
     /// Add a cubic spiral to the end of a line or of an arc, given by its shape m and q or by its end.
-    #[command(
-        after_help = "Example:\n  spiral-atlas curve reach-cubic --base line --from 10,5 --start-direction 30deg --turn left \\\n      \
-                            --radius 20 --angle 45deg --m 0.8 --q 1.9"
-    )]
+    #[command(after_help = "Example:\n  \
+            spiral-atlas curve reach-cubic --base line --from 10,5 --start-direction 30deg --turn left \\\n      \
+            --radius 20 --angle 45deg --m 0.8 --q 1.9")]
     ReachCubic(reach::Args),
     /// Add a PH quintic spiral to the end of a line or of an arc, given by its shape m and q or by its end.
-    #[command(
-        after_help = "Example:\n  spiral-atlas curve reach-ph --base line --from 10,5 --start-direction 30deg --turn left \\\n      \
-                            --radius 20 --angle 45deg --to 30,25"
-    )]
+    #[command(after_help = "Example:\n  \
+            spiral-atlas curve reach-ph --base line --from 10,5 --start-direction 30deg --turn left \\\n      \
+            --radius 20 --angle 45deg --to 30,25")]
     ReachPh(reach::Args),
     /// Join lines and circles by one or two quintic trigonometric spirals, in five templates.
-    #[command(
-        after_help = "Example:\n  spiral-atlas curve trig-quintic --template line-circle --from 10,5 --start-direction 30deg \\\n      \
-                            --turn left --radius 20 --angle 42deg --m 1"
-    )]
+    #[command(after_help = "Example:\n  \
+            spiral-atlas curve trig-quintic --template line-circle --from 10,5 --start-direction 30deg \\\n      \
+            --turn left --radius 20 --angle 42deg --m 1")]
     TrigQuintic(trig::Args),
 }
 

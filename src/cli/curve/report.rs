@@ -56,9 +56,9 @@ impl Path {
     /// Points at equal lengths. The curvature of an end that is straight by the question is 0.
     ///
     /// There the first two sides of the polygon, or the first two numbers of the pre-image, are multiples of each
-    /// other. Turned into the user's frame each of their coordinates has a few roundings, so their cross product is no 0
-    /// but up to 2^-51 of the product of their lengths a and b. The curvature shown is some b 2^-51 over a²: a rounding
-    /// of this frame, and nothing of the curve.
+    /// other. Turned into the user's frame each of their coordinates has a few roundings, so their cross product is no
+    /// 0 but up to 2^-51 of the product of their lengths a and b. The curvature shown is some b 2^-51 over a²: a
+    /// rounding of this frame, and nothing of the curve.
     fn stations(&self, count: u32, found: &impl Reportable) -> Result<Vec<Station>> {
         let mut all = self.course.stations(count as usize)?;
         let last = all.len() - 1;
@@ -199,8 +199,8 @@ fn command(kind: reach::Kind, request: &Request, to: [f64; 2]) -> String {
     let Request { base, start, direction, turn, radius, theta, .. } = request;
     let base = if *base == Base::Line { "line" } else { "circle" };
     format!(
-        "spiral-atlas curve {} --base {base} --from={:?},{:?} --start-direction={direction:?} --turn {turn} --radius {radius:?} \
-         --angle {theta:?} --to={:?},{:?}",
+        "spiral-atlas curve {} --base {base} --from={:?},{:?} --start-direction={direction:?} --turn {turn} --radius \
+         {radius:?} --angle {theta:?} --to={:?},{:?}",
         kind.name(),
         start[0],
         start[1],

@@ -154,8 +154,8 @@ impl Turns<'_> {
         // A join that leaves a line elsewhere would go back to it.
         if (whole - fit.length).abs() > 1e-6 * fit.length {
             return Err(Error::invalid(format!(
-                "lattice: the turn from heading {heading} to heading {} at {end:?} should be {} m long, and the join found is {whole} m; \
-                 take another family or radius",
+                "lattice: the turn from heading {heading} to heading {} at {end:?} should be {} m long, and the join \
+                 found is {whole} m; take another family or radius",
                 to.heading, fit.length
             )));
         }
