@@ -122,5 +122,6 @@ fn enclose(curves: Curves, a: Knot, b: Knot) -> Root {
     let falls = left.gap > left.gap_error && right.gap < -right.gap_error && side;
     let rises = left.gap < -left.gap_error && right.gap > right.gap_error && !side;
     let around = COVER * reach + 4.0 * UNIT;
-    return Root(Near(at.t, around), Near(at.z.x, 2.1 * around + 1.05 * at.z_error), inside && (falls || rises) && reach < 0.02);
+    return Root(Near(at.t, around), Near(at.z.x, 2.1 * around + 1.05 * at.z_error),
+                inside && (falls || rises) && reach < 0.02);
 }

@@ -138,7 +138,8 @@ public:
     /// The nearest node of each point. `points` are coordinates, one point after another.
     Lookup lookup(View<const double> points) const {
         const std::size_t count = detail::rows(points, axes());
-        Lookup found{std::vector<std::int64_t>(count), std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count)};
+        Lookup found{std::vector<std::int64_t>(count), std::vector<std::uint8_t>(count),
+                     std::vector<std::uint8_t>(count)};
         detail::check(spiral_atlas_lookup(handle_.get(), points.data(), count, found.nodes.data(), found.flags.data(),
                                           found.solutions.data()));
         return found;
@@ -178,7 +179,8 @@ public:
     Known lookup(View<const double> points) const {
         const std::size_t count = detail::rows(points, axes());
         Known known{std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count)};
-        detail::check(spiral_cells_lookup(handle_.get(), points.data(), count, known.inside.data(), known.outside.data()));
+        detail::check(spiral_cells_lookup(handle_.get(), points.data(), count, known.inside.data(),
+                                          known.outside.data()));
         return known;
     }
 
@@ -309,7 +311,8 @@ private:
 ///
 /// `kind` is "cubic", "ph-quintic" or "involute"; a curve longer than `longest` counts as none.
 inline std::optional<Curve> fit(const End &start, const End &end, const std::string &kind = "cubic",
-                                double longest = std::numeric_limits<double>::infinity(), std::string *reason = nullptr) {
+                                double longest = std::numeric_limits<double>::infinity(),
+                                std::string *reason = nullptr) {
     SpiralCurve *curve = nullptr;
     const SpiralStatus status = spiral_fit(&start, &end, kind.c_str(), longest, &curve);
     if (status == SPIRAL_NONE) {
@@ -322,8 +325,10 @@ inline std::optional<Curve> fit(const End &start, const End &end, const std::str
 
 /// A path from one state to another by proved spirals, arcs and lines, with continuous curvature that never exceeds
 /// `greatest_curvature`; the shortest of those tried, or none; then `reason`, where it is given, says why.
-inline std::optional<Curve> join(const End &start, const End &end, double greatest_curvature, const std::string &kind = "cubic",
-                                 double longest = std::numeric_limits<double>::infinity(), std::string *reason = nullptr) {
+inline std::optional<Curve> join(const End &start, const End &end, double greatest_curvature,
+                                 const std::string &kind = "cubic",
+                                 double longest = std::numeric_limits<double>::infinity(),
+                                 std::string *reason = nullptr) {
     SpiralCurve *curve = nullptr;
     const SpiralStatus status = spiral_join(&start, &end, greatest_curvature, kind.c_str(), longest, &curve);
     if (status == SPIRAL_NONE) {
