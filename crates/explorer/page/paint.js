@@ -2,7 +2,10 @@
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
-/** Paper, and regions from the largest to the innermost: those of the pictures. In the dark, what is paper or grey there is dark. */
+/**
+ * Paper, and regions from the largest to the innermost: those of the pictures. In the dark, what is paper or grey there
+ * is dark.
+ */
 const LIGHT = {
   paper: [255, 255, 255],
   ramp: [
