@@ -161,7 +161,7 @@ def drags_change_verdicts_and_numbers(browser):
     assert 0 < ends["end_curvature"] < 0.014, ends
     assert [page.word(kind) for kind in ("cubic", "ph-quintic", "involute")] == ["none"] * 3
     assert "circles cross" in page.page.inner_text("#reason") and "off by" in page.page.inner_text("#reason")
-    page.page.click("#nearest")
+    page.page.click("#nearby")
     page.rest()
     assert page.word("cubic") == "spiral" and "proved" in page.page.inner_text("#reason")
     # The cursor of the region: out of it, and back by the keyboard.

@@ -98,13 +98,13 @@ export function reason(element, answer, state, advice, take) {
   if (list.length) parts.push(html("ul", { class: "needs" }, ...list));
   const told = measure(why);
   if (told) parts.push(html("p", {}, told));
-  if (advice?.nearest) {
+  if (advice?.nearby) {
     parts.push(
       html(
         "button",
-        { class: "take", id: "nearest", onclick: () => take(advice.nearest) },
-        html("b", {}, "Nearest that works"),
-        html("span", {}, changes(answer.ends, advice.nearest, unit)),
+        { class: "take", id: "nearby", onclick: () => take(advice.nearby) },
+        html("b", {}, "Nearest found"),
+        html("span", {}, changes(answer.ends, advice.nearby, unit)),
       ),
     );
   }
