@@ -29,8 +29,8 @@ const HALVINGS: u32 = 10;
 /// A step: of the start and end curvature, and of the start and end direction.
 type Way = [f64; 4];
 
-/// Ends that a spiral of a kind joins, near the given ones: the nearest of those that are tried. The points stay as they
-/// are.
+/// Ends that a spiral of a kind joins, near the given ones: the nearest of those that are tried. The points stay
+/// as they are.
 ///
 /// A distance is measured in directions (radians) and in the inverse hyperbolic sines of curvatures times half the
 /// chord: these are as the curvatures themselves where those are small, and as their logarithms where they are large.
