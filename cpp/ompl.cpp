@@ -98,8 +98,10 @@ static At at(const std::string &piece, double t) {
     }
     if (piece.find("\"kind\":\"arc\"") != std::string::npos) {
         const auto a = field(piece, "start");
-        const double h = field(piece, "direction")[0], k = field(piece, "curvature")[0], s = t * field(piece, "length")[0];
-        return {a[0] + (std::sin(h + k * s) - std::sin(h)) / k, a[1] - (std::cos(h + k * s) - std::cos(h)) / k, h + k * s, k};
+        const double h = field(piece, "direction")[0], k = field(piece, "curvature")[0];
+        const double s = t * field(piece, "length")[0];
+        return {a[0] + (std::sin(h + k * s) - std::sin(h)) / k, a[1] - (std::cos(h + k * s) - std::cos(h)) / k,
+                h + k * s, k};
     }
     const auto p = field(piece, "control_points");
     CHECK(p.size() == 8);
@@ -112,7 +114,8 @@ static At at(const std::string &piece, double t) {
         d[2][i] = 6 * (u * (c(2) - 2 * c(1) + c(0)) + t * (c(3) - 2 * c(2) + c(1)));
     }
     const double speed = std::hypot(d[1][0], d[1][1]);
-    return {d[0][0], d[0][1], std::atan2(d[1][1], d[1][0]), (d[1][0] * d[2][1] - d[1][1] * d[2][0]) / (speed * speed * speed)};
+    return {d[0][0], d[0][1], std::atan2(d[1][1], d[1][0]),
+            (d[1][0] * d[2][1] - d[1][1] * d[2][0]) / (speed * speed * speed)};
 }
 
 static std::vector<std::string> pieces(const std::string &json) {
@@ -130,7 +133,8 @@ static double checked(const Scene &scene, const std::vector<std::shared_ptr<cons
     At before{scene.start.x, scene.start.y, scene.start.direction, scene.start.curvature};
     double length = 0;
     const auto meet = [](const At &a, const At &b) {
-        CHECK(std::hypot(a.x - b.x, a.y - b.y) < 1e-9 && std::abs(std::remainder(a.heading - b.heading, 2 * M_PI)) < 1e-9);
+        CHECK(std::hypot(a.x - b.x, a.y - b.y) < 1e-9 &&
+              std::abs(std::remainder(a.heading - b.heading, 2 * M_PI)) < 1e-9);
         CHECK(std::abs(a.curvature - b.curvature) < 1e-9);
     };
     for (const auto &curve : path) {
@@ -142,7 +146,8 @@ static double checked(const Scene &scene, const std::vector<std::shared_ptr<cons
             for (int i = 1; i <= steps; i++) {
                 const At now = at(piece, static_cast<double>(i) / steps);
                 const double step = std::hypot(now.x - last.x, now.y - last.y);
-                CHECK(std::abs(now.curvature) <= limit * (1 + 1e-9) && (now.curvature - last.curvature) * rise >= -1e-9);
+                CHECK(std::abs(now.curvature) <= limit * (1 + 1e-9) &&
+                      (now.curvature - last.curvature) * rise >= -1e-9);
                 CHECK(distance(scene, now.x, now.y) >= clearance - step);
                 length += step;
                 last = now;
@@ -236,21 +241,24 @@ int main(int count, char **arguments) {
         {"slalom", {0, 0, 0.5, 0.3}, {12, 12, 0, 0}, {box(3, -2, 4, 5), box(7, 7, 8, 14), {{9, 0}, {13, 1}, {11, 3}}}},
         {"room", {1, 1, 1.57, 0}, {11, 11, 3.1, -0.5}, {box(5, -2, 6, 4), box(5, 6.5, 6, 14), box(8, 5, 9, 10)}},
     };
-    std::printf("%-8s %24s %24s %24s\n", "scene", "joins, RRT: s, length", "joins, RRT*: s, length", "Dubins, RRT: s, length");
+    std::printf("%-8s %24s %24s %24s\n", "scene", "joins, RRT: s, length", "joins, RRT*: s, length",
+                "Dubins, RRT: s, length");
     for (const Scene &scene : scenes) {
         const Found rrt = joins<og::RRT>(scene, 60), star = joins<og::RRTstar>(scene, seconds), curves = dubins(scene);
         CHECK(std::isfinite(rrt.length));
         if (scene.obstacles.empty()) CHECK(star.length < 12);
-        std::printf("%-8s %15.3f %8.2f %15.3f %8.2f %15.3f %8.2f\n", scene.name, rrt.seconds, rrt.length, star.seconds, star.length,
-                    curves.seconds, curves.length);
+        std::printf("%-8s %15.3f %8.2f %15.3f %8.2f %15.3f %8.2f\n", scene.name, rrt.seconds, rrt.length, star.seconds,
+                    star.length, curves.seconds, curves.length);
     }
-    // Random pairs within ten least radii: how many are joined, how much longer than Dubins' curves, and the time of each.
+    // Random pairs within ten least radii: how many are joined, how much longer than Dubins' curves, and the time of
+    // each.
     const std::size_t pairs = 5000;
     auto dubins_space = std::make_shared<ob::DubinsStateSpace>(1 / limit);
     ompl::RNG random;
     std::vector<std::pair<sa::End, sa::End>> ends;
     const auto end = [&] {
-        return sa::End{random.uniformReal(-5, 5), random.uniformReal(-5, 5), random.uniformReal(-M_PI, M_PI), random.uniformReal(-limit, limit)};
+        return sa::End{random.uniformReal(-5, 5), random.uniformReal(-5, 5), random.uniformReal(-M_PI, M_PI),
+                       random.uniformReal(-limit, limit)};
     };
     for (std::size_t i = 0; i < pairs; i++) ends.emplace_back(end(), end());
     std::size_t joined = 0;
@@ -279,8 +287,10 @@ int main(int count, char **arguments) {
     }
     const double each = seconds_since(began) / static_cast<double>(pairs) * 1e6;
     std::sort(times.begin(), times.end());
-    std::printf("%zu random pairs, %.2f %% joined, %.3f times as long as Dubins' curves; us a join: median %.0f, 99 %% %.0f; a Dubins curve %.2f\n", pairs,
-                100.0 * static_cast<double>(joined) / static_cast<double>(pairs), length / least, times[pairs / 2], times[pairs * 99 / 100], each);
+    std::printf("%zu random pairs, %.2f %% joined, %.3f times as long as Dubins' curves; "
+                "us a join: median %.0f, 99 %% %.0f; a Dubins curve %.2f\n",
+                pairs, 100.0 * static_cast<double>(joined) / static_cast<double>(pairs), length / least,
+                times[pairs / 2], times[pairs * 99 / 100], each);
     CHECK(joined * 100 > pairs * 99);
     // Between a state and itself there is no motion, and none leaves the limit.
     auto space = std::make_shared<sa::JoinStateSpace>(limit);

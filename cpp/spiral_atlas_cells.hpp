@@ -125,7 +125,8 @@ private:
             value.kind = Json::Kind::text;
             value.text = text();
         } else {
-            while (at_ != end_ && std::strchr("+-.0123456789Eaeflnrstu", *at_) != nullptr && *at_ != '\0') value.text += *at_++;
+            while (at_ != end_ && std::strchr("+-.0123456789Eaeflnrstu", *at_) != nullptr && *at_ != '\0')
+                value.text += *at_++;
             if (value.text.empty()) throw "its header is no JSON";
         }
         return value;
@@ -172,13 +173,15 @@ public:
         ::close(file);
         if (map == MAP_FAILED) throw "it cannot be mapped into memory, or is empty or no file";
         const auto size = static_cast<std::size_t>(about.st_size);
-        owner_ = std::shared_ptr<const void>(map, [size](const void *first) { ::munmap(const_cast<void *>(first), size); });
+        owner_ = std::shared_ptr<const void>(map,
+                                             [size](const void *first) { ::munmap(const_cast<void *>(first), size); });
         data_ = static_cast<const unsigned char *>(map);
         size_ = size;
 #else
         std::ifstream file(path, std::ios::binary);
         if (!file) throw "it cannot be opened";
-        auto all = std::make_shared<std::vector<unsigned char>>(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+        auto all = std::make_shared<std::vector<unsigned char>>(std::istreambuf_iterator<char>(file),
+                                                                std::istreambuf_iterator<char>());
         data_ = all->data();
         size_ = all->size();
         owner_ = all;
@@ -261,7 +264,8 @@ public:
     }
 
 private:
-    /// Of a number within the ends: it never falls while x rises. The bits of positive doubles rise like their logarithm.
+    /// Of a number within the ends: it never falls while x rises. The bits of positive doubles rise like their
+    /// logarithm.
     double position(double x) const noexcept {
         if (!log_) return 0.5 * x;
         std::uint64_t bits;
@@ -363,7 +367,8 @@ public:
                 const auto child = static_cast<unsigned>(way >> (size * n) & ((1u << n) - 1));
                 const std::uint32_t word = cells_detail::word(trees_ + 4 * node);
                 if ((word >> child & 1) != 0) known.inside = static_cast<std::uint8_t>(known.inside | 1u << bit);
-                if ((word >> (16 + child) & 1) != 0) known.outside = static_cast<std::uint8_t>(known.outside | 1u << bit);
+                if ((word >> (16 + child) & 1) != 0)
+                    known.outside = static_cast<std::uint8_t>(known.outside | 1u << bit);
                 if (((word | word >> 16) >> child & 1) != 0 || size == 0) break;
                 const std::uint32_t next = cells_detail::word(trees_ + 4 * (node + 1));
                 const unsigned before = cells_detail::ones(~(word | word >> 16) & ((1u << child) - 1));
@@ -384,7 +389,8 @@ private:
     };
 
     static std::size_t whole(const cells_detail::Json &value) {
-        if (value.kind != cells_detail::Json::Kind::other || value.text.empty() || value.text.size() > 15) throw "its header has a wrong number";
+        if (value.kind != cells_detail::Json::Kind::other || value.text.empty() || value.text.size() > 15)
+            throw "its header has a wrong number";
         std::size_t sum = 0;
         for (const char c : value.text) {
             if (c < '0' || c > '9') throw "its header has a wrong number";
@@ -400,8 +406,8 @@ private:
     }
 
     /// The tensor of a name, which must have this type and shape (0: of any size) and lie within the file.
-    const unsigned char *tensor(const cells_detail::Json &header, const std::string &name, const char *type, std::size_t width,
-                                std::vector<std::size_t> &shape) const {
+    const unsigned char *tensor(const cells_detail::Json &header, const std::string &name, const char *type,
+                                std::size_t width, std::vector<std::size_t> &shape) const {
         const cells_detail::Json *about = header.find(name);
         if (about == nullptr) throw "a tensor is missing";
         const cells_detail::Json *sizes = about->find("shape"), *offsets = about->find("data_offsets");
@@ -427,7 +433,8 @@ private:
         const std::uint64_t length = cells_detail::long_word(bytes_.data());
         if (length > bytes_.size() - 8 || length > (std::uint64_t{1} << 26)) throw "its header is longer than the file";
         body_ = 8 + static_cast<std::size_t>(length);
-        const std::string text_of_header(reinterpret_cast<const char *>(bytes_.data()) + 8, static_cast<std::size_t>(length));
+        const std::string text_of_header(reinterpret_cast<const char *>(bytes_.data()) + 8,
+                                         static_cast<std::size_t>(length));
         const Json header = cells_detail::JsonReader(text_of_header).whole();
         const Json *meta = header.find("__metadata__");
         if (meta == nullptr || text(*meta, "format") != "spiral-atlas") throw "it is no atlas of Spiral Atlas";
@@ -444,11 +451,13 @@ private:
             std::vector<std::size_t> shape{resolution == 0 ? 0 : resolution + 1};
             const unsigned char *values = tensor(header, text(axis.second, "name"), "F64", 8, shape);
             resolution = shape[0] - 1;
-            if (resolution < 2 || resolution > 2048 || (resolution & (resolution - 1)) != 0) throw "its resolution is no power of two from 2 to 2048";
+            if (resolution < 2 || resolution > 2048 || (resolution & (resolution - 1)) != 0)
+                throw "its resolution is no power of two from 2 to 2048";
             std::vector<double> edges;
             for (std::size_t i = 0; i <= resolution; i++) {
                 edges.push_back(cells_detail::number(values + 8 * i));
-                if (!std::isfinite(edges[i]) || (i > 0 && !(edges[i - 1] < edges[i]))) throw "the edges of an axis do not increase";
+                if (!std::isfinite(edges[i]) || (i > 0 && !(edges[i - 1] < edges[i])))
+                    throw "the edges of an axis do not increase";
             }
             axes_.emplace_back(text(axis.second, "name"), std::move(edges), text(axis.second, "spacing") == "log");
         }
@@ -480,7 +489,8 @@ private:
         const std::size_t tops = std::size_t{1} << (top_ * axes_.size());
         for (std::size_t i = 0; i < tops; i++) {
             const unsigned yes = known_[2 * i], no = known_[2 * i + 1];
-            if ((yes & no) != 0 || ((yes | no) & ~all) != 0) throw "a top cell says both yes and no, or names a flag that there is not";
+            if ((yes & no) != 0 || ((yes | no) & ~all) != 0)
+                throw "a top cell says both yes and no, or names a flag that there is not";
             for (std::size_t flag = 0; flag < flags_.size(); flag++) {
                 const std::size_t root = cells_detail::word(roots_ + 4 * (i * flags_.size() + flag));
                 if (root == 0) continue;
@@ -492,8 +502,10 @@ private:
                     const std::size_t end = next;
                     for (std::size_t at = begin; at < end; at += words(size)) {
                         if (at + words(size) > count) throw "its trees end too early";
-                        const std::uint32_t node = cells_detail::word(trees_ + 4 * at), in = node & 0xffff, out = node >> 16;
-                        if ((in & out) != 0 || ((in | out) & ~every) != 0) throw "a child is both, or there is no such child";
+                        const std::uint32_t node = cells_detail::word(trees_ + 4 * at);
+                        const std::uint32_t in = node & 0xffff, out = node >> 16;
+                        if ((in & out) != 0 || ((in | out) & ~every) != 0)
+                            throw "a child is both, or there is no such child";
                         if (size == 0) continue;
                         const std::uint32_t to = cells_detail::word(trees_ + 4 * (at + 1));
                         const std::uint32_t open = every & ~(in | out);

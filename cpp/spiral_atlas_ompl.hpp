@@ -7,8 +7,8 @@
  *
  * Steering can fail: between two states there may be no join. checkMotion() is false then, and interpolate() gives the
  * second state. Set the planner's range so large that motions are not cut (a state in the middle of a join is often
- * not reached by a shorter one), and use planners that build their tree from the start: RRT, RRTstar, EST. docs/planners.md
- * has an example and figures.
+ * not reached by a shorter one), and use planners that build their tree from the start: RRT, RRTstar, EST.
+ * docs/planners.md has an example and figures.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0 */
 
@@ -60,7 +60,8 @@ public:
     static End read(const ompl::base::State *state) {
         const auto *both = state->as<ompl::base::CompoundState>();
         const auto *pose = both->as<ompl::base::SE2StateSpace::StateType>(0);
-        return {pose->getX(), pose->getY(), pose->getYaw(), both->as<ompl::base::RealVectorStateSpace::StateType>(1)->values[0]};
+        return {pose->getX(), pose->getY(), pose->getYaw(),
+                both->as<ompl::base::RealVectorStateSpace::StateType>(1)->values[0]};
     }
 
     static void write(ompl::base::State *state, double x, double y, double direction, double curvature) {
@@ -86,7 +87,8 @@ public:
             last.curve.reset();
             // A state cannot be joined with itself.
             if (!same(a, b))
-                if (auto curve = join(a, b, greatest_curvature_, kind_)) last.curve = std::make_shared<const Curve>(std::move(*curve));
+                if (auto curve = join(a, b, greatest_curvature_, kind_))
+                    last.curve = std::make_shared<const Curve>(std::move(*curve));
             last.space = this;
             last.from = a;
             last.to = b;
@@ -96,7 +98,8 @@ public:
 
     bool hasSymmetricInterpolate() const override { return false; }
 
-    void interpolate(const ompl::base::State *from, const ompl::base::State *to, double t, ompl::base::State *state) const override {
+    void interpolate(const ompl::base::State *from, const ompl::base::State *to, double t,
+                     ompl::base::State *state) const override {
         const auto curve = t > 0 && t < 1 ? motion(from, to) : nullptr;
         if (!curve) {
             copyState(state, t > 0 ? to : from);
@@ -119,7 +122,8 @@ private:
 /// of its points is no farther than that from one that was checked.
 class JoinMotionValidator : public ompl::base::MotionValidator {
 public:
-    JoinMotionValidator(const ompl::base::SpaceInformationPtr &si, double spacing) : MotionValidator(si), spacing_(spacing) {}
+    JoinMotionValidator(const ompl::base::SpaceInformationPtr &si, double spacing)
+        : MotionValidator(si), spacing_(spacing) {}
 
     bool checkMotion(const ompl::base::State *from, const ompl::base::State *to) const override {
         const auto curve = space()->motion(from, to);
@@ -127,7 +131,8 @@ public:
         return count(curve && valid(*curve, 16 * spacing_, nullptr) && valid(*curve, spacing_, nullptr));
     }
 
-    bool checkMotion(const ompl::base::State *from, const ompl::base::State *to, std::pair<ompl::base::State *, double> &last) const override {
+    bool checkMotion(const ompl::base::State *from, const ompl::base::State *to,
+                     std::pair<ompl::base::State *, double> &last) const override {
         last.second = 0;
         if (last.first != nullptr) space()->copyState(last.first, from);
         const auto curve = space()->motion(from, to);
@@ -191,7 +196,8 @@ inline std::optional<std::vector<std::shared_ptr<const Curve>>> curves(const omp
     const auto *space = path.getSpaceInformation()->getStateSpace()->as<JoinStateSpace>();
     std::vector<std::shared_ptr<const Curve>> all;
     for (std::size_t i = 1; i < path.getStateCount(); i++) {
-        all.push_back(space->motion(path.getState(static_cast<unsigned>(i - 1)), path.getState(static_cast<unsigned>(i))));
+        all.push_back(space->motion(path.getState(static_cast<unsigned>(i - 1)),
+                                    path.getState(static_cast<unsigned>(i))));
         if (!all.back()) return std::nullopt;
     }
     return all;

@@ -1,4 +1,4 @@
-"""Fig. 2 of Habib & Sakai, first case, with matplotlib: which end curvatures a cubic spiral joins at angles 0.7 and 1.4.
+"""Fig. 2 of Habib & Sakai, first case, with matplotlib: end curvatures that a cubic spiral joins at angles 0.7 and 1.4.
 
     python examples/fig2.py fig2.png
 """

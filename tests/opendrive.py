@@ -18,7 +18,8 @@ from scipy.integrate import quad
 program, folder = sys.argv[1], Path(sys.argv[2])
 tools = Path(sys.executable).parent
 
-ENDS = "--from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg --start-curvature 0.004 --end-curvature 0.04"
+ENDS = ("--from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg "
+        "--start-curvature 0.004 --end-curvature 0.04")
 FAR = ENDS.replace("0,0", "500000,5200000", 1).replace("200,0", "500200,5200000")
 
 
@@ -28,8 +29,8 @@ def run(*arguments, stdin=None, status=0):
     return done.stdout, done.stderr
 
 
-def curve(options):
-    return run("curve", *options.split(), "--json")[0]
+def curve(kind, options):
+    return run("curve", kind, *options.split(), "--json")[0]
 
 
 LINE_ARC = json.dumps({"paths": [
@@ -41,10 +42,10 @@ LINE_ARC = json.dumps({"paths": [
 ]})
 CASES = {
     "line-arc": LINE_ARC,
-    "cubic": curve(ENDS),
-    "cubic-far": curve(FAR),
-    "ph-quintic": curve(ENDS + " --family ph-quintic"),
-    "ph-quintic-far": curve(FAR + " --family ph-quintic"),
+    "cubic": curve("cubic", ENDS),
+    "cubic-far": curve("cubic", FAR),
+    "ph-quintic": curve("ph-quintic", ENDS),
+    "ph-quintic-far": curve("ph-quintic", FAR),
     "spline": run("path", "spline", "examples/lap.json")[0],
 }
 
@@ -53,7 +54,8 @@ class Geometry:
     """One `geometry` element, as the standard says."""
 
     def __init__(self, element):
-        self.s, self.x, self.y, self.hdg, self.length = (float(element.get(k)) for k in ("s", "x", "y", "hdg", "length"))
+        names = ("s", "x", "y", "hdg", "length")
+        self.s, self.x, self.y, self.hdg, self.length = (float(element.get(name)) for name in names)
         (self.shape,) = element
         get = lambda names: np.array([float(self.shape.get(n)) for n in names])
         if self.shape.tag == "paramPoly3":
@@ -75,7 +77,8 @@ class Geometry:
             turn = kappa * s
             local = (s, 0) if kappa == 0 else (math.sin(turn) / kappa, (1 - math.cos(turn)) / kappa)
         c, s = math.cos(self.hdg), math.sin(self.hdg)
-        return np.array([self.x + c * local[0] - s * local[1], self.y + s * local[0] + c * local[1]]), self.hdg + turn, kappa
+        x, y = self.x + c * local[0] - s * local[1], self.y + s * local[0] + c * local[1]
+        return np.array([x, y]), self.hdg + turn, kappa
 
     def measured(self):
         if self.shape.tag != "paramPoly3":
@@ -101,7 +104,8 @@ def check(name, text, path, tolerance):
         geometries = [Geometry(element) for element in road.find("planView")]
         station = 0.0
         for before, g in zip([None, *geometries], geometries):
-            assert abs(g.s - station) <= 1e-9 * (1 + station) and abs(g.length - g.measured()) <= 1e-9 * g.length, (name, g.s)
+            assert abs(g.s - station) <= 1e-9 * (1 + station), (name, g.s)
+            assert abs(g.length - g.measured()) <= 1e-9 * g.length, (name, g.s)
             station += g.length
             if before:
                 (p, h, k), (q, i, m) = before.at(1), g.at(0)
@@ -193,12 +197,14 @@ def main():
         joint, heading, curvature, distance = check(name, text, path, 0.001)
         fitted = "PH quintic" in note
         assert fitted == ("quintic" in name or name == "spline")
-        assert joint <= place and heading <= 1e-9 and distance <= (0.001 if fitted else 0) + place, (name, joint, heading, distance)
+        assert joint <= place and heading <= 1e-9, (name, joint, heading)
+        assert distance <= (0.001 if fitted else 0) + place, (name, distance)
         told = float(note.rsplit("at most ", 1)[1].split()[0]) if fitted else 0.02
         assert curvature <= 2.1 * told, (name, curvature, told)
         checks, edges = judged(path)
         assert edges >= 1
-        print(f"{name:16} joints {joint:.1e} m, {heading:.1e} rad, {curvature:.1e} / m; distance {distance:.1e} m; {checks} checks")
+        print(f"{name:16} joints {joint:.1e} m, {heading:.1e} rad, {curvature:.1e} / m; "
+              f"distance {distance:.1e} m; {checks} checks")
     for name, text in CASES.items():
         drawing(name, text)
     tight = run("export", "opendrive", "-", "--tolerance", "1e-9", stdin=CASES["ph-quintic"])[1]

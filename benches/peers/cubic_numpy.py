@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """The cubic family's verdicts in NumPy: the peer that the evaluators are timed against.
 
-The same recipe in vectorised double precision, nothing proved: count the roots of the two parabolas, find them by Newton's
-method, judge them by Theorem 3.1 of Habib & Sakai and, where that fails, by halving the spiral polynomial. Nodes that no
-spiral fits are dropped before the roots are sought, as in the library, and blocks fit the cache.
+The same recipe in vectorised double precision, nothing proved: count the roots of the two parabolas, find them by
+Newton's method, judge them by Theorem 3.1 of Habib & Sakai and, where that fails, by halving the spiral polynomial.
+Nodes that no spiral fits are dropped before the roots are sought, as in the library, and blocks fit the cache.
 
     cubic_numpy.py [FOLDER]
 
-prints nodes a second and the counts of each flag. With a folder it leaves there `flags` and `solutions` (a byte a node, as in
-an atlas) and `seconds`, for the bench beside it to compare.
+prints nodes a second and the counts of each flag. With a folder it leaves there `flags` and `solutions` (a byte a node,
+as in an atlas) and `seconds`, for the bench beside it to compare.
 """
 
 import pathlib
@@ -126,7 +126,8 @@ def block(phi0, phi1, kappa0, kappa1):
     a = column(g1 / sin0) * kappa0
     k = column(g0 / sin1) * kappa1
     room0, room1 = column(sin0) - kappa0, kappa1 - column(sin1)
-    any_spiral = (room0 > 0) & (room1 > 0) & (room0 * room1 > column(np.sin(0.5 * (phi1 - phi0)) ** 2)) & column(phi0 < phi1)
+    apart = room0 * room1 > column(np.sin(0.5 * (phi1 - phi0)) ** 2)
+    any_spiral = (room0 > 0) & (room1 > 0) & apart & column(phi0 < phi1)
 
     ak = a * k
     real = ak * (768 * ak - 256 * (a + k) + 96) >= 1
@@ -184,7 +185,7 @@ def evaluate(axes):
     """Flags and solutions of a whole grid."""
     phi0, phi1, kappa0, kappa1 = axes
     shape = tuple(len(axis) for axis in axes)
-    flags, solutions = np.empty((shape[0] * shape[1], *shape[2:]), np.uint8), np.empty((shape[0] * shape[1], *shape[2:]), np.uint8)
+    flags, solutions = (np.empty((shape[0] * shape[1], *shape[2:]), np.uint8) for _ in range(2))
     left, right = np.repeat(phi0, shape[1]), np.tile(phi1, shape[0])
     with np.errstate(all="ignore"):
         for at in range(0, len(left), PAIRS):

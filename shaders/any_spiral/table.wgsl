@@ -1,5 +1,5 @@
-// Any spiral at all, in f32: twin of family/any_spiral/table.rs. The outer bound is decided with an error bound; the order
-// and the signs of the curvatures are exact, by index and because rounding keeps signs.
+// Any spiral at all, in f32: twin of family/any_spiral/table.rs. The outer bound is decided with an error bound; the
+// order and the signs of the curvatures are exact, by index and because rounding keeps signs.
 
 // offsets: first pair of the chunk, where axes 2 and 3 begin.
 fn evaluate(index: vec4<u32>) -> u32 {

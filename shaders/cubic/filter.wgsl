@@ -1,8 +1,8 @@
-// Twin of family/cubic/filter.rs in f32, function by function: formulas and bounds are derived there. The constants (UNIT, THIRD, ...)
-// and the record Pair, with the bounds of each pair, are generated from shader.rs.
+// Twin of family/cubic/filter.rs in f32, function by function: formulas and bounds are derived there. The constants
+// (UNIT, THIRD, ...) and the record Pair, with the bounds of each pair, are generated from shader.rs.
 // Proofs use + - * and comparisons alone, and hold with or without fused multiply-adds, reassociation of sums, and
-// flushed denormals (every bound has a part above 2^-110). Guesses use / and sqrt, kept finite by clamps; curvatures are
-// limited, so that no product overflows.
+// flushed denormals (every bound has a part above 2^-110). Guesses use / and sqrt, kept finite by clamps; curvatures
+// are limited, so that no product overflows.
 
 // offsets: first pair of the chunk, where axes 2 and 3 begin, 1 for the normalised chart.
 fn pair_of(index: vec4<u32>) -> Pair {

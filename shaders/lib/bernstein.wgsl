@@ -3,8 +3,8 @@
 // Most halvings of a piece. A piece of 2^-10 shows features that the error of f32 coefficients does not hide anyway.
 const MOST_HALVINGS: u32 = 10u;
 
-// YES, NO (negative somewhere), or OPEN, for coefficients that may each be off by `error`; each halving adds `rounding`:
-// five steps of one addition, exactly halved.
+// YES, NO (negative somewhere), or OPEN, for coefficients that may each be off by `error`; each halving adds
+// `rounding`: five steps of one addition, exactly halved.
 fn positive(coefficients: array<f32, 6>, error: f32, rounding: f32) -> u32 {
     // Depth first with the right halves waiting: one a level, and the piece in hand.
     var waiting: array<array<f32, 6>, 12>;

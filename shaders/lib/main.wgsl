@@ -55,8 +55,8 @@ fn advance(index: vec4<u32>, digits: vec4<u32>) -> vec4<u32> {
     return sum;
 }
 
-// Whether loops still run to their end. Mesa's llvmpipe leaves every loop of an invocation after one round once 65,535 rounds have been
-// run in all: what was evaluated before may be wrong then, and this loop stops short too.
+// Whether loops still run to their end. Mesa's llvmpipe leaves every loop of an invocation after one round once 65,535
+// rounds have been run in all: what was evaluated before may be wrong then, and this loop stops short too.
 fn loops_are_whole() -> bool {
     var rounds = 0u;
     for (var i = 0u; i < params.two; i += 1u) {

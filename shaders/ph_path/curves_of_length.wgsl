@@ -7,7 +7,8 @@ fn plus(a: Near, b: Near) -> Near {
 
 fn times(a: Near, b: Near) -> Near {
     let value = a.value * b.value;
-    return Near(value, 1.00001 * (abs(a.value) * b.error + abs(b.value) * a.error + a.error * b.error) + 2.0 * UNIT * abs(value));
+    return Near(value, 1.00001 * (abs(a.value) * b.error + abs(b.value) * a.error + a.error * b.error)
+                + 2.0 * UNIT * abs(value));
 }
 
 // a/b: the remainder tells how far the quotient is off.

@@ -1,7 +1,7 @@
-// Paths of PH quintics in f32: which solution bends least, and how; twin of curve/hodograph.rs, with one error bound for
-// all coefficients of a piece. The fragment of a family adds `ends`. Guesses use / and sqrt. Proofs use + - * and
-// comparisons, and / and sqrt only where a thousandth more covers them; they count roundings per term, so they hold with
-// fused multiply-adds and reassociated sums.
+// Paths of PH quintics in f32: which solution bends least, and how; twin of curve/hodograph.rs, with one error bound
+// for all coefficients of a piece. The fragment of a family adds `ends`. Guesses use / and sqrt. Proofs use + - * and
+// comparisons, and / and sqrt only where a thousandth more covers them; they count roundings per term, so they hold
+// with fused multiply-adds and reassociated sums.
 
 // Pre-image; each coefficient is off by at most `error`.
 struct Curve {
@@ -155,10 +155,12 @@ fn sides(c: Curve, v: Near) -> Sides {
     let by1 = vec3<f32>(1.0 / 56.0, 1.0 / 70.0, 1.0 / 56.0);
     let by2 = by0.zyx;
     let q0 = v.value * by0 * vec3<f32>(s0 * s0, 2.0 * s0 * s1, 2.0 * s0 * s2 + s1 * s1);
-    let q1 = v.value * by1 * vec3<f32>(2.0 * (s0 * s3 + s1 * s2), 2.0 * (s0 * s4 + s1 * s3) + s2 * s2, 2.0 * (s1 * s4 + s2 * s3));
+    let q1 = v.value * by1 * vec3<f32>(2.0 * (s0 * s3 + s1 * s2), 2.0 * (s0 * s4 + s1 * s3) + s2 * s2,
+                                       2.0 * (s1 * s4 + s2 * s3));
     let q2 = v.value * by2 * vec3<f32>(2.0 * s2 * s4 + s3 * s3, 2.0 * s3 * s4, s4 * s4);
     let p0 = by0 * (h0 * vec3<f32>(1.0, 6.0, 15.0) + h1 * vec3<f32>(0.0, 1.0, 6.0) + h2 * vec3<f32>(0.0, 0.0, 1.0));
-    let p1 = by1 * (h0 * vec3<f32>(20.0, 15.0, 6.0) + h1 * vec3<f32>(15.0, 20.0, 15.0) + h2 * vec3<f32>(6.0, 15.0, 20.0));
+    let p1 = by1 * (h0 * vec3<f32>(20.0, 15.0, 6.0) + h1 * vec3<f32>(15.0, 20.0, 15.0)
+                    + h2 * vec3<f32>(6.0, 15.0, 20.0));
     let p2 = by2 * (h0 * vec3<f32>(1.0, 0.0, 0.0) + h1 * vec3<f32>(6.0, 1.0, 0.0) + h2 * vec3<f32>(15.0, 6.0, 1.0));
     let m = max(modulus(c.w0), max(modulus(c.w1), modulus(c.w2)));
     let m2 = m * m;
@@ -195,7 +197,8 @@ fn compared(c: Curve, v: Near, touching: bool) -> u32 {
     if min(min(s.minus[0].x, s.minus[2].z), min(s.plus[0].x, s.plus[2].z)) < -e {
         return NO;
     }
-    let low = min(least(min(s.minus[0], min(s.minus[1], s.minus[2]))), least(min(s.plus[0], min(s.plus[1], s.plus[2]))));
+    let low = min(least(min(s.minus[0], min(s.minus[1], s.minus[2]))),
+                  least(min(s.plus[0], min(s.plus[1], s.plus[2]))));
     if low > e {
         return YES;
     }

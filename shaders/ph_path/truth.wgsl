@@ -50,7 +50,8 @@ fn peak_inside(c: Curve, p: Peak) -> u32 {
     let value = bending(turned, 0.0);
     // How far the quotient is off, guessed and then proved.
     let speed = start.speed.value;
-    let relative = start.turn.error / max(abs(start.turn.value), 1e-30) + 2.1 * start.speed.error / max(speed, 1e-30) + 1e-5;
+    let relative = start.turn.error / max(abs(start.turn.value), 1e-30) + 2.1 * start.speed.error / max(speed, 1e-30)
+        + 1e-5;
     let error = value * min(relative, 1.0);
     if !(relative < 0.1 && exceeds(start, value - error) && stays_under(start, value + error)) {
         return OPEN;
@@ -106,5 +107,6 @@ fn evaluate(index: vec4<u32>) -> u32 {
     if way == OPEN || inside == OPEN {
         return UNDECIDED;
     }
-    return REGULAR | select(0u, ONE_WAY, way == YES) | select(0u, PEAK_INSIDE, inside == YES) | select(0u, PAPER, best < 2u);
+    return REGULAR | select(0u, ONE_WAY, way == YES) | select(0u, PEAK_INSIDE, inside == YES)
+        | select(0u, PAPER, best < 2u);
 }

@@ -1,7 +1,8 @@
-// PH quintics with G2 Hermite ends in f32: these files are twins of those in family/ph_quintic, function by function. Constants
-// (UNIT, TERM, ...) and records are generated from shader.rs. Proofs use + - * and comparisons; guesses, and quotients whose last bits do not matter,
-// use / and sqrt, kept finite by clamps. Relative bounds count roundings, so they hold with fused multiply-adds and reassociation;
-// the ranges of the constants and of z and t keep every term that matters above the denormals.
+// PH quintics with G2 Hermite ends in f32: these files are twins of those in family/ph_quintic, function by function.
+// Constants (UNIT, TERM, ...) and records are generated from shader.rs. Proofs use + - * and comparisons; guesses, and
+// quotients whose last bits do not matter, use / and sqrt, kept finite by clamps. Relative bounds count roundings, so
+// they hold with fused multiply-adds and reassociation; the ranges of the constants and of z and t keep every term that
+// matters above the denormals.
 
 // The equations, scaled; vectors hold both ends.
 struct Curves {

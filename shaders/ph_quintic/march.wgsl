@@ -66,7 +66,8 @@ fn meets(a: Knot, b: Knot) -> u32 {
     return OPEN;
 }
 
-// A knot's heights against the limits of both curves beyond it: `high` is that of one curve, `low`, if positive, that of the other.
+// A knot's heights against the limits of both curves beyond it: `high` is that of one curve, `low`, if positive, that
+// of the other.
 fn clear_of(first: f32, second: f32, error: f32, high: Near, low: Near) -> bool {
     return first * (1.0 - error) > high.value * (1.0 + high.error) + 8.0 * UNIT * first
         || (low.value > 0.0 && second * (1.0 - error) > low.value * (1.0 + low.error) + 8.0 * UNIT * second);
@@ -121,5 +122,6 @@ fn enclose(curves: Curves, a: Knot, b: Knot) -> Root {
     let falls = left.gap > left.gap_error && right.gap < -right.gap_error && side;
     let rises = left.gap < -left.gap_error && right.gap > right.gap_error && !side;
     let around = COVER * reach + 4.0 * UNIT;
-    return Root(Near(at.t, around), Near(at.z.x, 2.1 * around + 1.05 * at.z_error), inside && (falls || rises) && reach < 0.02);
+    return Root(Near(at.t, around), Near(at.z.x, 2.1 * around + 1.05 * at.z_error),
+                inside && (falls || rises) && reach < 0.02);
 }

@@ -1,7 +1,7 @@
 // Twin of family/ph_quintic/shape.rs in f32.
 
-// The first three coefficients of the numerator of the curvature's derivative; with sign 1 instead of -1 the sums of the absolute
-// values of their terms.
+// The first three coefficients of the numerator of the curvature's derivative; with sign 1 instead of -1 the sums of
+// the absolute values of their terms.
 fn half_quintic(turn: vec3<f32>, speed: array<f32, 5>, sign: f32) -> vec3<f32> {
     return vec3<f32>(
         turn.y * speed[0] * 10.0 + turn.x * speed[0] * 30.0 + sign * (turn.x * speed[1] * 40.0),

@@ -1,7 +1,8 @@
-// Reachable end points in f32: twin of family/reach/filter.rs, function by function; formulas in family/reach/poly.rs, whose
-// twins poly_cubic.wgsl and poly_ph.wgsl add `invert` and `coefficients`. Constants (UNIT, SCALE, ...) are generated from shader.rs. Proofs use + - * and
-// comparisons alone, and hold with or without fused multiply-adds, reassociated sums and flushed denormals (LEAST and FLOOR keep
-// all terms that matter above them). Guesses use / and sqrt, kept finite by clamps.
+// Reachable end points in f32: twin of family/reach/filter.rs, function by function; formulas in family/reach/poly.rs,
+// whose twins poly_cubic.wgsl and poly_ph.wgsl add `invert` and `coefficients`. Constants (UNIT, SCALE, ...) are
+// generated from shader.rs. Proofs use + - * and comparisons alone, and hold with or without fused multiply-adds,
+// reassociated sums and flushed denormals (LEAST and FLOOR keep all terms that matter above them). Guesses use / and
+// sqrt, kept finite by clamps.
 
 // offsets: first angle of the chunk, where the axes of xi and eta begin.
 fn angle_of(index: vec4<u32>) -> Angle {

@@ -1,4 +1,5 @@
-// The PH quintic's part of family/reach/poly.rs in f32: G(u) = 2(3+m)u + 2 + 3m + 3m^2 - beta u^3 = 0 with m = alpha u^2 - 24gu - 3.
+// The PH quintic's part of family/reach/poly.rs in f32: G(u) = 2(3+m)u + 2 + 3m + 3m^2 - beta u^3 = 0 with m = alpha
+// u^2 - 24gu - 3.
 
 fn shape_at(alpha: Near, g: f32, u: f32) -> Near {
     let m = u * (alpha.value * u - 24.0 * g) - 3.0;

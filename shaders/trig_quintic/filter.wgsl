@@ -33,10 +33,11 @@ fn step(c: Coefficients) -> Coefficients {
     );
 }
 
-// Signs on [0, 1] as in num/bernstein.rs, for coefficients that are exact; each halving adds 37 roundings of the piece's largest.
+// Signs on [0, 1] as in num/bernstein.rs, for coefficients that are exact; each halving adds 37 roundings of the
+// piece's largest.
 //
-// It is written with few iterations of loops, 38 for a halving, because lavapipe leaves all loops of an invocation after
-// 65535 of them: some 4000 a node. There are 40 for a halving, and 700 before.
+// It is written with few iterations of loops, 38 for a halving, because lavapipe leaves all loops of an invocation
+// after 65535 of them: some 4000 a node. There are 40 for a halving, and 700 before.
 fn positive(coefficients: Coefficients) -> u32 {
     // Depth first with the right halves waiting: one a level, and the piece in hand.
     var waiting: array<Coefficients, MOST_LEVELS>;

@@ -1,5 +1,6 @@
-// Quintic trigonometric curves in f32: twin of family/trig_quintic/poly.rs. Constants and records are generated from shader.rs. Proofs use + - * and comparisons alone, and hold with or without fused multiply-adds, reassociated
-// sums and flushed denormals (FLOOR covers those).
+// Quintic trigonometric curves in f32: twin of family/trig_quintic/poly.rs. Constants and records are generated from
+// shader.rs. Proofs use + - * and comparisons alone, and hold with or without fused multiply-adds, reassociated sums
+// and flushed denormals (FLOOR covers those).
 
 // Coefficients of the hodograph, forward and upward; the latter begin at number 3.
 struct Hodograph {

@@ -85,7 +85,8 @@ pub struct Entry {
 /// ```no_run
 /// let atlas = spiral_atlas::atlas::Atlas::open("quickstart.safetensors")?;
 /// if let Some((node, entry)) = atlas.nearest(&[0.7, 1.4, 0.4, 4.0]) {
-///     let names: Vec<&str> = atlas.flag_names().enumerate().filter(|(bit, _)| entry.flags >> bit & 1 == 1).map(|f| f.1).collect();
+///     let holds = |bit: &usize| entry.flags >> bit & 1 == 1;
+///     let names: Vec<&str> = atlas.flag_names().enumerate().filter(|(bit, _)| holds(bit)).map(|f| f.1).collect();
 ///     println!("{}: {}", atlas.grid().describe(node), names.join(" "));
 /// }
 /// # Ok::<(), spiral_atlas::Error>(())

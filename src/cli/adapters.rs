@@ -36,7 +36,8 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
             None => "used when named with `--adapter`".into(),
         };
         text += &format!(
-            "{label}\n  {role}\n  storage buffers to {}, buffers to {}; {} workgroups a dimension, {} invocations each; timestamps: {}\n",
+            "{label}\n  {role}\n  storage buffers to {}, buffers to {}; {} workgroups a dimension, {} invocations \
+             each; timestamps: {}\n",
             size(adapter.max_storage_bytes),
             size(adapter.max_buffer_bytes),
             output::grouped(adapter.max_groups.into()),

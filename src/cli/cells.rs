@@ -229,7 +229,8 @@ pub(super) fn info(cells: &Cells, json: bool) -> Result<()> {
         let hashes = Object(cells.hashes().map(|(name, hash)| (name, hash.to_hex().to_string())).collect());
         return output::print_json(&serde_json::json!({
             "file": cells.path(), "name": about.name, "id": id, "kind": "cells", "generator": about.generator,
-            "family": about.family, "chart": about.chart, "chart_doc": about.chart_doc, "conventions": about.conventions,
+            "family": about.family, "chart": about.chart, "chart_doc": about.chart_doc,
+            "conventions": about.conventions,
             "resolution": cells.resolution(), "bytes": cells.bytes(), "axes": axes.iter().map(axis).collect::<Vec<_>>(),
             "flags": about.flags, "blake3": hashes, "recipe": about.recipe,
         }));

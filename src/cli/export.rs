@@ -14,10 +14,9 @@ use std::path::PathBuf;
 
 /// Write paths as files that other programs read.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Example:\n  spiral-atlas curve --from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg \\\n      \
-                        --start-curvature 0.004 --end-curvature 0.04 --json | spiral-atlas export opendrive - --out road.xodr"
-)]
+#[command(after_help = "Example:\n  \
+        spiral-atlas curve cubic --from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg \\\n      \
+        --start-curvature 0.004 --end-curvature 0.04 --json | spiral-atlas export opendrive - --out road.xodr")]
 pub(super) struct Args {
     #[command(subcommand)]
     format: Format,
@@ -32,8 +31,8 @@ enum Format {
 
 /// ASAM OpenDRIVE 1.7: a road for each path, whose reference line the path is, with one driving lane to the right.
 ///
-/// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve --json`, `join` and the tools of `path` print
-/// it, or a line of JSON for each of several, as with --points; lines without a path are told on standard error.
+/// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve NAME --json`, `join` and the tools of `path`
+/// print it, or a line of JSON for each of several, as with --points; lines without a path are told on standard error.
 ///
 /// Lines, arcs and cubic curves are exact. PH quintics are fitted by cubics, no further away than the tolerance; how
 /// many, how well, and how much the curvature differs at joints is told on standard error. Involutes and trigonometric

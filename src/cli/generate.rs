@@ -22,8 +22,9 @@ const SAMPLES: u64 = 2000;
 /// time, check) and the recipe's pictures, NAME.png or NAME-1.png, NAME-2.png, ... Several atlases that begin with
 /// slices are also drawn side by side, in RECIPE.png. Files appear whole or not at all.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  spiral-atlas generate atlases/quickstart.toml\n  \
-                        spiral-atlas generate my.toml --out maps --backend gpu --adapter llvmpipe --check full")]
+#[command(after_help = "Examples:\n  \
+              spiral-atlas generate atlases/quickstart.toml\n  \
+              spiral-atlas generate my.toml --out maps --backend gpu --adapter llvmpipe --check full")]
 pub(super) struct Args {
     /// The recipe, a TOML file.
     recipe: PathBuf,

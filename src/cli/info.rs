@@ -44,7 +44,8 @@ fn json(atlas: &Atlas) -> serde_json::Value {
     let axis = |a: &Axis| {
         let values = a.values();
         serde_json::json!({
-            "name": a.name(), "spacing": spacing(a), "count": values.len(), "first": values[0], "last": values[values.len() - 1],
+            "name": a.name(), "spacing": spacing(a), "count": values.len(), "first": values[0],
+            "last": values[values.len() - 1],
         })
     };
     let axes: Vec<_> = atlas.grid().axes().iter().map(axis).collect();

@@ -23,9 +23,11 @@ mod question;
 mod render;
 mod verify;
 
+use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 use spiral_atlas::{Error, Result};
+use std::ffi::OsString;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -58,14 +60,13 @@ enum Command {
     Info(info::Args),
     Adapters(adapters::Args),
     Query(query::Args),
-    Curve(Box<curve::Args>),
+    Curve(curve::Args),
     Join(Box<join::Args>),
     Path(path::Args),
     Export(export::Args),
     /// Print shell completions.
-    #[command(
-        after_help = "Example:\n  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas"
-    )]
+    #[command(after_help = "Example:\n  \
+                  spiral-atlas completions bash > ~/.local/share/bash-completion/completions/spiral-atlas")]
     Completions {
         /// The shell.
         shell: clap_complete::Shell,
@@ -135,11 +136,7 @@ fn tell_errors_without_panics() {
 
 /// Ends the program as for arguments that clap itself refuses, with the usage of the command that was given.
 fn refuse(what: &str) -> ! {
-    refuse_by(given(), what)
-}
-
-/// The same with the usage of this command.
-fn refuse_by(mut command: clap::Command, what: &str) -> ! {
+    let mut command = given();
     let error = command.error(ErrorKind::ArgumentConflict, what);
     end(&error, &command)
 }
@@ -147,7 +144,7 @@ fn refuse_by(mut command: clap::Command, what: &str) -> ! {
 /// The arguments, or the end of the program with help or an error. An error always shows the usage of the command that
 /// was given; clap leaves it out where a single value is wrong.
 fn parse() -> Cli {
-    Cli::try_parse().unwrap_or_else(|mut error| {
+    Cli::try_parse_from(words()).unwrap_or_else(|mut error| {
         // Help that was asked for, or that stands where a subcommand is missing.
         if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
             error.exit();
@@ -155,6 +152,11 @@ fn parse() -> Cli {
         let mut command = given();
         if error.get(ContextKind::Usage).is_none() {
             error.insert(ContextKind::Usage, ContextValue::StyledStr(command.render_usage()));
+        }
+        if error.kind() == ErrorKind::InvalidSubcommand && error.get(ContextKind::SuggestedSubcommand).is_none() {
+            let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+            let known = StyledStr::from(format!("there are {}", names.join(", ")));
+            error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![known]));
         }
         end(&error, &command)
     })
@@ -170,11 +172,16 @@ fn end(error: &clap::Error, command: &clap::Command) -> ! {
     std::process::exit(error.exit_code())
 }
 
+/// The words of the command line.
+fn words() -> Vec<OsString> {
+    curve::modern(std::env::args_os().collect())
+}
+
 /// The command that the first words of the command line name.
 fn given() -> clap::Command {
     let mut command = Cli::command();
     command.build();
-    for word in std::env::args_os().skip(1) {
+    for word in words().into_iter().skip(1) {
         let Some(next) = word.to_str().and_then(|name| command.find_subcommand(name)) else { break };
         command = next.clone();
     }

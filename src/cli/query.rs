@@ -19,20 +19,21 @@ use std::path::PathBuf;
 /// `curve` takes data as they are.
 ///
 /// With --points, one line of JSON for each row, in order:
-/// {"phi0":..,"phi1":..,"kappa0":..,"kappa1":..,"flags":{"SOLVABLE":true,..},"solutions":[{"f0":..,"f1":..,"theorem31":true,
-/// "spiral":true,"margin":..,"length":..,"control_points":[[x,y],..]},..],"chosen":0}, where `chosen` is an index into
-/// `solutions` or null; a bad row gives {"line":..,"error":".."}.
+/// {"phi0":..,"phi1":..,"kappa0":..,"kappa1":..,"flags":{"SOLVABLE":true,..},"solutions":[{"f0":..,"f1":..,
+/// "theorem31":true,"spiral":true,"margin":..,"length":..,"control_points":[[x,y],..]},..],"chosen":0}, where `chosen`
+/// is an index into `solutions` or null; a bad row gives {"line":..,"error":".."}.
 ///
 /// Exit status: 0 when what the family looks for exists, 1 when it does not, 2 for an error. With --points it is 0 when
 /// every row was answered, whatever the answers, and 2 when one was bad. A yes is the flag SPIRAL (`cubic`,
 /// `ph-quintic`, `trig-quintic`), EXISTS (`any-spiral`), CASE1_EXACT or CASE2_EXACT (`reach-cubic`, `reach-ph`),
 /// REGULAR (`ph-equal-length`, `ph-hermite`).
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --kappa1 4\n  \
-                        spiral-atlas query --family reach-ph --theta 40deg --xi 1.5 --eta 0.35\n  \
-                        spiral-atlas query --points data.csv > answers.jsonl\n  \
-                        spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --ranges kappa1 --within 0,100\n  \
-                        spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 3 --kappa1 4 --nearest --weights inf,inf,1,1")]
+#[command(after_help = "Examples:\n  \
+              spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --kappa1 4\n  \
+              spiral-atlas query --family reach-ph --theta 40deg --xi 1.5 --eta 0.35\n  \
+              spiral-atlas query --points data.csv > answers.jsonl\n  \
+              spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 0.4 --ranges kappa1 --within 0,100\n  \
+              spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 3 --kappa1 4 --nearest --weights inf,inf,1,1")]
 pub(super) struct Args {
     /// The family; that of the atlas, or `cubic`, unless given.
     #[arg(long, value_name = "NAME", value_parser = by_name)]

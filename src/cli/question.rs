@@ -133,7 +133,8 @@ fn nearest_text(property: &Property, found: &Nearest) -> String {
         return match at_least.is_finite() {
             true => format!("no datum with {} was found; any is farther than {at_least:?}\n", property.name()),
             false => format!(
-                "no datum that was searched has {}: none with coordinates up to 1e6, of which those with an infinite weight stay as they are\n",
+                "no datum that was searched has {}: none with coordinates up to 1e6, of which those with an infinite \
+                 weight stay as they are\n",
                 property.name()
             ),
         };

@@ -14,8 +14,9 @@ use std::path::PathBuf;
 /// An atlas without planned pictures gets a slice over its last two axes, at the middle of the others.
 /// Several atlases of a recipe that begin with slices are also drawn side by side, in RECIPE.png.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  spiral-atlas render out/quickstart.atlas.safetensors --out pictures\n  \
-                        spiral-atlas render atlases/habib-sakai-fig2.toml")]
+#[command(after_help = "Examples:\n  \
+              spiral-atlas render out/quickstart.atlas.safetensors --out pictures\n  \
+              spiral-atlas render atlases/habib-sakai-fig2.toml")]
 pub(super) struct Args {
     /// An atlas (.safetensors) or a recipe (.toml).
     source: PathBuf,

@@ -20,9 +20,10 @@ use std::sync::atomic::AtomicBool;
 /// CPU alone recomputes it, and the output says so. The exit status is 1 when anything differs: a hash, the legend, the
 /// recipe, or a value of a node.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  spiral-atlas verify out/quickstart.atlas.safetensors\n  \
-                        spiral-atlas verify out/quickstart.atlas.safetensors --adapter llvmpipe --json\n  \
-                        spiral-atlas verify out/quickstart.atlas.safetensors --require-adapter")]
+#[command(after_help = "Examples:\n  \
+              spiral-atlas verify out/quickstart.atlas.safetensors\n  \
+              spiral-atlas verify out/quickstart.atlas.safetensors --adapter llvmpipe --json\n  \
+              spiral-atlas verify out/quickstart.atlas.safetensors --require-adapter")]
 pub(super) struct Args {
     /// The atlas.
     atlas: PathBuf,

@@ -40,7 +40,8 @@ pub struct EqualLength {
 ///
 /// ```
 /// use spiral_atlas::curve::{EqualLength, equal_length};
-/// let ends = EqualLength { start: [0.0, 0.0], end: [1.0, 0.0], start_direction: 1.0, end_direction: -2.0, length: 1.4 };
+/// let (start, end) = ([0.0, 0.0], [1.0, 0.0]);
+/// let ends = EqualLength { start, end, start_direction: 1.0, end_direction: -2.0, length: 1.4 };
 /// let choice = equal_length(&ends)?;
 /// assert!((choice.best().length() - 1.4).abs() < 1e-14);
 /// # Ok::<(), spiral_atlas::Error>(())

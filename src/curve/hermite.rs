@@ -33,7 +33,8 @@ pub struct Hermite {
 ///
 /// ```
 /// use spiral_atlas::curve::{Hermite, hermite};
-/// let ends = Hermite { start: [0.0, 0.0], end: [1.0, 0.0], start_derivative: [1.0, 1.0], end_derivative: [1.0, -1.0] };
+/// let (start, end) = ([0.0, 0.0], [1.0, 0.0]);
+/// let ends = Hermite { start, end, start_derivative: [1.0, 1.0], end_derivative: [1.0, -1.0] };
 /// let choice = hermite(&ends)?;
 /// assert!((choice.candidates[choice.best].absolute_rotation - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
 /// # Ok::<(), spiral_atlas::Error>(())

@@ -154,7 +154,8 @@ fn fitted(curve: &PhQuintic, tolerance: f64, fit: &mut Fit) -> Result<Vec<Geomet
     let parts = (bend / 384.0 / tolerance).powf(0.25).ceil().max(1.0);
     if parts.is_nan() || parts > f64::from(MOST_PARTS) {
         return Err(format!(
-            "would be more cubics than {MOST_PARTS}, the most that are made; allow a larger tolerance than {tolerance:?}"
+            "would be more cubics than {MOST_PARTS}, the most that are made; allow a larger tolerance than \
+             {tolerance:?}"
         ));
     }
     let mut all = Vec::with_capacity(parts as usize);

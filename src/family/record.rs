@@ -112,7 +112,15 @@ macro_rules! record {
 
             fn wgsl() -> String {
                 use $crate::family::record::{Field, wgsl};
-                wgsl(stringify!($name), &[$((stringify!($field), <$kind as Field>::WGSL, <$kind as Field>::WORDS, <$kind as Field>::read)),+])
+                wgsl(
+                    stringify!($name),
+                    &[$((
+                        stringify!($field),
+                        <$kind as Field>::WGSL,
+                        <$kind as Field>::WORDS,
+                        <$kind as Field>::read,
+                    )),+],
+                )
             }
         }
     };

@@ -35,7 +35,9 @@ macro_rules! formula {
     (@operand [$($done:tt)*] ($($inner:tt)+) $($rest:tt)*) => {
         formula!(@operator [$($done)* (formula!(@operand [] $($inner)+))] $($rest)*)
     };
-    (@operand [$($done:tt)*] {$constant:expr} $($rest:tt)*) => { formula!(@operator [$($done)* ($constant)] $($rest)*) };
+    (@operand [$($done:tt)*] {$constant:expr} $($rest:tt)*) => {
+        formula!(@operator [$($done)* ($constant)] $($rest)*)
+    };
     (@operand [$($done:tt)*] $constant:literal $($rest:tt)*) => { formula!(@operator [$($done)* $constant] $($rest)*) };
     (@operand [$($done:tt)*] $name:ident $($rest:tt)*) => { formula!(@letter [$($done)*] [$name] $($rest)*) };
     // What belongs to a letter: its field, its element, its arguments.

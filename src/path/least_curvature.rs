@@ -89,8 +89,8 @@ const LEAST: f64 = 1e-2;
 /// use spiral_atlas::path::{Directions, Free, least_curvature};
 /// let (start, end) = ([0.0, 0.0], [1.0, 0.0]);
 /// let (start_direction, end_direction) = (std::f64::consts::FRAC_PI_6, std::f64::consts::FRAC_PI_4);
-/// let free = Free::Length;
-/// let found = least_curvature(&Directions { start, end, start_direction, end_direction, greatest_length: 2.0, free })?;
+/// let (greatest_length, free) = (2.0, Free::Length);
+/// let found = least_curvature(&Directions { start, end, start_direction, end_direction, greatest_length, free })?;
 /// assert!((found.greatest_curvature - 3.1210262).abs() < 1e-7 && (found.derivatives[0] - 1.4132589).abs() < 1e-5);
 /// assert!(found.at_least > 3.12102 && found.at_least <= found.greatest_curvature);
 /// # Ok::<(), spiral_atlas::Error>(())
@@ -110,8 +110,8 @@ pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
     if !curve.is_regular() {
         return Err(Error::NoPath(format!(
             "the paths as short as `greatest_length`, {:?}, all but stand still at their ends, slower than 1e-12 of \
-             their mean speed, where doubles have no curvature for them: it hardly exceeds the distance {distance:?} of \
-             the ends; allow more",
+             their mean speed, where doubles have no curvature for them: it hardly exceeds the distance {distance:?} \
+             of the ends; allow more",
             ends.greatest_length
         )));
     }

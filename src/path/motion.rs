@@ -90,8 +90,8 @@ impl Motion {
         if !fits {
             return Err(Error::invalid(format!(
                 "motion: its path of length {length:?} takes from time {start:?} to {end:?} at the `speed` {speed:?}; \
-                 these must differ, and be at most {LARGEST:e}, as must be what it would cover in them: change the unit \
-                 of time"
+                 these must differ, and be at most {LARGEST:e}, as must be what it would cover in them: change the \
+                 unit of time"
             )));
         }
         Ok(motion)

@@ -233,8 +233,8 @@ impl Problem<'_> {
         let off = |i: usize| self.residual(z, i).0.norm() / (60.0 * self.chords[i].norm());
         let worst = (0..z.len()).max_by(|i, j| off(*i).total_cmp(&off(*j))).unwrap_or_default();
         Err(Error::invalid(format!(
-            "spline: Newton's method did not converge in {steps} steps; the span from points[{worst}] misses its end by \
-             {:.1e} of its chord (space the points more evenly, or add some where the path turns)",
+            "spline: Newton's method did not converge in {steps} steps; the span from points[{worst}] misses its end \
+             by {:.1e} of its chord (space the points more evenly, or add some where the path turns)",
             off(worst)
         )))
     }

@@ -113,8 +113,8 @@ impl Way {
             return Ok(way);
         }
         Err(Error::invalid(format!(
-            "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers up \
-             to {most:e}: leave out a piece of no length, or change the unit of length",
+            "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers \
+             up to {most:e}: leave out a piece of no length, or change the unit of length",
             piece.length()
         )))
     }

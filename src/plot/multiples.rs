@@ -91,8 +91,8 @@ fn check(figure: &Multiples) -> Result<()> {
     let ([rows, columns], count) = (figure.shape, figure.panels.len());
     if count == 0 || rows.checked_mul(columns) != Some(count) {
         return Err(Error::invalid(format!(
-            "{count} panels for {rows} rows and {columns} columns of small multiples; it must be rows times columns, at \
-             least 1"
+            "{count} panels for {rows} rows and {columns} columns of small multiples; it must be rows times columns, \
+             at least 1"
         )));
     }
     for (captions, count, what) in [(&figure.rows, rows, "rows"), (&figure.columns, columns, "columns")] {

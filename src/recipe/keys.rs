@@ -96,9 +96,9 @@ fn recipe() -> Table {
         "a section `[[atlas]]`, in double brackets; at least one",
         "The atlases, each with a file of its own.",
     ));
-    let about = "At the top of the file. Where several atlases begin with a slice or a comparison, these are also drawn \
-                 side by side, in a picture with the recipe's name; `title`, `size` and `dpi` here are about that \
-                 picture.";
+    let about = "At the top of the file. Where several atlases begin with a slice or a comparison, these are also \
+                 drawn side by side, in a picture with the recipe's name; `title`, `size` and `dpi` here are about \
+                 that picture.";
     Table { heading: "The recipe", about: about.into(), keys }
 }
 

@@ -164,7 +164,31 @@ pub fn reference() -> String {
                 .for_each(|scalar| page += &format!("| `{}` | {} |\n", scalar.name, cell(scalar.doc)));
         }
     }
-    page
+    wrapped(&page)
+}
+
+/// Lines of prose end by column 120. Rows of tables and blocks of code stay as they are.
+fn wrapped(page: &str) -> String {
+    let (mut text, mut code) = (String::new(), false);
+    for line in page.lines() {
+        code ^= line.starts_with("```");
+        let indent = if line.starts_with("- ") { "  " } else { "" };
+        let mut width = 0;
+        for word in line.split(' ') {
+            let longer = width + 1 + word.chars().count();
+            if width > 0 && longer > 120 && !code && !line.starts_with('|') {
+                text += "\n";
+                text += indent;
+                width = indent.len() + word.chars().count();
+            } else {
+                text += if width > 0 { " " } else { "" };
+                width = if width > 0 { longer } else { longer - 1 };
+            }
+            text += word;
+        }
+        text += "\n";
+    }
+    text
 }
 
 /// A text within a table of Markdown.

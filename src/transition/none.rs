@@ -219,14 +219,14 @@ impl fmt::Display for NoSpiral {
                 let (goes, sign) = if *rising { ("rises", "above") } else { ("falls", "below") };
                 write!(
                     f,
-                    "against the chord the start direction is {} and the end direction {} (positive to the left); where the curvature \
-                     {goes} from start to end, as here, their sum must be {sign} 0, and it is {}",
+                    "against the chord the start direction is {} and the end direction {} (positive to the left); \
+                     where the curvature {goes} from start to end, as here, their sum must be {sign} 0, and it is {}",
                     degrees(*start_angle),
                     degrees(*end_angle),
                     degrees(start_angle + end_angle)
                 )?;
                 if *turned {
-                    f.write_str("; only a spiral that goes round an end does: `--family involute --turns 0,1`")
+                    f.write_str("; only a spiral that goes round an end does: `curve involute --turns 0,1`")
                 } else {
                     Ok(())
                 }

@@ -166,7 +166,8 @@ impl fmt::Display for PhAnswer {
             (_, Some(PhSolution { a, b, margin, length, energy, control_points, .. })) => {
                 writeln!(
                     f,
-                    "PH quintic spiral A = {a:?}, B = {b:?}, margin {margin:?}, length {length:?}, bending energy {energy:?}; control points"
+                    "PH quintic spiral A = {a:?}, B = {b:?}, margin {margin:?}, length {length:?}, bending energy \
+                     {energy:?}; control points"
                 )?;
                 for [x, y] in control_points {
                     writeln!(f, "  ({x:?}, {y:?})")?;

@@ -205,7 +205,8 @@ impl Placement {
         let Datum { phi0, phi1, kappa0, kappa1 } = datum;
         let unit = self.unit();
         let mut text = format!(
-            "normalised: phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = {kappa0:?}, kappa1 = {kappa1:?}; half chord {unit:?}"
+            "normalised: phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = {kappa0:?}, kappa1 = {kappa1:?}; half chord \
+             {unit:?}"
         );
         text += if self.mirrored { ", mirrored" } else { "" };
         text + if self.reversed { ", reversed (what is called 0 belongs to the end)" } else { "" }

@@ -8,10 +8,10 @@ use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::{Error, Result, finite, positive, written};
 use crate::family::reach::{Datum, Kind, Level, legs, level_of_shape, preimage, solve};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What the segment is added to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Base {
     /// The end of a straight line: curvature grows from 0 to 1/r (case 1).
@@ -174,7 +174,8 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
     }
     if !control_points.iter().flatten().all(|x| x.is_finite()) {
         let what = format!(
-            "the segment from {start:?} with the radius {radius:?} leaves the range of doubles; change the unit of length"
+            "the segment from {start:?} with the radius {radius:?} leaves the range of doubles; change the unit of \
+             length"
         );
         return Err(Error::invalid(what));
     }
@@ -213,7 +214,8 @@ fn why(case: u8, theta: f64, point: Vector, [xi, eta]: Vector) -> String {
     };
     let ([x, y], [xi, eta], theta) = (point.map(written), [xi, eta].map(written), degrees(theta));
     format!(
-        "the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, {what}"
+        "the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, \
+         {what}"
     )
 }
 

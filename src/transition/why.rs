@@ -175,8 +175,8 @@ impl fmt::Display for Why {
             Why::NoSpiralOfAnyKind(none) => write!(f, "no spiral of any kind joins these ends: {none}"),
             Why::NotConvex { start_angle, end_angle } => write!(
                 f,
-                "no C-shaped curve joins these ends: against the chord the start direction is {} and the end direction {} (positive to the \
-                 left); they must lie on opposite sides of it",
+                "no C-shaped curve joins these ends: against the chord the start direction is {} and the end direction \
+                 {} (positive to the left); they must lie on opposite sides of it",
                 degrees(*start_angle),
                 degrees(*end_angle)
             ),
@@ -189,12 +189,13 @@ impl fmt::Display for Why {
             }
             Why::Straight { which } => write!(
                 f,
-                "the {which} curvature is 0, and the curves of this family bend at both ends, in the direction in which they turn"
+                "the {which} curvature is 0, and the curves of this family bend at both ends, in the direction in \
+                 which they turn"
             ),
             Why::Inflection { which, curvature, turn } => write!(
                 f,
-                "the {which} curvature {curvature:?} is to the {}, but the directions turn {turn}: the curve would have an inflection, and \
-                 this family has none; it must be {} 0",
+                "the {which} curvature {curvature:?} is to the {}, but the directions turn {turn}: the curve would \
+                 have an inflection, and this family has none; it must be {} 0",
                 if *curvature > 0.0 { "left" } else { "right" },
                 if *curvature > 0.0 { "below" } else { "above" },
             ),

@@ -327,7 +327,9 @@ proptest! {
 
     /// Bytes changed, cut out or put in, anywhere: an error, or an atlas whose every part can be looked at.
     #[test]
-    fn mutated_files_never_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), 0..3, any::<u8>()), 1..4)) {
+    fn mutated_files_never_panic(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0..3, any::<u8>()), 1..4),
+    ) {
         let mut file = sample_once().to_vec();
         for (place, kind, byte) in edits {
             let at = place.index(file.len());
@@ -348,8 +350,11 @@ proptest! {
 
     /// Well-formed safetensors headers with wild numbers.
     #[test]
-    fn wild_offsets_are_refused(shape in prop::collection::vec(wild(), 0..5), start in wild(), end in wild(), more in 0usize..9) {
-        let tensor = |i: usize| format!("\"t{i}\":{{\"dtype\":\"F64\",\"shape\":{shape:?},\"data_offsets\":[{start},{end}]}}");
+    fn wild_offsets_are_refused(
+        shape in prop::collection::vec(wild(), 0..5), start in wild(), end in wild(), more in 0usize..9,
+    ) {
+        let tensor =
+            |i: usize| format!(r#""t{i}":{{"dtype":"F64","shape":{shape:?},"data_offsets":[{start},{end}]}}"#);
         let list: Vec<String> = (0..=more).map(tensor).collect();
         let mut text = format!("{{{}}}", list.join(",")).into_bytes();
         text.resize(text.len().next_multiple_of(8), b' ');

@@ -19,7 +19,8 @@ fn recipe(outer: [usize; 3], picture: &str) -> String {
     let axes =
         axis("ratio", 3.0, 6.0, 6.0, ratio) + &axis("theta", 0.3, 1.3, 0.9, theta) + &axis("m", 0.4, 2.0, 0.6, m);
     format!(
-        "family = \"trig-quintic\"\n[[atlas]]\nname = \"panels\"\n[atlas.axes]\n{axes}p = {{ linear = [-3.9, 1], count = 5 }}\n\
+        "family = \"trig-quintic\"\n[[atlas]]\nname = \"panels\"\n[atlas.axes]\n{axes}p = {{ linear = [-3.9, 1], count \
+         = 5 }}\n\
          q = {{ linear = [-1.5, 1], count = 7 }}\n[[atlas.picture]]\nregions = [\"END_RISES\", \"SPIRAL\"]\n{picture}"
     )
 }

@@ -128,7 +128,12 @@ fn an_atlas_may_have_its_own_family() {
         Err(Error::Recipe(what)) => assert!(what.contains("unknown field `margin`"), "{what}"),
         other => panic!("{:?}", other.is_ok()),
     }
-    let recipe = Recipe::parse("family = \"cubic\"\n[[atlas]]\nname = \"a\"\nfamily = \"reach-ph\"\n[atlas.axes]\ntheta = { values = [1] }\nxi = { values = [1] }\neta = { values = [1] }").unwrap();
+    let recipe = Recipe::parse(
+        "family = \"cubic\"\n[[atlas]]\nname = \"a\"\nfamily = \
+                                \"reach-ph\"\n[atlas.axes]\ntheta = { values = [1] }\nxi = { values = [1] }\neta = { \
+                                values = [1] }",
+    )
+    .unwrap();
     assert_eq!(recipe.atlases[0].family.about().name, "reach-ph");
 }
 
@@ -327,7 +332,9 @@ proptest! {
 
     /// Words, brackets and numbers exchanged or dropped: an error with a place, or a recipe, but no panic.
     #[test]
-    fn mutated_recipes_never_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), 0..3usize, piece()), 1..4)) {
+    fn mutated_recipes_never_panic(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0..3usize, piece()), 1..4),
+    ) {
         let mut text: Vec<char> = GOOD.chars().collect();
         for (place, drop, piece) in edits {
             let at = place.index(text.len());

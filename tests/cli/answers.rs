@@ -243,7 +243,8 @@ fn every_family_answers() {
 #[test]
 fn a_table_is_answered_line_by_line_in_order() {
     let folder = Folder::new("");
-    let rows = "kappa1, phi0 ,id,phi1,kappa0\r\n4,0.7,a,1.4,0.4\r\n\r\nx,0.7,b,1.4,0.4\n4,0.7\n100,0.1,c,1.5,0.035\n4,4,d,1,1\n\
+    let rows = "kappa1, phi0 ,id,phi1,kappa0\r\n4,0.7,a,1.4,0.4\r\n\r\nx,0.7,b,1.4,0.4\n4,0.7\n\
+                100,0.1,c,1.5,0.035\n4,4,d,1,1\n\
                 4,40deg,e,80deg,-1\n1e999,0.7,f,1.4,0.4";
     std::fs::write(folder.at("rows.csv"), rows).unwrap();
     let said = run(["query", "--points", &folder.text("rows.csv")]);

@@ -66,7 +66,7 @@ const SEGMENT: [&str; 16] = [
 ];
 
 fn curve(family: &str, asked: &[&str], more: &[&str]) -> Said {
-    run(["curve", "--family", family].iter().chain(asked).chain(more))
+    run(["curve", family].iter().chain(asked).chain(more))
 }
 
 /// What a command says to an input.
@@ -168,7 +168,7 @@ fn a_no_names_the_families_that_would_do() {
     let straight = ENDS.map(|arg| if arg == "0.004" { "0" } else { arg });
     let said = curve("cubic", &straight, &[]);
     assert!(said.code == Some(1) && said.out.contains("the start curvature is 0"), "{}", said.out);
-    assert!(said.out.contains("add `--family ") && said.out.contains("`--family involute`"), "{}", said.out);
+    assert!(said.out.contains("kind of curve would do: ") && said.out.contains("`curve involute`"), "{}", said.out);
     let json: Value = serde_json::from_str(&curve("cubic", &straight, &["--json"]).out).unwrap();
     for family in json["families"].as_array().unwrap() {
         assert_eq!(curve(family.as_str().unwrap(), &straight, &[]).code, Some(0), "{family}");
@@ -182,7 +182,7 @@ fn a_no_names_the_families_that_would_do() {
 fn a_straight_end_is_advised_the_segments_that_join_it() {
     let ask = |ends: [&str; 6], more: &[&str]| {
         let names = ["--from", "--to", "--start-direction", "--end-direction", "--start-curvature", "--end-curvature"];
-        run(["curve"]
+        run(["curve", "cubic"]
             .into_iter()
             .chain(names.into_iter().zip(ends).flat_map(|(a, b)| [a, b]))
             .chain(more.iter().copied()))
@@ -202,7 +202,7 @@ fn a_straight_end_is_advised_the_segments_that_join_it() {
         for (command, family) in commands.iter().zip(families) {
             assert!(said.out.contains(&format!("`{command}`")), "{}", said.out);
             let words: Vec<&str> = command.split(' ').collect();
-            assert_eq!(words[..4], ["spiral-atlas", "curve", "--family", family]);
+            assert_eq!(words[..3], ["spiral-atlas", "curve", family]);
             let found = run(words[1..].iter().chain(&["--json", "--samples", "2"])).json();
             // It has the ends that were asked for: points exactly, the rest within the roundings of a chord's
             // direction.
@@ -227,7 +227,7 @@ fn batches_have_a_line_for_each_row() {
                 0.04,-40°,5,-3,205,-3,0.004,80deg\n\
                 0.005,-40°,5,-3,205,-3,0.004,80deg\n";
     for family in ["cubic", "ph-quintic", "involute"] {
-        let args = ["curve", "--family", family, "--points", "-"];
+        let args = ["curve", family, "--points", "-"];
         let said = piped(&args, rows);
         let lines: Vec<Value> = said.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         assert!(said.code == Some(0) && lines.len() == 2, "{family}: {} {}", said.out, said.err);
@@ -246,13 +246,13 @@ fn batches_have_a_line_for_each_row() {
         assert!(lines[3]["error"].is_string() && lines[4] == lines[0], "{}", lines[3]);
     }
     // Lines of both answers are read where paths are read, and samples come as one table.
-    let lines = piped(&["curve", "--points", "-"], rows).out;
+    let lines = piped(&["curve", "cubic", "--points", "-"], rows).out;
     let measured = piped(&["path", "measure", "-", "--samples", "2", "--csv"], &lines);
     assert_eq!(measured.out.lines().map(|line| &line[..2]).collect::<Vec<_>>(), ["pa", "0,", "0,"], "{}", measured.err);
     assert_eq!(measured.err, "line 2 of standard input has no path; the reason stands there\n");
     assert_eq!(piped(&["export", "opendrive", "-"], &lines).out.matches("<road ").count(), 1);
     let table = piped(
-        &["curve", "--points", "-", "--samples", "3", "--csv"],
+        &["curve", "cubic", "--points", "-", "--samples", "3", "--csv"],
         &format!("{rows}\n{}", rows.split_once('\n').unwrap().1),
     );
     let alone = curve("cubic", &ENDS, &["--samples", "3", "--csv"]).out;
@@ -263,7 +263,7 @@ fn batches_have_a_line_for_each_row() {
         "{}",
         table.err
     );
-    let header = piped(&["curve", "--points", "-"], "x0,y0\n");
+    let header = piped(&["curve", "cubic", "--points", "-"], "x0,y0\n");
     assert!(header.code == Some(2) && header.err.contains("curvature1"), "{}", header.err);
 }
 
@@ -366,7 +366,7 @@ fn extreme_shapes_have_an_answer() {
 fn the_pages_reason_is_what_is_said() {
     let page = include_str!("../../docs/cubic.md").replace('\n', " ");
     let ends = ["--start-direction=-40deg", "--end-direction=80deg", "--start-curvature=0.03", "--end-curvature=0.04"];
-    let said = run(["curve", "--from", "0,0", "--to", "200,0"].iter().chain(&ends));
+    let said = run(["curve", "cubic", "--from", "0,0", "--to", "200,0"].iter().chain(&ends));
     let reason = "the start curvature 0.03 must be below 0.00603991 (or, turning left, a radius of at least 165.566)";
     assert!(page.contains(reason) && said.out.contains(reason), "{}", said.out);
 }

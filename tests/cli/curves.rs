@@ -3,8 +3,18 @@
 use super::{Folder, fine, run};
 
 fn curve(from: &str, to: &str, directions: [&str; 2], curvatures: [&str; 2], more: &[&str]) -> super::Said {
-    let all =
-        ["curve", "--from", from, "--to", to, "--start-direction", directions[0], "--end-direction", directions[1]];
+    let all = [
+        "curve",
+        "cubic",
+        "--from",
+        from,
+        "--to",
+        to,
+        "--start-direction",
+        directions[0],
+        "--end-direction",
+        directions[1],
+    ];
     let rest = ["--start-curvature", curvatures[0], "--end-curvature", curvatures[1]];
     run(all.iter().chain(&rest).chain(more))
 }
@@ -102,7 +112,7 @@ fn involutes_join_any_ends_with_a_spiral() {
     let ends = ["--from", "3,1", "--to", "7,4", "--start-direction", "0.2", "--end-direction", "2.4"];
     let curvatures =
         ["--start-curvature", "-0.1", "--end-curvature", "1.6", "--samples", "33", "--json", "--figure", &figure];
-    let all = ["curve", "--family", "involute"].into_iter().chain(ends).chain(curvatures);
+    let all = ["curve", "involute"].into_iter().chain(ends).chain(curvatures);
     let json = fine(all.clone()).json();
     let samples = json["samples"].as_array().unwrap();
     let (first, last) = (&samples[0], &samples[32]);
@@ -133,7 +143,7 @@ fn ph_quintics_join_straight_ends_too() {
     let folder = Folder::new("");
     let figure = folder.text("ph.png");
     let straight = |more: &[&str]| {
-        let ends = ["curve", "--family", "ph-quintic", "--from", "0,0", "--to", "200,0", "--start-direction=-25deg"];
+        let ends = ["curve", "ph-quintic", "--from", "0,0", "--to", "200,0", "--start-direction=-25deg"];
         let rest = ["--end-direction", "50deg", "--start-curvature", "0", "--end-curvature"];
         run(ends.into_iter().chain(rest).chain(more.iter().copied()))
     };
@@ -154,19 +164,7 @@ fn segments_are_added_to_lines_and_arcs() {
     let folder = Folder::new("");
     let figure = folder.text("segment.png");
     let segment = |family: &str, base: &str, more: &[&str]| {
-        let all = [
-            "curve",
-            "--family",
-            family,
-            "--base",
-            base,
-            "--from",
-            "10,5",
-            "--start-direction",
-            "30deg",
-            "--turn",
-            "left",
-        ];
+        let all = ["curve", family, "--base", base, "--from", "10,5", "--start-direction", "30deg", "--turn", "left"];
         run(all.into_iter().chain(["--radius", "20", "--angle", "45deg"]).chain(more.iter().copied()))
     };
     for (family, points) in [("reach-cubic", 4), ("reach-ph", 6)] {
@@ -202,48 +200,32 @@ fn options_of_other_families_are_refused() {
         assert_eq!((said.code, &said.out[..]), (Some(2), ""), "{args:?}");
         assert!(parts.iter().all(|part| said.err.contains(part)), "{}", said.err);
     };
-    refused(&["curve", "--from", "0,0"], &["`--family cubic` needs", "`--to`", "`--end-curvature`"]);
-    refused(&["curve", "--family", "reach-ph", "--to", "1,1"], &["needs", "`--radius`"]);
-    refused(&["curve", "--family", "reach-ph", "--m", "1"], &["`--to` or its shape `--m` and `--q`"]);
-    let usage = "Usage: spiral-atlas curve --family reach-ph --from <X,Y> --start-direction <ANGLE|DX,DY> --base <BASE> --turn <TURN> \
-                 --radius <NUMBER> --angle <ANGLE> [--to <X,Y>] [--m <NUMBER>] [--q <NUMBER>] [OPTIONS]";
-    refused(&["curve", "--family", "reach-ph", "--m", "1"], &[usage, "'spiral-atlas curve --help'"]);
-    let template = [
-        "curve",
-        "--family",
-        "trig-quintic",
-        "--template",
-        "circle-in-circle",
-        "--from",
-        "0,0",
-        "--second",
-        "1,1,1,1,1,1",
-    ];
+    refused(&["curve", "cubic", "--from", "0,0"], &["not provided", "--to <X,Y>", "--end-curvature <NUMBER>"]);
+    refused(&["curve", "reach-ph", "--to", "1,1"], &["not provided", "--radius <NUMBER>"]);
     refused(
-        &template,
-        &[
-            "`--template circle-in-circle` needs",
-            "`--outer`",
-            "--family trig-quintic --template circle-in-circle --from",
-        ],
+        &["curve", "reach-ph", "--m", "1"],
+        &["not provided", "--q <NUMBER>", "'spiral-atlas curve reach-ph --help'"],
     );
-    refused(&["curve", "--points", "-", "--from", "0,0"], &["`--from` means nothing to `--points`", "--points <FILE>"]);
-    refused(&["curve", "--family", "clothoid"], &["clothoid", "involute"]);
-    let ends = [
-        "curve",
-        "--from",
-        "0,0",
-        "--to",
-        "1,0",
-        "--start-direction",
-        "0",
-        "--end-direction",
-        "1",
-        "--start-curvature",
-        "1",
-    ];
-    let all: Vec<&str> = ends.into_iter().chain(["--end-curvature", "2", "--turns", "1,0"]).collect();
-    refused(&all, &["`--turns` means nothing to `--family cubic`"]);
+    let added = "--base line --from 0,0 --start-direction 0 --turn left --radius 1 --angle 1";
+    let segment: Vec<&str> = ["curve", "reach-ph"].into_iter().chain(added.split(' ')).collect();
+    refused(&segment, &["not provided", "--to <X,Y>"]);
+    let both: Vec<&str> = segment.iter().copied().chain("--to 1,1 --m 1 --q 1".split(' ')).collect();
+    refused(&both, &["'--to <X,Y>' cannot be used with"]);
+    let template = "--from 0,0 --start-direction 0 --turn left --radius 1 --angle 1 --m 1 --template";
+    for (more, part) in [
+        ("circle-in-circle", "--outer <NUMBER>"),
+        ("line-circle --second 1,1,1,1,1,1", "`--second` is for"),
+        ("circle-in-circle --outer 9 --second 1,1,1,1,1,1", "`--second` is for"),
+        ("s --outer 9", "`--outer` for `circle-in-circle`"),
+    ] {
+        let words = template.split(' ').chain(more.split(' '));
+        let all: Vec<&str> = ["curve", "trig-quintic"].into_iter().chain(words).collect();
+        refused(&all, &[part, "Usage: spiral-atlas curve trig-quintic"]);
+    }
+    refused(&["curve", "cubic", "--points", "-", "--from", "0,0"], &["'--points <FILE>' cannot be used with '--from"]);
+    refused(&["curve", "reach-ph", "--points", "-"], &["unexpected argument '--points'"]);
+    refused(&["curve", "clothoid"], &["clothoid", "there are cubic, ph-quintic, involute"]);
+    refused(&["curve", "cubic", "--turns", "1,0"], &["unexpected argument '--turns'"]);
     refused(
         &["query", "--family", "reach-ph", "--phi0", "1"],
         &["a datum of `reach-ph` needs `--theta --xi --eta`", "`--phi0`"],
@@ -279,8 +261,34 @@ fn lengths_of_added_segments_agree() {
         ];
         let rest = ["--m", &m, "--q", &q, "--json"];
         let curve: serde_json::Value =
-            serde_json::from_str(&run(["curve", "--family", family].iter().chain(&shape).chain(&rest)).out).unwrap();
+            serde_json::from_str(&run(["curve", family].iter().chain(&shape).chain(&rest)).out).unwrap();
         let [a, b] = [&segment["length"], &curve["segment"]["length"]].map(|x| x.as_f64().unwrap());
         assert!((20.0 * a / b - 1.0).abs() < 1e-12, "{family}: {a} {b}");
     }
+}
+
+/// `curve --family NAME` and `curve` alone, which means `cubic`, are older spellings.
+#[test]
+fn an_older_spelling_means_the_same() {
+    let folder = Folder::new("");
+    let ends = "--from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg --start-curvature 0.004";
+    let rows = "x0,y0,direction0,curvature0,x1,y1,direction1,curvature1\n0,0,-40deg,0.004,200,0,80deg,0.04\n";
+    std::fs::write(folder.at("ends.csv"), format!("{rows}0,0,-40deg,0.004,200,0,80deg\n")).unwrap();
+    let table = format!("--points {}", folder.text("ends.csv"));
+    for (end, code) in [(" --end-curvature 0.04", 0), (" --end-curvature 0.005 --json", 1), ("", 2)] {
+        let ends = format!("{ends}{end}");
+        for (older, new) in [
+            (ends.clone(), format!("cubic {ends}")),
+            (format!("{ends} --family involute"), format!("involute {ends}")),
+            (format!("--family=ph-quintic {ends}"), format!("ph-quintic {ends}")),
+        ] {
+            let [older, new] = [older, new].map(|words| run(["curve"].into_iter().chain(words.split(' '))));
+            assert_eq!((older.code, &older.out, &older.err), (new.code, &new.out, &new.err));
+            assert_eq!(older.code, Some(code), "{}", older.err);
+        }
+    }
+    let [older, new] =
+        [table.clone(), format!("cubic {table}")].map(|words| run(["curve"].into_iter().chain(words.split(' '))));
+    assert_eq!((older.code, &older.out), (Some(2), &new.out));
+    assert!(older.out.lines().count() == 2 && older.out.contains("\"line\":3"), "{}", older.out);
 }

@@ -27,9 +27,9 @@ fn a_road_goes_to_a_file_or_to_standard_output() {
 fn what_no_road_can_be_is_refused_and_leaves_no_file() {
     let folder = Folder::new("");
     let (input, out) = (folder.text("road.json"), folder.text("road.xodr"));
-    let options = ["curve", "--from", "0,0", "--to", "200,0", "--start-direction=-40deg", "--end-direction", "80deg"];
-    let curvatures = ["--start-curvature", "0.004", "--end-curvature", "0.04", "--json", "--family"];
-    let curve = |family: &str| fine(options.iter().chain(&curvatures).copied().chain([family])).out;
+    let options = ["--from", "0,0", "--to", "200,0", "--start-direction=-40deg", "--end-direction", "80deg"];
+    let curvatures = ["--start-curvature", "0.004", "--end-curvature", "0.04", "--json"];
+    let curve = |family: &str| fine(["curve", family].iter().chain(&options).chain(&curvatures)).out;
     let none = r#"{"paths": []}"#.to_owned();
     let still = r#"{"paths": [{"pieces": [{"kind": "cubic", "control_points": [[0, 0], [0, 0], [1, 1], [2, 0]]}]}]}"#
         .to_owned();

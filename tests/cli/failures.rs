@@ -43,12 +43,12 @@ fn bad_input_is_named() {
         (&["verify", "missing.safetensors"], 2, &["missing.safetensors", "No such file"]),
         (&["info", &recipe], 2, &["recipe.toml"]),
         (&["render", &junk], 2, &["junk.safetensors"]),
-        (&["curve", "--from", "0"], 2, &["\"0\" is not two finite numbers", "Usage: spiral-atlas curve"]),
+        (&["curve", "cubic", "--from", "0"], 2, &["\"0\" is not two finite numbers", "Usage: spiral-atlas curve"]),
         (&["path", "hermite"], 2, &["Usage: spiral-atlas path hermite"]),
         (
-            &["curve", "--familly", "involute"],
+            &["curve", "cubic", "--form", "0,0"],
             2,
-            &["a similar argument exists: '--family'", "Usage: spiral-atlas curve", "try 'spiral-atlas curve --help'"],
+            &["a similar argument exists: '--from'", "Usage: spiral-atlas curve", "'spiral-atlas curve cubic --help'"],
         ),
         (
             &["path", "hermite", "--figur", "a.png"],
@@ -56,9 +56,9 @@ fn bad_input_is_named() {
             &["'--figur'", "'--figure'", "Usage: spiral-atlas path hermite", "try 'spiral-atlas path hermite --help'"],
         ),
         (
-            &["curve", "--start-direction", "40%"],
+            &["curve", "cubic", "--start-direction", "40%"],
             2,
-            &["--start-direction", "`40deg` or `40°`", "try 'spiral-atlas curve --help'"],
+            &["--start-direction", "`40deg` or `40°`", "try 'spiral-atlas curve cubic --help'"],
         ),
         (&["--famly"], 2, &["'--famly'", "Usage: spiral-atlas <COMMAND>", "try 'spiral-atlas --help'"]),
         (&["info", &folder.text("")], 2, &["not an ordinary file"]),
@@ -328,7 +328,7 @@ fn mistakes_in_toml_are_named() {
 #[test]
 fn angles_and_curves_beyond_their_range_are_told() {
     let ends = |direction: &str, more: &[&str]| {
-        let given = ["curve", "--family", "involute", "--from", "0,0", "--to", "2,0", "--end-direction", "1"];
+        let given = ["curve", "involute", "--from", "0,0", "--to", "2,0", "--end-direction", "1"];
         let rest = ["--start-curvature=-0.3", "--end-curvature", "4", "--start-direction", direction];
         run(given.iter().chain(&rest).chain(more))
     };
@@ -354,7 +354,7 @@ fn angles_and_curves_beyond_their_range_are_told() {
             "--m",
             "0.8",
         ];
-        let said = run(["curve", "--family"].iter().chain(more).chain(&far));
+        let said = run(["curve"].iter().chain(more).chain(&far));
         assert!(
             said.code == Some(2) && said.err.contains("leaves the range of doubles; change the unit"),
             "{}",
@@ -369,7 +369,8 @@ fn angles_and_curves_beyond_their_range_are_told() {
 #[cfg(target_os = "linux")]
 #[test]
 fn many_samples_take_little_memory() {
-    let curve = "curve --from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg --start-curvature 0.004 --end-curvature 0.04";
+    let curve = "curve cubic --from 0,0 --to 200,0 --start-direction=-40deg --end-direction 80deg \
+                 --start-curvature 0.004 --end-curvature 0.04";
     for form in ["--json", "--csv", ""] {
         let limited = format!(
             "ulimit -v 200000 && exec {} {curve} --samples 1000000 {form} | wc -l",

@@ -193,7 +193,8 @@ fn curvatures_of_next_to_nothing_are_straight() {
 
 #[test]
 fn tables_are_answered_row_by_row() {
-    let rows = "x0,y0,direction0,curvature0,x1,y1,direction1,curvature1\n0,0,0,0,8,6,90deg,0\n0,0,0,1,8,6,1,0\n0,0,0,x,8,6,1,0\n\
+    let rows = "x0,y0,direction0,curvature0,x1,y1,direction1,curvature1\n0,0,0,0,8,6,90deg,0\n\
+                0,0,0,1,8,6,1,0\n0,0,0,x,8,6,1,0\n\
                 0,0,0,nan,8,6,1,0\n";
     let said = piped(&["join", "--points", "-", "--greatest-curvature", "0.5"], rows);
     let lines: Vec<Value> = said.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
@@ -222,7 +223,8 @@ fn joins_are_read_by_what_reads_paths() {
     let one = with_limit(&["--from", "0,0,0", "--to", "8,6,90deg"]).out;
     let length = serde_json::from_str::<Value>(&one).unwrap()["paths"][0]["length"].as_f64().unwrap();
     let near = |measured: &Value| (measured.as_f64().unwrap() - length).abs() < 1e-12 * length;
-    let rows = "x0,y0,direction0,curvature0,x1,y1,direction1,curvature1\n0,0,0,0,8,6,90deg,0\n0,0,0,1,8,6,1,0\n0,0,0,x,8,6,1,0\n\
+    let rows = "x0,y0,direction0,curvature0,x1,y1,direction1,curvature1\n0,0,0,0,8,6,90deg,0\n\
+                0,0,0,1,8,6,1,0\n0,0,0,x,8,6,1,0\n\
                 0,0,0,0,8,6,90deg,0\n";
     let lines = piped(&["join", "--points", "-", "--greatest-curvature", "0.5"], rows).out;
     let alone = lines.lines().next().unwrap();

@@ -115,9 +115,13 @@ fn a_planned_path_is_input_of_separation() {
     assert_eq!((verdict(&beside, "0.499999"), verdict(&beside, "0.500001")), (json!("kept"), json!("violated")));
     assert_eq!(verdict(&later, "0.000001"), json!("violated"));
     // TOML says the same.
-    let scene = "start = [0, 0]\ngoal = [3, 0]\nclearance = 0.1\ngreatest_curvature = 5\nobstacles = [[[1, -1], [2, -1], [2, 1], [1, 1]]]";
+    let scene = "start = [0, 0]\ngoal = [3, 0]\nclearance = 0.1\ngreatest_curvature = 5\nobstacles = [[[1, -1], [2, \
+                 -1], [2, 1], [1, 1]]]";
     std::fs::write(folder.at("scene.toml"), scene).unwrap();
-    let json = r#"{"start": [0, 0], "goal": [3, 0], "clearance": 0.1, "greatest_curvature": 5, "obstacles": [[[1, -1], [2, -1], [2, 1], [1, 1]]]}"#;
+    let json = concat!(
+        r#"{"start": [0, 0], "goal": [3, 0], "clearance": 0.1, "greatest_curvature": 5, "#,
+        r#""obstacles": [[[1, -1], [2, -1], [2, 1], [1, 1]]]}"#
+    );
     let toml = fine(["path", "plan", &folder.text("scene.toml")]).out;
     assert!(!toml.is_empty() && toml == piped(&["plan", "-"], json).out);
     std::fs::write(folder.at("scene.toml"), "start = [0, 0").unwrap();
@@ -179,7 +183,8 @@ fn what_is_measured_of_a_path_agrees_with_the_path() {
     assert_eq!(count(&joint)[1], 1);
     let closed = piped(&["spline", "-"], r#"{"points": [[2, 0], [0, 1], [-2, 0], [0, -1]], "closed": true}"#).out;
     assert_eq!(count(&closed), [4, 0]);
-    let bends = r#"{"start": [0, 0], "goal": [10, 0], "obstacles": [[[3, -5], [3.5, -5], [3.5, 1], [3, 1]], [[6, -1], [6.5, -1], [6.5, 5], [6, 5]]],
+    let bends = r#"{"start": [0, 0], "goal": [10, 0],
+        "obstacles": [[[3, -5], [3.5, -5], [3.5, 1], [3, 1]], [[6, -1], [6.5, -1], [6.5, 5], [6, 5]]],
         "clearance": 0.2, "greatest_curvature": 3}"#;
     // Two corners to the right, two to the left; each has a peak, and between two alike the curvature falls to 0.
     assert_eq!(count(&piped(&["plan", "-"], bends).out), [6, 1]);
@@ -251,11 +256,12 @@ fn every_kind_of_piece_is_measured() {
 
 #[test]
 fn where_there_is_no_path_the_answer_is_no() {
-    let wall = "[[1, -9], [2, -9], [2, 9], [1, 9]], [[-9, 8], [9, 8], [9, 9], [-9, 9]], [[-9, -9], [9, -9], [9, -8], [-9, -8]],
-        [[8, -9], [9, -9], [9, 9], [8, 9]]";
+    let wall = "[[1, -9], [2, -9], [2, 9], [1, 9]], [[-9, 8], [9, 8], [9, 9], [-9, 9]], \
+                [[-9, -9], [9, -9], [9, -8], [-9, -8]], [[8, -9], [9, -9], [9, 9], [8, 9]]";
     let scene = |curvature: f64| {
         format!(
-            r#"{{"start": [0, 0], "goal": [3, 0], "obstacles": [{wall}], "clearance": 0.1, "greatest_curvature": {curvature}}}"#
+            r#"{{"start": [0, 0], "goal": [3, 0], "clearance": 0.1, "greatest_curvature": {curvature},
+                "obstacles": [{wall}]}}"#
         )
     };
     let said = piped(&["plan", "-"], &scene(5.0));

@@ -9,12 +9,19 @@ fn mistakes_are_named() {
         (&["measure", "-"], r#"{"paths": [{"pieces": []}]}"#, &["paths[0]: `pieces` is empty"]),
         (
             &["measure", "-"],
-            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}, {"kind": "ph-quintic", "start": [7, 7], "preimage": [[1, 0], [1, 0], [1, 0]]}]}]}"#,
+            concat!(
+                r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "#,
+                r#""preimage": [[1, 0], [1, 0], [1, 0]]}, {"kind": "ph-quintic", "start": [7, 7], "#,
+                r#""preimage": [[1, 0], [1, 0], [1, 0]]}]}]}"#
+            ),
             &["paths[0]: pieces[0] ends at [1.0, 0.0], pieces[1] starts at [7.0, 7.0]"],
         ),
         (
             &["measure", "-", "--offset", "1e308"],
-            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[100, 0], [50, 60], [1, 90]]}]}]}"#,
+            concat!(
+                r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "#,
+                r#""preimage": [[100, 0], [50, 60], [1, 90]]}]}]}"#
+            ),
             &["paths[0]: pieces[0]: its offset at distance 1e308"],
         ),
         (&["measure", "-", "--offset", "inf"], r#"{"paths": []}"#, &["--offset is inf"]),
@@ -53,12 +60,18 @@ fn mistakes_are_named() {
         (&["spline", "-"], r#"{"point": []}"#, &["there is no field `point`; known are `points` or `closed`"]),
         (
             &["equal-length", "-"],
-            r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": 0.1, "end_direction": "5deg"}]}"#,
+            concat!(
+                r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": 0.1, "#,
+                r#""end_direction": "5deg"}]}"#
+            ),
             &["paths[0]", "`length` is 2;", "distance 3 "],
         ),
         (
             &["equal-length", "-"],
-            r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": "4dg", "end_direction": 0}]}"#,
+            concat!(
+                r#"{"length": 2, "paths": [{"start": [0, 0], "end": [3, 0], "start_direction": "4dg", "#,
+                r#""end_direction": 0}]}"#
+            ),
             &["standard input: paths[0].start_direction: \"4dg\" is no angle"],
         ),
         (
@@ -73,7 +86,10 @@ fn mistakes_are_named() {
         ),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            concat!(
+                r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "#,
+                r#""preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#
+            ),
             &["paths[1]: `pieces` is empty"],
         ),
         (
@@ -85,17 +101,26 @@ fn mistakes_are_named() {
         (&["separation", "-", "--minimum", "0"], r#"{"paths": []}"#, &["0 paths"]),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            concat!(
+                r#"{"paths": [{"pieces": [{"kind": "ph-quintic", "start": [0, 0], "end": [7, 0], "#,
+                r#""preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#
+            ),
             &["paths[0]", "pieces[0]", "`end` is [7.0, 0.0]", "[1.0, 0.0]"],
         ),
         (
             &["separation", "-", "--minimum", "0"],
-            r#"{"paths": [{"speed": 0, "pieces": [{"kind": "ph-quintic", "start": [0, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#,
+            concat!(
+                r#"{"paths": [{"speed": 0, "pieces": [{"kind": "ph-quintic", "start": [0, 0], "#,
+                r#""preimage": [[1, 0], [1, 0], [1, 0]]}]}, {"pieces": []}]}"#
+            ),
             &["paths[0]", "`speed` is 0;"],
         ),
         (
             &["plan", "-"],
-            r#"{"start": [0, 0], "goal": [3, 0], "obstacles": [[[1, 1], [2, 2]]], "clearance": 0, "greatest_curvature": 1}"#,
+            concat!(
+                r#"{"start": [0, 0], "goal": [3, 0], "obstacles": [[[1, 1], [2, 2]]], "clearance": 0, "#,
+                r#""greatest_curvature": 1}"#
+            ),
             &["standard input", "obstacles[0] has 2 different vertices"],
         ),
         (&["plan", "-"], r#"{"start": [0, 0], "heading": 1}"#, &["there is no field `heading`"]),
@@ -118,11 +143,18 @@ fn extreme_numbers_have_an_answer_or_a_way_out() {
         (&["spline", "-"], r#"{"points": [[0, 0], [X, 0], [X, X]], "closed": true}"#),
         (
             &["equal-length", "-"],
-            r#"{"length": L, "paths": [{"start": [0, 0], "end": [X, 0], "start_direction": 1e-300, "end_direction": 5e-324}]}"#,
+            concat!(
+                r#"{"length": L, "paths": [{"start": [0, 0], "end": [X, 0], "start_direction": 1e-300, "#,
+                r#""end_direction": 5e-324}]}"#
+            ),
         ),
         (
             &["separation", "-", "--minimum", "1e-300"],
-            r#"{"paths": [{"pieces": [{"kind": "line", "start": [0, 0], "end": [X, 0]}], "speed": L}, {"pieces": [{"kind": "cubic", "control_points": [[0, 0], [1, X], [2, 0], [X, X]]}], "start_time": X}]}"#,
+            concat!(
+                r#"{"paths": [{"pieces": [{"kind": "line", "start": [0, 0], "end": [X, 0]}], "speed": L}, "#,
+                r#"{"pieces": [{"kind": "cubic", "control_points": [[0, 0], [1, X], [2, 0], [X, X]]}], "#,
+                r#""start_time": X}]}"#
+            ),
         ),
     ];
     let numbers = ["5e-324", "1e-310", "1e-200", "1e-16", "1e16", "1e154", "1e300", "1.7e308", "-1e308"];

@@ -272,12 +272,17 @@ fn the_same_options_give_the_same_bytes() {
     assert!(a == b && a.lines().count() == 146);
     // The first and the second line: metadata, and the straight line along heading 0.
     let lines: Vec<&str> = a.lines().collect();
-    assert!(lines[0].starts_with(
-        r#"{"version":1.0,"lattice_metadata":{"motion_model":"ackermann","turning_radius":0.5,"grid_resolution":0.05,"num_of_headings":16,"#
-    ));
+    assert!(lines[0].starts_with(concat!(
+        r#"{"version":1.0,"lattice_metadata":{"motion_model":"ackermann","turning_radius":0.5,"#,
+        r#""grid_resolution":0.05,"num_of_headings":16,"#
+    )));
     assert_eq!(
         lines[1],
-        r#"{"trajectory_id":0,"start_angle_index":0,"end_angle_index":0,"left_turn":true,"trajectory_radius":0.0,"trajectory_length":0.15,"arc_length":0.0,"straight_length":0.15,"poses":[[0.05,0.0,0.0],[0.1,0.0,0.0],[0.15,0.0,0.0]]},"#
+        concat!(
+            r#"{"trajectory_id":0,"start_angle_index":0,"end_angle_index":0,"left_turn":true,"#,
+            r#""trajectory_radius":0.0,"trajectory_length":0.15,"arc_length":0.0,"straight_length":0.15,"#,
+            r#""poses":[[0.05,0.0,0.0],[0.1,0.0,0.0],[0.15,0.0,0.0]]},"#
+        )
     );
 }
 

@@ -119,7 +119,8 @@ fn links_lead_to_files() {
 
 #[test]
 fn commands_are_found() {
-    let text = "```sh\ncargo run --release -- query --a 1 \\\n    --b 2  # exit 1: no\nls\nspiral-atlas generate x\n```\nspiral-atlas query\n";
+    let text = "```sh\ncargo run --release -- query --a 1 \\\n    --b 2  # exit 1: no\nls\nspiral-atlas generate \
+                x\n```\nspiral-atlas query\n";
     let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(commands(text), [(String::new(), vec![words("query --a 1 --b 2")], 1)]);
     let text = "```sh\nspiral-atlas path a | spiral-atlas path b -\nspiral-atlas path a | less\n```\n";

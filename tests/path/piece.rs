@@ -69,15 +69,24 @@ fn what_is_wrong_with_a_piece_is_told() {
             "`control_points` has 2 points; a piece of the kind `cubic` has 4",
         ),
         (
-            r#"{"kind": "cubic", "control_points": [[0, 0], [1, 0], [2, 0], [3, 0]], "legs": [[1, 0], [1, 0], [2, 0]]}"#,
+            concat!(
+                r#"{"kind": "cubic", "control_points": [[0, 0], [1, 0], [2, 0], [3, 0]], "#,
+                r#""legs": [[1, 0], [1, 0], [2, 0]]}"#
+            ),
             "`control_points` end at [3.0, 0.0], but `legs` lead to [4.0, 0.0]",
         ),
         (
-            r#"{"kind": "trig-quintic", "control_points": [[0, 0], [1, 0], [2, 0], [3, 0], [4, 0], [5, 0]], "p": 2, "q": 0}"#,
+            concat!(
+                r#"{"kind": "trig-quintic", "control_points": [[0, 0], [1, 0], [2, 0], [3, 0], [4, 0], [5, 0]], "#,
+                r#""p": 2, "q": 0}"#
+            ),
             "p is 2",
         ),
         (
-            r#"{"kind": "trig-quintic", "control_points": [[0, 0], [1, 0], [2, 0], [3, 0], [4, 0], [5, 0]], "p": 1, "q": 0, "from": 1}"#,
+            concat!(
+                r#"{"kind": "trig-quintic", "control_points": [[0, 0], [1, 0], [2, 0], [3, 0], [4, 0], [5, 0]], "#,
+                r#""p": 1, "q": 0, "from": 1}"#
+            ),
             "`from` is 1.0 and `to` is 1.0",
         ),
         (r#"{"kind": "line", "start": [1, 1], "end": [1, 1]}"#, "`start` and `end` are both [1.0, 1.0]"),
@@ -90,7 +99,10 @@ fn what_is_wrong_with_a_piece_is_told() {
             "`end` is [1.0, 2.0], but the arc leads to [2.0, 1.0]",
         ),
         (
-            r#"{"kind": "involute", "start": [0, 0], "end": [1, 0], "start_direction": 0, "end_direction": 0, "start_curvature": 1, "end_curvature": 1}"#,
+            concat!(
+                r#"{"kind": "involute", "start": [0, 0], "end": [1, 0], "start_direction": 0, "end_direction": 0, "#,
+                r#""start_curvature": 1, "end_curvature": 1}"#
+            ),
             "no involute has these ends",
         ),
     ];

@@ -332,7 +332,7 @@ void spiral_curve_close(SpiralCurve *curve);
 // `curve` is null or open.
 const char *spiral_curve_kind(const SpiralCurve *curve);
 
-// All that rebuilds the curve exactly, in JSON: the piece as `curve --json` has it, or {"pieces": [..]} of several;
+// All that rebuilds the curve exactly, in JSON: the piece as `curve` has it, or {"pieces": [..]} of several;
 // null for a null pointer. It lives as long as the curve.
 //
 // # Safety

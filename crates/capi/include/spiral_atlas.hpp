@@ -32,7 +32,8 @@ private:
     SpiralStatus status_;
 };
 
-/// A view of numbers side by side in memory: what std::span is in C++20. Containers with data() and size() turn into it.
+/// A view of numbers side by side in memory: what std::span is in C++20. Containers with data() and size() turn into
+/// it.
 template <typename T> class View {
 public:
     constexpr View() noexcept = default;
@@ -137,7 +138,8 @@ public:
     /// The nearest node of each point. `points` are coordinates, one point after another.
     Lookup lookup(View<const double> points) const {
         const std::size_t count = detail::rows(points, axes());
-        Lookup found{std::vector<std::int64_t>(count), std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count)};
+        Lookup found{std::vector<std::int64_t>(count), std::vector<std::uint8_t>(count),
+                     std::vector<std::uint8_t>(count)};
         detail::check(spiral_atlas_lookup(handle_.get(), points.data(), count, found.nodes.data(), found.flags.data(),
                                           found.solutions.data()));
         return found;
@@ -177,7 +179,8 @@ public:
     Known lookup(View<const double> points) const {
         const std::size_t count = detail::rows(points, axes());
         Known known{std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count)};
-        detail::check(spiral_cells_lookup(handle_.get(), points.data(), count, known.inside.data(), known.outside.data()));
+        detail::check(spiral_cells_lookup(handle_.get(), points.data(), count, known.inside.data(),
+                                          known.outside.data()));
         return known;
     }
 
@@ -277,7 +280,7 @@ public:
     double length() const noexcept { return spiral_curve_length(handle_.get()); }
     std::string kind() const { return spiral_curve_kind(handle_.get()); }
 
-    /// All that rebuilds it exactly: the piece as `curve --json` has it, or {"pieces": [..]} of several.
+    /// All that rebuilds it exactly: the piece as `curve` has it, or {"pieces": [..]} of several.
     std::string json() const { return spiral_curve_json(handle_.get()); }
 
     /// Control points; an involute, a line, an arc and a curve of several pieces have none.
@@ -308,7 +311,8 @@ private:
 ///
 /// `kind` is "cubic", "ph-quintic" or "involute"; a curve longer than `longest` counts as none.
 inline std::optional<Curve> fit(const End &start, const End &end, const std::string &kind = "cubic",
-                                double longest = std::numeric_limits<double>::infinity(), std::string *reason = nullptr) {
+                                double longest = std::numeric_limits<double>::infinity(),
+                                std::string *reason = nullptr) {
     SpiralCurve *curve = nullptr;
     const SpiralStatus status = spiral_fit(&start, &end, kind.c_str(), longest, &curve);
     if (status == SPIRAL_NONE) {
@@ -321,8 +325,10 @@ inline std::optional<Curve> fit(const End &start, const End &end, const std::str
 
 /// A path from one state to another by proved spirals, arcs and lines, with continuous curvature that never exceeds
 /// `greatest_curvature`; the shortest of those tried, or none; then `reason`, where it is given, says why.
-inline std::optional<Curve> join(const End &start, const End &end, double greatest_curvature, const std::string &kind = "cubic",
-                                 double longest = std::numeric_limits<double>::infinity(), std::string *reason = nullptr) {
+inline std::optional<Curve> join(const End &start, const End &end, double greatest_curvature,
+                                 const std::string &kind = "cubic",
+                                 double longest = std::numeric_limits<double>::infinity(),
+                                 std::string *reason = nullptr) {
     SpiralCurve *curve = nullptr;
     const SpiralStatus status = spiral_join(&start, &end, greatest_curvature, kind.c_str(), longest, &curve);
     if (status == SPIRAL_NONE) {

@@ -33,12 +33,12 @@ struct Ranges {
 
 /// All intervals of the coordinate number `axis`, within two numbers, in which a property holds; in `datum` that
 /// coordinate does not matter.
-inline Ranges ranges(const std::string &family, View<const double> datum, std::size_t axis, std::array<double, 2> within,
-                     const std::string &flag = {}, const std::string &chart = {}) {
+inline Ranges ranges(const std::string &family, View<const double> datum, std::size_t axis,
+                     std::array<double, 2> within, const std::string &flag = {}, const std::string &chart = {}) {
     detail::check_datum(family, chart, datum);
     SpiralRanges *handle = nullptr;
-    detail::check(spiral_ranges(family.c_str(), detail::optional(chart), detail::optional(flag), datum.data(), axis, within[0],
-                                within[1], &handle));
+    detail::check(spiral_ranges(family.c_str(), detail::optional(chart), detail::optional(flag), datum.data(), axis,
+                                within[0], within[1], &handle));
     const detail::Handle<SpiralRanges, spiral_ranges_close> owner(handle);
     const SpiralRange *all = nullptr;
     const double(*open)[2] = nullptr;
@@ -60,11 +60,13 @@ struct Nearest {
 inline Nearest nearest(const std::string &family, View<const double> datum, View<const double> weights = {},
                        const std::string &flag = {}, const std::string &chart = {}) {
     detail::check_datum(family, chart, datum);
-    if (!weights.empty() && weights.size() != datum.size()) throw Error(SPIRAL_ARGUMENT, "a weight for each coordinate is needed");
+    if (!weights.empty() && weights.size() != datum.size())
+        throw Error(SPIRAL_ARGUMENT, "a weight for each coordinate is needed");
     Nearest found;
     std::vector<double> point(datum.size());
-    const SpiralStatus status = spiral_nearest(family.c_str(), detail::optional(chart), detail::optional(flag), datum.data(),
-                                               weights.data(), point.data(), &found.distance, &found.at_least);
+    const SpiralStatus status =
+        spiral_nearest(family.c_str(), detail::optional(chart), detail::optional(flag), datum.data(), weights.data(),
+                       point.data(), &found.distance, &found.at_least);
     if (status == SPIRAL_NONE) return found;
     detail::check(status);
     found.point = std::move(point);
@@ -82,16 +84,17 @@ struct Boundary {
     std::array<double, 2> cell;                             ///< sides of a cell
 };
 
-/// The outline in the slice in which the coordinates with the numbers `axes` vary within `within`, in `cells` cells along
-/// each side: a power of two up to 4096.
+/// The outline in the slice in which the coordinates with the numbers `axes` vary within `within`, in `cells` cells
+/// along each side: a power of two up to 4096.
 inline Boundary boundary(const std::string &family, View<const double> datum, std::array<std::size_t, 2> axes,
-                         std::array<std::array<double, 2>, 2> within, std::size_t cells = 256, const std::string &flag = {},
+                         std::array<std::array<double, 2>, 2> within, std::size_t cells = 256,
+                         const std::string &flag = {},
                          const std::string &chart = {}) {
     detail::check_datum(family, chart, datum);
     const double box[2][2] = {{within[0][0], within[0][1]}, {within[1][0], within[1][1]}};
     SpiralBoundary *handle = nullptr;
-    detail::check(spiral_boundary(family.c_str(), detail::optional(chart), detail::optional(flag), datum.data(), axes.data(), box,
-                                  cells, &handle));
+    detail::check(spiral_boundary(family.c_str(), detail::optional(chart), detail::optional(flag), datum.data(),
+                                  axes.data(), box, cells, &handle));
     const detail::Handle<SpiralBoundary, spiral_boundary_close> owner(handle);
     Boundary found{};
     for (std::size_t i = 0; i < spiral_boundary_lines(handle); i++) {

@@ -173,7 +173,7 @@ pub unsafe extern "C" fn spiral_curve_kind(curve: *const SpiralCurve) -> *const 
     unsafe { curve.as_ref() }.map_or(std::ptr::null(), |curve| curve.kind.as_ptr())
 }
 
-/// All that rebuilds the curve exactly, in JSON: the piece as `curve --json` has it, or {"pieces": [..]} of several;
+/// All that rebuilds the curve exactly, in JSON: the piece as `curve` has it, or {"pieces": [..]} of several;
 /// null for a null pointer. It lives as long as the curve.
 ///
 /// # Safety

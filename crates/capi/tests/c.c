@@ -9,7 +9,8 @@
 #define CHECK(condition)                                                                            \
     do {                                                                                            \
         if (!(condition)) {                                                                         \
-            fprintf(stderr, "%s:%d: not so: %s; last error: %s\n", __FILE__, __LINE__, #condition, spiral_last_error()); \
+            fprintf(stderr, "%s:%d: not so: %s; last error: %s\n", __FILE__, __LINE__, #condition, \
+                    spiral_last_error()); \
             exit(1);                                                                                \
         }                                                                                           \
     } while (0)
@@ -18,7 +19,8 @@ static int says(const char *word) { return strstr(spiral_last_error(), word) != 
 
 static void atlases(const char *path) {
     SpiralAtlas *atlas = NULL;
-    CHECK(spiral_atlas_open("/nowhere/none.safetensors", &atlas) == SPIRAL_IO && says("/nowhere/none") && atlas == NULL);
+    CHECK(spiral_atlas_open("/nowhere/none.safetensors", &atlas) == SPIRAL_IO && says("/nowhere/none") &&
+          atlas == NULL);
     CHECK(spiral_atlas_open(NULL, &atlas) == SPIRAL_ARGUMENT && says("`path`"));
     CHECK(spiral_atlas_open(path, NULL) == SPIRAL_ARGUMENT && says("`atlas`"));
     CHECK(spiral_atlas_open(path, &atlas) == SPIRAL_OK);
@@ -114,7 +116,8 @@ static void curves(void) {
         CHECK(fabs(stations[100].station - spiral_curve_length(curve)) < 1e-9 && stations[100].x == 200);
         CHECK(fabs(stations[0].curvature - 0.004) < 1e-9 && fabs(stations[100].heading - 1.4) < 1e-9);
         for (size_t k = 1; k < 101; k++) CHECK(stations[k].curvature > stations[k - 1].curvature - 1e-12);
-        CHECK(spiral_curve_stations(curve, stations, 1) == SPIRAL_DOMAIN && spiral_curve_stations(curve, NULL, 5) == SPIRAL_ARGUMENT);
+        CHECK(spiral_curve_stations(curve, stations, 1) == SPIRAL_DOMAIN &&
+              spiral_curve_stations(curve, NULL, 5) == SPIRAL_ARGUMENT);
         double points[6][2];
         size_t count = 99;
         CHECK(spiral_curve_control_points(curve, points, 6, &count) == SPIRAL_OK);
@@ -138,7 +141,8 @@ static void joins(void) {
     SpiralCurve *curve = NULL;
     for (size_t i = 0; i < 4; i++) {
         CHECK(spiral_join(&start, &end, 0.0166, kinds[i], 1e4, &curve) == SPIRAL_OK);
-        CHECK(strcmp(spiral_curve_kind(curve), "path") == 0 && strstr(spiral_curve_json(curve), "{\"pieces\":[") == spiral_curve_json(curve));
+        CHECK(strcmp(spiral_curve_kind(curve), "path") == 0 &&
+              strstr(spiral_curve_json(curve), "{\"pieces\":[") == spiral_curve_json(curve));
         SpiralStation stations[501];
         size_t count = 9;
         CHECK(spiral_curve_stations(curve, stations, 501) == SPIRAL_OK);
@@ -174,7 +178,8 @@ static void questions(void) {
     }
     CHECK(spiral_solve_batch("cubic", NULL, rows, 4, 1, flags, NULL) == SPIRAL_OK);
     for (size_t i = 0; i < 4; i++) CHECK(((flags[i] & mask) != 0) == (i == 1 || i == 2));
-    CHECK(all[0].outer[0] <= all[0].inner[0] && all[0].inner[0] < all[0].inner[1] && all[0].inner[1] <= all[0].outer[1]);
+    CHECK(all[0].outer[0] <= all[0].inner[0] && all[0].inner[0] < all[0].inner[1] &&
+          all[0].inner[1] <= all[0].outer[1]);
     CHECK(spiral_ranges_data(ranges, NULL, NULL, NULL, NULL) == SPIRAL_OK);
     CHECK(spiral_ranges_data(NULL, &all, NULL, NULL, NULL) == SPIRAL_ARGUMENT && says("`ranges`"));
     spiral_ranges_close(ranges);
@@ -195,9 +200,11 @@ static void questions(void) {
     CHECK(spiral_solve_batch("cubic", NULL, nearest, 1, 1, flags, NULL) == SPIRAL_OK && (flags[0] & mask) != 0);
     CHECK(spiral_nearest("cubic", NULL, NULL, outside, NULL, NULL, &distance, NULL) == SPIRAL_OK && distance > 0);
     at_least = 0;
-    CHECK(spiral_nearest("cubic", NULL, NULL, outside, fixed, nearest, &distance, &at_least) == SPIRAL_NONE && says("SPIRAL"));
+    CHECK(spiral_nearest("cubic", NULL, NULL, outside, fixed, nearest, &distance, &at_least) == SPIRAL_NONE &&
+          says("SPIRAL"));
     CHECK(isinf(at_least));
-    CHECK(spiral_nearest("cubic", NULL, NULL, outside, datum, nearest, &distance, NULL) == SPIRAL_DOMAIN && says("weight"));
+    CHECK(spiral_nearest("cubic", NULL, NULL, outside, datum, nearest, &distance, NULL) == SPIRAL_DOMAIN &&
+          says("weight"));
 
     const size_t axes[2] = {2, 3}, twice[2] = {2, 2};
     const double within[2][2] = {{0, 0.8}, {0, 20}};
@@ -211,13 +218,15 @@ static void questions(void) {
     CHECK(spiral_boundary_line(boundary, 99, &xy, &count, &closed) == SPIRAL_DOMAIN && says("line 99"));
     double cell[2] = {0};
     const double(*cells_open)[2][2] = NULL;
-    CHECK(spiral_boundary_open(boundary, &cells_open, &count, cell) == SPIRAL_OK && cell[0] == 0.0125 && cell[1] == 0.3125);
+    CHECK(spiral_boundary_open(boundary, &cells_open, &count, cell) == SPIRAL_OK && cell[0] == 0.0125 &&
+          cell[1] == 0.3125);
     spiral_boundary_close(boundary);
     spiral_boundary_close(NULL);
     boundary = NULL;
     CHECK(spiral_boundary("cubic", NULL, NULL, datum, twice, within, 64, &boundary) == SPIRAL_DOMAIN);
     CHECK(spiral_boundary("cubic", NULL, NULL, datum, axes, within, 63, &boundary) == SPIRAL_DOMAIN && says("63"));
-    CHECK(spiral_boundary("cubic", NULL, NULL, datum, NULL, within, 64, &boundary) == SPIRAL_ARGUMENT && boundary == NULL);
+    CHECK(spiral_boundary("cubic", NULL, NULL, datum, NULL, within, 64, &boundary) == SPIRAL_ARGUMENT &&
+          boundary == NULL);
 }
 
 static void paths(void) {

@@ -33,7 +33,8 @@ int main(int count, char **arguments) {
     std::mt19937_64 random(7);
     const auto edge = [&](std::size_t axis) {
         // Where the edges are, the file says: a linear axis, or a logarithmic one.
-        const double share = static_cast<double>(random() % (cells.resolution() + 1)) / static_cast<double>(cells.resolution());
+        const double share =
+            static_cast<double>(random() % (cells.resolution() + 1)) / static_cast<double>(cells.resolution());
         const double linear = cells.low(axis) + share * (cells.high(axis) - cells.low(axis));
         const double log = cells.low(axis) * std::pow(cells.high(axis) / cells.low(axis), share);
         return random() % 2 == 0 ? linear : log;
@@ -72,15 +73,19 @@ int main(int count, char **arguments) {
     const auto time = [&](auto &&lookup) {
         const auto started = std::chrono::steady_clock::now();
         lookup();
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count() / static_cast<double>(points) * 1e9;
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
+        return taken.count() / static_cast<double>(points) * 1e9;
     };
     unsigned sum = 0;
     const std::uint8_t spiral = cells.flag("SPIRAL");
-    const double own = time([&] { for (std::size_t i = 0; i < points; i++) sum += static_cast<unsigned>(cells.lookup(&all[n * i], spiral)); });
-    const double every = time([&] { for (std::size_t i = 0; i < points; i++) sum += cells.lookup_all(&all[n * i]).inside; });
+    const double own = time([&] {
+        for (std::size_t i = 0; i < points; i++) sum += static_cast<unsigned>(cells.lookup(&all[n * i], spiral));
+    });
+    const double every =
+        time([&] { for (std::size_t i = 0; i < points; i++) sum += cells.lookup_all(&all[n * i]).inside; });
     const double theirs = time([&] { spiral_cells_lookup(rust, all.data(), points, inside.data(), outside.data()); });
-    std::printf("%zu points, %zu on edges differ; ns a point: one flag %.1f, all flags %.1f, C interface %.1f (%u)\n", points, differ, own,
-                every, theirs, sum % 10);
+    std::printf("%zu points, %zu on edges differ; ns a point: one flag %.1f, all flags %.1f, C interface %.1f (%u)\n",
+                points, differ, own, every, theirs, sum % 10);
     spiral_cells_close(rust);
 
     const std::vector<unsigned char> sound = bytes_of(path);
@@ -95,17 +100,20 @@ int main(int count, char **arguments) {
         }
         if (random() % 16 == 0) damaged.resize(random() % damaged.size());
         const std::string place = path + ".damaged";
-        std::ofstream(place, std::ios::binary).write(reinterpret_cast<const char *>(damaged.data()), static_cast<std::streamsize>(damaged.size()));
+        std::ofstream(place, std::ios::binary).write(reinterpret_cast<const char *>(damaged.data()),
+                                                     static_cast<std::streamsize>(damaged.size()));
         const bool sound_for_rust = spiral_cells_open(place.c_str(), &rust) == SPIRAL_OK;
         try {
             const CellsFile read(damaged.data(), damaged.size()), mapped(place);
             for (std::size_t k = 0; k < 20 && read.axes() == n; k++) {
                 const double *point = &all[n * (random() % points)];
                 const auto said = read.lookup_all(point), again = mapped.lookup_all(point);
-                CHECK((said.inside & said.outside) == 0 && said.inside == again.inside && said.outside == again.outside);
+                CHECK((said.inside & said.outside) == 0 && said.inside == again.inside &&
+                      said.outside == again.outside);
                 std::uint8_t yes = 0, no = 0;
                 if (!sound_for_rust) continue;
-                CHECK(spiral_cells_lookup(rust, point, 1, &yes, &no) == SPIRAL_OK && (yes & said.outside) == 0 && (no & said.inside) == 0);
+                CHECK(spiral_cells_lookup(rust, point, 1, &yes, &no) == SPIRAL_OK && (yes & said.outside) == 0 &&
+                      (no & said.inside) == 0);
             }
         } catch (const std::runtime_error &) {
             CHECK(!sound_for_rust);

@@ -86,9 +86,11 @@ int main(int, char **arguments) {
     throws(SPIRAL_DOMAIN, "NaN", [] { sa::fit({std::nan(""), 0, 0, 0}, {1, 0, 0, 0}); });
 
     const auto spirals = sa::ranges("cubic", datum, 3, {0, 100});
-    CHECK(spirals.ranges.size() == 1 && spirals.open.empty() && spirals.ranges[0].ends[0] < 4 && 4 < spirals.ranges[0].ends[1]);
+    CHECK(spirals.ranges.size() == 1 && spirals.open.empty() && spirals.ranges[0].ends[0] < 4 &&
+          4 < spirals.ranges[0].ends[1]);
     throws(SPIRAL_ARGUMENT, "3 numbers", [] { sa::ranges("cubic", std::vector<double>(3), 3, {0, 100}); });
-    const double inf = std::numeric_limits<double>::infinity(), weights[] = {inf, inf, 1, 1}, outside[] = {0.7, 1.4, 1, 2};
+    const double inf = std::numeric_limits<double>::infinity(), weights[] = {inf, inf, 1, 1};
+    const double outside[] = {0.7, 1.4, 1, 2};
     const auto nearest = sa::nearest("cubic", outside, weights);
     CHECK(nearest.point && (*nearest.point)[0] == 0.7 && nearest.at_least <= nearest.distance && nearest.at_least > 0);
     CHECK(sa::nearest("cubic", datum).distance == 0);

@@ -1,5 +1,5 @@
-// Questions to a worker. Of each subject only the newest matters: a question waits while another of its subject is out, and one that
-// waits gives way to a newer one.
+// Questions to a worker. Of each subject only the newest matters: a question waits while another of its subject is out,
+// and one that waits gives way to a newer one.
 
 /** Starts a worker with the compiled library. */
 export class Asker {

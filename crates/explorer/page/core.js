@@ -1,4 +1,5 @@
-// The compiled library: questions and answers as JSON, pictures and files as bytes, through the memory that both sides share.
+// The compiled library: questions and answers as JSON, pictures and files as bytes, through the memory that both sides
+// share.
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();

@@ -66,8 +66,9 @@ export class Files {
     byId("drop").hidden = true;
     byId("browser").hidden = false;
     byId("file-title").textContent = about.name;
+    const counts = about.axes.map((a) => a.values.length - (about.kind === "cells")).join(" × ");
     byId("file-note").textContent =
-      `${about.title ?? about.family}; ${about.kind}, ${about.axes.map((a) => a.values.length - (about.kind === "cells")).join(" × ")}. All bytes are checked.`;
+      `${about.title ?? about.family}; ${about.kind}, ${counts}. All bytes are checked.`;
     const names = about.axes.map((axis) => axis.name);
     const last = names.length - 1;
     const choice = (label, chosen, options) =>
@@ -266,7 +267,8 @@ export class Files {
       about.kind === "cells"
         ? about.flags.filter((_, bit) => !(((inside[at] | outside[at]) >> bit) & 1)).map((flag) => flag.name)
         : [];
-    const place = `${about.axes[x].name} ${this.#value(about.axes[x], i)}, ${about.axes[y].name} ${this.#value(about.axes[y], j)}`;
+    const along = (axis, index) => `${axis.name} ${this.#value(axis, index)}`;
+    const place = `${along(about.axes[x], i)}, ${along(about.axes[y], j)}`;
     byId("file-reading").textContent =
       `${place}: ${holds.join(", ") || "no flag"}${open.length ? `; MIXED: ${open.join(", ")}` : ""}`;
   }

@@ -332,9 +332,10 @@ async function waitAndFit() {
 /** Takes over the state of a link. */
 function open(hash) {
   const { state: read, wrong } = decode(hash);
+  const parts = [...new Set(wrong)].slice(0, 5).join(", ");
   notice(
     wrong.length
-      ? `The link has parts that cannot be read: ${[...new Set(wrong)].slice(0, 5).join(", ")}. They are as in a fresh page.`
+      ? `The link has parts that cannot be read: ${parts}. They are as in a fresh page.`
       : "",
   );
   update(() => (state = read));

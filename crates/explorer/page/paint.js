@@ -2,7 +2,10 @@
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
-/** Paper, and regions from the largest to the innermost: those of the pictures. In the dark, what is paper or grey there is dark. */
+/**
+ * Paper, and regions from the largest to the innermost: those of the pictures. In the dark, what is paper or grey there
+ * is dark.
+ */
 const LIGHT = {
   paper: [255, 255, 255],
   ramp: [
@@ -51,8 +54,8 @@ function contrast(a, b) {
 }
 
 /**
- * Paints a picture. `rank` has for each pixel, top row first, how many regions hold it, innermost last; `within` whether the outlined
- * condition holds.
+ * Paints a picture. `rank` has for each pixel, top row first, how many regions hold it, innermost last; `within`
+ * whether the outlined condition holds.
  */
 export function paint(canvas, width, height, rank, fills, within) {
   const { paper, edge, line } = colours();

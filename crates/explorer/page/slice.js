@@ -189,6 +189,7 @@ export class Region {
       ),
     );
     const [x, y] = this.#place();
+    const { start_curvature: start, end_curvature: end } = this.answer.ends;
     const clamp = (v) => Math.max(0, Math.min(1, v));
     const cursor = svg(
       "g",
@@ -197,7 +198,7 @@ export class Region {
         tabindex: 0,
         role: "slider",
         "aria-label": "the present curvatures in the region",
-        "aria-valuetext": `start ${show(this.answer.ends.start_curvature)}, end ${show(this.answer.ends.end_curvature)}`,
+        "aria-valuetext": `start ${show(start)}, end ${show(end)}`,
         "data-handle": "slice",
         transform: `translate(${MARGIN.left + clamp(x) * w} ${MARGIN.top + (1 - clamp(y)) * h})`,
       },

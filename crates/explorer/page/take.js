@@ -23,7 +23,7 @@ export function command(s) {
   }
   const e = s.ends;
   return [
-    `spiral-atlas curve --family ${s.kind}`,
+    `spiral-atlas curve ${s.kind}`,
     `--from=${e.start.join(",")} --to=${e.end.join(",")}`,
     `--start-direction=${tellAngle(e.start_direction)} --end-direction=${tellAngle(e.end_direction)}`,
     `--start-curvature=${e.start_curvature} --end-curvature=${e.end_curvature}`,
@@ -61,7 +61,12 @@ export function python(s) {
 export function cpp(s) {
   if (s.mode === "join") {
     const [from, to] = states(s.join, "C++");
-    return `#include <spiral_atlas.hpp>\n\nconst auto curve = spiral_atlas::join({${from}}, {${to}}, ${1 / s.join.radius}, "${s.join.family}");`;
+    const { radius, family } = s.join;
+    return [
+      "#include <spiral_atlas.hpp>",
+      "",
+      `const auto curve = spiral_atlas::join({${from}}, {${to}}, ${1 / radius}, "${family}");`,
+    ].join("\n");
   }
   const e = s.ends;
   const [from, to] = ["start", "end"].map((end) =>

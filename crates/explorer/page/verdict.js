@@ -98,13 +98,13 @@ export function reason(element, answer, state, advice, take) {
   if (list.length) parts.push(html("ul", { class: "needs" }, ...list));
   const told = measure(why);
   if (told) parts.push(html("p", {}, told));
-  if (advice?.nearest) {
+  if (advice?.nearby) {
     parts.push(
       html(
         "button",
-        { class: "take", id: "nearest", onclick: () => take(advice.nearest) },
-        html("b", {}, "Nearest that works"),
-        html("span", {}, changes(answer.ends, advice.nearest, unit)),
+        { class: "take", id: "nearby", onclick: () => take(advice.nearby) },
+        html("b", {}, "Nearest found"),
+        html("span", {}, changes(answer.ends, advice.nearby, unit)),
       ),
     );
   }
@@ -168,7 +168,8 @@ export function joinTold(element, joined, unit) {
 function normalised(answer, { facts }) {
   const { phi0, phi1, kappa0, kappa1 } = answer.datum;
   const margin = facts.margin === undefined ? "" : `, margin ${show(facts.margin, 3)}`;
-  return `φ₀ ${showAngle(phi0, 4)}, φ₁ ${showAngle(phi1, 4)}, κ₀ ${show(kappa0, 4)}, κ₁ ${show(kappa1, 4)} in half chords${margin}`;
+  const angles = `φ₀ ${showAngle(phi0, 4)}, φ₁ ${showAngle(phi1, 4)}`;
+  return `${angles}, κ₀ ${show(kappa0, 4)}, κ₁ ${show(kappa1, 4)} in half chords${margin}`;
 }
 
 /** What the curvatures must pass, and by how much they miss it. */
@@ -206,15 +207,18 @@ function remedies(why, answer, unit, take) {
 
 /** By how much a condition fails that has no needs. */
 function measure(why) {
+  const both = () => `${showAngle(why.start_angle, 4)} and ${showAngle(why.end_angle, 4)}`;
   if (why.cause === "wrong-side") {
     const sum = why.start_angle + why.end_angle;
     const word = why.rising ? "above 0, because the curvature rises" : "below 0, because the curvature falls";
-    return `Against the chord the directions are ${showAngle(why.start_angle, 4)} and ${showAngle(why.end_angle, 4)}. Their sum must be ${word}; it is ${showAngle(sum, 4)}.`;
+    return `Against the chord the directions are ${both()}. Their sum must be ${word}; it is ${showAngle(sum, 4)}.`;
   }
   if (why.condition === "not-convex")
-    return `Against the chord they are ${showAngle(why.start_angle, 4)} and ${showAngle(why.end_angle, 4)}; one must be to each side.`;
-  if (why.condition === "turns-too-far")
-    return `They turn by ${showAngle(why.turning, 5)}, which must be below 180°: off by ${showAngle(why.turning - Math.PI, 3)}.`;
+    return `Against the chord they are ${both()}; one must be to each side.`;
+  if (why.condition === "turns-too-far") {
+    const off = showAngle(why.turning - Math.PI, 3);
+    return `They turn by ${showAngle(why.turning, 5)}, which must be below 180°: off by ${off}.`;
+  }
   if (why.condition === "not-monotone")
     return `Margin ${show(Math.max(...why.roots.map((root) => root.margin)), 3)}; a spiral has one above 0.`;
   if (why.condition === "no-ph-spiral")

@@ -1,7 +1,7 @@
 // A worker: the library beside the page, so that the page never waits.
 //
-// It gets { id, question }, { id, bytes } or { id, slice }, and answers { id, answer }. A slice comes in several messages, each finer.
-// A newer slice takes the place of the one in the making.
+// It gets { id, question }, { id, bytes } or { id, slice }, and answers { id, answer }. A slice comes in several
+// messages, each finer. A newer slice takes the place of the one in the making.
 
 import { Core } from "./core.js";
 

@@ -6,8 +6,8 @@ use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::path::Course;
 use spiral_atlas::transition::join::{self, join};
 use spiral_atlas::transition::{
-    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, involute_between, nearest,
-    ph_spiral, polyline, spiral, why_no_spiral,
+    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, involute_between, nearby, ph_spiral,
+    polyline, spiral, why_no_spiral,
 };
 use spiral_atlas::{Error, Result};
 
@@ -166,7 +166,8 @@ fn told(found: Option<(Piece, Value)>, why: Option<(String, Value)>, others: Vec
 fn drawn(piece: &Piece, facts: &Value, samples: &Samples) -> Result<Value> {
     let greatest = samples.iter().map(|s| s[4].abs()).fold(0.0, f64::max);
     Ok(json!({
-        "spiral": true, "length": piece.length(), "greatest_curvature": greatest, "control_points": piece.control_points(),
+        "spiral": true, "length": piece.length(), "greatest_curvature": greatest,
+        "control_points": piece.control_points(),
         "piece": piece, "facts": facts, "samples": samples,
     }))
 }
@@ -191,7 +192,7 @@ impl Advice {
             _ => None,
         };
         let (reason, why) = why.map(|(kind, why)| (why.sentence(kind), json!(why))).unwrap_or_default();
-        Ok(json!({ "reason": reason, "why": why, "nearest": nearest(&ends, self.kind)? }))
+        Ok(json!({ "reason": reason, "why": why, "nearby": nearby(&ends, self.kind)? }))
     }
 }
 

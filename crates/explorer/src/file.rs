@@ -74,8 +74,10 @@ impl File {
         let nested: Vec<usize> =
             known.map_or(Vec::new(), |family| family.about().nested.iter().filter_map(bit).collect());
         json!({
-            "kind": kind, "name": about.name, "family": about.family, "title": known.map(|f| f.about().title), "chart_doc": about.chart_doc,
-            "generator": about.generator, "flags": flags, "nested": nested, "axes": self.grid().axes().iter().map(axis).collect::<Vec<_>>(),
+            "kind": kind, "name": about.name, "family": about.family,
+            "title": known.map(|f| f.about().title), "chart_doc": about.chart_doc,
+            "generator": about.generator, "flags": flags, "nested": nested,
+            "axes": self.grid().axes().iter().map(axis).collect::<Vec<_>>(),
         })
     }
 

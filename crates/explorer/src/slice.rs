@@ -118,7 +118,8 @@ impl Slice {
             .map(|f| json!({ "name": f.name, "label": f.label, "doc": f.doc }))
             .collect();
         let nested: Vec<usize> = self.family.about().nested.iter().filter_map(bit).collect();
-        json!({ "family": self.family.about().name, "ranges": self.ranges, "flags": flags, "nested": nested, "open": OPEN })
+        let family = self.family.about().name;
+        json!({ "family": family, "ranges": self.ranges, "flags": flags, "nested": nested, "open": OPEN })
     }
 
     /// The flags of each pixel, column by column, from below.

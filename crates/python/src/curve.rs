@@ -45,7 +45,7 @@ impl Curve {
 
 #[pymethods]
 impl Curve {
-    /// Makes a curve of what `to_dict`, `curve --json` under `pieces`, or `join` says: one piece, or {"pieces": [..]}.
+    /// Makes a curve of what `to_dict`, `curve` under `pieces`, or `join` says: one piece, or {"pieces": [..]}.
     #[staticmethod]
     fn from_dict(dict: &Bound<'_, PyAny>) -> PyResult<Curve> {
         let wrong = |what: String| PyValueError::new_err(format!("this is no curve: {what}"));
@@ -235,7 +235,9 @@ impl Direction {
 /// Raises:
 ///     ValueError: a value is not finite, both points are one, or the like.
 #[pyfunction]
-#[pyo3(signature = (start, end, start_direction, end_direction, start_curvature, end_curvature, *, family = "cubic", longest = None))]
+#[pyo3(signature = (
+    start, end, start_direction, end_direction, start_curvature, end_curvature, *, family = "cubic", longest = None
+))]
 #[expect(clippy::too_many_arguments, reason = "two ends have six values; in Python all of them have names")]
 pub(crate) fn fit(
     py: Python<'_>,

@@ -57,7 +57,9 @@ impl Join {
 /// Raises:
 ///     ValueError: a value is not finite or not above 0, or a name is unknown.
 #[pyfunction]
-#[pyo3(signature = (start, end, greatest_curvature, *, family = "cubic", objective = "length", longest = None, most_pieces = None))]
+#[pyo3(signature = (
+    start, end, greatest_curvature, *, family = "cubic", objective = "length", longest = None, most_pieces = None
+))]
 #[expect(clippy::too_many_arguments, reason = "in Python the options have names")]
 pub(crate) fn join(
     py: Python<'_>,

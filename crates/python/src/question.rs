@@ -115,7 +115,8 @@ pub(crate) fn nearest<'py>(
     Ok(told)
 }
 
-/// The outline of a property in a slice: `boundary("cubic", ("kappa0", "kappa1"), ((0, 0.8), (0, 20)), phi0=0.7, phi1=1.4)`.
+/// The outline of a property in a slice: `boundary("cubic", ("kappa0", "kappa1"), ((0, 0.8), (0, 20)), phi0=0.7,
+/// phi1=1.4)`.
 ///
 /// Args:
 ///     family, flag: as for `ranges`.

@@ -62,7 +62,8 @@ def test_xarray_opens_the_file_by_itself(atlas, atlas_path):
         part = dataset.flags.isel(phi0=[3, 1], kappa1=slice(2, 9, 3))
         assert np.array_equal(part.values, atlas.flags[[3, 1]][..., 2:9:3])
         assert dataset.attrs["family"] == "cubic"
-    assert xr.open_dataset(atlas_path, drop_variables=["solutions"]).data_vars.keys() == {"flags"} | set(atlas.scalar_docs)
+    without = xr.open_dataset(atlas_path, drop_variables=["solutions"])
+    assert without.data_vars.keys() == {"flags"} | set(atlas.scalar_docs)
 
 
 def test_a_dictionary_is_a_recipe(recipe, atlas):
@@ -75,7 +76,8 @@ def test_a_dictionary_is_a_recipe(recipe, atlas):
 
 
 def test_scalars_have_nan_where_there_is_no_value():
-    axes = {"phi0": {"values": [0.7]}, "phi1": {"values": [1.4]}, "kappa0": {"values": [0.4, 0.99]}, "kappa1": {"values": [4]}}
+    values = {"phi0": [0.7], "phi1": [1.4], "kappa0": [0.4, 0.99], "kappa1": [4]}
+    axes = {name: {"values": each} for name, each in values.items()}
     recipe = {"family": "cubic", "fields": ["f0"], "atlas": [{"name": "two", "axes": axes}]}
     (atlas,) = spiral_atlas.generate(recipe)
     f0 = atlas.scalar("f0").ravel()
@@ -104,7 +106,8 @@ def test_bad_files_and_recipes_are_told(tmp_path, atlas_path):
 
 
 def test_ctrl_c_stops_a_run_and_leaves_nothing(tmp_path):
-    axes = ", ".join(f"'{name}': {{'linear': [0.1, 1.4], 'count': 90}}" for name in ("phi0", "phi1", "kappa0", "kappa1"))
+    names = ("phi0", "phi1", "kappa0", "kappa1")
+    axes = ", ".join(f"'{name}': {{'linear': [0.1, 1.4], 'count': 90}}" for name in names)
     code = (
         "import spiral_atlas, sys\n"
         f"recipe = {{'family': 'ph-quintic', 'atlas': [{{'name': 'slow', 'axes': {{{axes}}}}}]}}\n"

@@ -184,8 +184,11 @@ def test_a_disk_without_room_is_told(recipe, tmp_path):
 def test_damage_is_found_and_made_good(recipe, place, atlas):
     generate(recipe, place, **SHAPES, workers=1)
     identity = Store(place).id
+
+    def shard(field, number):
+        return place / field / "c" / "/".join(map(str, np.unravel_index(number, (2, 2, 4, 4))))
+
     # Half-written, gone, another's bytes: of the shards 5, 6 and 7; of shard 8 the digest is gone.
-    shard = lambda field, number: place / field / "c" / "/".join(map(str, np.unravel_index(number, (2, 2, 4, 4))))  # noqa: E731
     cut = shard("flags", 5)
     cut.write_bytes(cut.read_bytes()[:100])
     shard("solutions", 6).unlink()

@@ -1,9 +1,16 @@
-//! `curve --family cubic`: Habib & Sakai, section 3.2.
+//! `curve cubic`: Habib & Sakai, section 3.2.
 
+use super::report::Wish;
 use super::{Reportable, SAMPLES, end_circles};
 use spiral_atlas::plot::{CurveFigure, Graph};
-use spiral_atlas::transition::{Answer, Ends, Figure, Piece};
+use spiral_atlas::transition::{Answer, Ends, Figure, Kind, Piece, spiral};
 use spiral_atlas::{Error, Result};
+
+/// The answer for two ends.
+pub(super) fn find(ends: &Ends, wish: Wish) -> Result<Answer> {
+    let found = spiral(ends)?.no_longer_than(wish.longest());
+    if wish.advice { found.with_remedies() } else { Ok(found) }
+}
 
 impl Reportable for Answer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
@@ -13,8 +20,8 @@ impl Reportable for Answer {
         }
     }
 
-    fn ends(&self) -> Option<&Ends> {
-        Some(&self.ends)
+    fn between(&self) -> Option<(&Ends, Kind)> {
+        Some((&self.ends, Kind::Cubic))
     }
 
     fn text(&self) -> String {

@@ -1,15 +1,38 @@
-//! `curve --family involute`: the spiral that exists whenever any does (Kurnosenko).
+//! `curve involute`: the spiral that exists whenever any does (Kurnosenko).
 
+use super::super::Outcome;
+use super::options::Between;
 use super::{Reportable, end_circles};
 use serde::Serialize;
 use spiral_atlas::family::any_spiral::{Image, Involute, InvolutePoint, Spiral, Split};
 use spiral_atlas::plot::{CurveFigure, Graph};
-use spiral_atlas::transition::{Ends, Frame, InvoluteBetween, Piece, involute_between, polyline, why_no_spiral};
+use spiral_atlas::transition::{Ends, Frame, InvoluteBetween, Kind, Piece, involute_between, polyline, why_no_spiral};
 use spiral_atlas::{Error, Result};
+
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    ends: Between,
+    /// How often the curve turns about its start and about its end.
+    #[arg(long, value_name = "N1,N2", value_parser = parse_turns, default_value = "0,0")]
+    turns: [u32; 2],
+}
+
+impl Args {
+    pub(super) fn run(&self) -> Result<Outcome> {
+        self.ends.answer(|ends, _| find(ends, self.turns))
+    }
+}
+
+/// Two whole numbers with a comma between.
+fn parse_turns(text: &str) -> std::result::Result<[u32; 2], String> {
+    let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    both.ok_or_else(|| format!("{text:?} is not two numbers of turns `n1,n2`"))
+}
 
 /// What is known of two ends, and the curve in the user's units.
 #[derive(Debug, Serialize)]
-pub(super) struct Answer {
+struct Answer {
     ends: Ends,
     #[serde(flatten)]
     spiral: Spiral,
@@ -27,7 +50,7 @@ struct Drawn {
     curvature: f64,
 }
 
-pub(super) fn find(ends: &Ends, turns: [u32; 2]) -> Result<Answer> {
+fn find(ends: &Ends, turns: [u32; 2]) -> Result<Answer> {
     let (spiral, frame) = involute_between(ends, turns)?;
     let mut answer = Answer { ends: *ends, spiral, length: None, frame };
     answer.length = answer.spiral.curve().map(|curve| curve.length() * frame.unit());
@@ -55,8 +78,8 @@ impl Reportable for Answer {
         Err(why_no_spiral(&self.ends, &self.spiral).unwrap_or_default())
     }
 
-    fn ends(&self) -> Option<&Ends> {
-        Some(&self.ends)
+    fn between(&self) -> Option<(&Ends, Kind)> {
+        Some((&self.ends, Kind::Involute))
     }
 
     fn text(&self) -> String {
@@ -66,7 +89,8 @@ impl Reportable for Answer {
             Ok(Image { curve, split }) => {
                 let [rho, lambda] = curve.map();
                 let mut text = format!(
-                    "spiral, the image of an involute, length {:?}; it has no control points: ask for points with `--samples 101`\n\
+                    "spiral, the image of an involute, length {:?}; it has no control points: ask for points with \
+                     `--samples 101`\n\
                      theta = {:?}, t0 = {:?}, rho = {rho:?}, lambda = {lambda:?}\n",
                     self.length.unwrap_or_default(),
                     curve.theta(),
@@ -79,12 +103,13 @@ impl Reportable for Answer {
                         format!("turns {n1} times about its start and {n2} times about its end, as asked\n")
                     }
                     Split::Other => format!(
-                        "turns {n1} times about its start and {n2} times about its end, not {},{}, which some other spiral does\n",
+                        "turns {n1} times about its start and {n2} times about its end, not {},{}, which some other \
+                         spiral does\n",
                         turns[0], turns[1]
                     ),
                     Split::Impossible { least, most } => format!(
-                        "turns {n1} times about its start and {n2} times about its end, not {},{}: any spiral turns {least} to {most} \
-                         times about its start\n",
+                        "turns {n1} times about its start and {n2} times about its end, not {},{}: any spiral turns \
+                         {least} to {most} times about its start\n",
                         turns[0], turns[1]
                     ),
                 };

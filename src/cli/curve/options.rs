@@ -1,165 +1,181 @@
-//! Which options each family needs and which it takes.
-//!
-//! One command answers for all families, so that `--family` can be changed or left out without learning other words.
-//! Conditions of clap's own cannot say what a family needs: they do not see a default value, and none forbids an option
-//! for a value of another. So the options that were given are taken from clap, and each family names those it knows.
+//! Options that several families share.
 
-use super::super::{given, refuse_by};
-use super::{Args, Family, reach, trig};
-use clap::ArgMatches;
-use clap::parser::ValueSource;
-use spiral_atlas::family::trig_quintic::{Scaling, Shape};
-use spiral_atlas::transition::segment::{Base, Target};
-use spiral_atlas::transition::templates::{Segment, Template};
-use spiral_atlas::transition::{Ends, Turn};
+use super::super::join::parse::{COLUMNS, states};
+use super::super::{Outcome, numbers, output, points, refuse};
+use super::Reportable;
+use super::report::{Report, Wish};
+use spiral_atlas::plot;
+use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::transition::{Ends, Turn, direction_of};
+use spiral_atlas::{Error, Result};
+use std::path::PathBuf;
 
-/// What all families between two ends need.
-const ENDS: [&str; 6] = ["from", "to", "start-direction", "end-direction", "start-curvature", "end-curvature"];
-/// How a segment is chosen.
-const SHAPE: [&str; 3] = ["to", "m", "q"];
-/// What every family takes.
-const ALL: [&str; 7] = ["family", "points", "longest", "samples", "csv", "figure", "json"];
+const SIZE: (u32, u32) = (1500, 900);
 
-/// The options that were given, by name, without those of [`ALL`].
-#[derive(Debug)]
-pub(super) struct Given(Vec<String>);
+/// Two ends, or a table of them.
+#[derive(clap::Args)]
+pub(super) struct Between {
+    /// Start point.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    #[arg(required_unless_present = "points", conflicts_with = "points")]
+    from: Option<[f64; 2]>,
+    /// End point.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    #[arg(required_unless_present = "points", conflicts_with = "points")]
+    to: Option<[f64; 2]>,
+    /// Direction of travel at the start: angle from the x axis, counter-clockwise, or a vector.
+    #[arg(long, value_name = "ANGLE|DX,DY", value_parser = direction, allow_hyphen_values = true)]
+    #[arg(required_unless_present = "points", conflicts_with = "points")]
+    start_direction: Option<f64>,
+    /// Direction of travel at the end.
+    #[arg(long, value_name = "ANGLE|DX,DY", value_parser = direction, allow_hyphen_values = true)]
+    #[arg(required_unless_present = "points", conflicts_with = "points")]
+    end_direction: Option<f64>,
+    /// Curvature at the start, 1 / length, positive to the left.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(required_unless_present = "points", conflicts_with = "points")]
+    start_curvature: Option<f64>,
+    /// Curvature at the end, 1 / length, positive to the left.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(required_unless_present = "points", conflicts_with = "points")]
+    end_curvature: Option<f64>,
+    /// A CSV file of ends, - for standard input. Columns, in any order: x0, y0, direction0, curvature0, x1, y1,
+    /// direction1, curvature1. Prints for each row, in order, a line of JSON as of --json, but without advice; for a
+    /// bad row {"line":..,"error":".."}.
+    #[arg(long, value_name = "FILE", conflicts_with = "figure")]
+    points: Option<PathBuf>,
+    #[command(flatten)]
+    output: Output,
+}
 
-impl clap::FromArgMatches for Given {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Given, clap::Error> {
-        let typed = matches.ids().filter(|id| matches.value_source(id.as_str()) == Some(ValueSource::CommandLine));
-        let names = typed.map(|id| id.as_str().replace('_', "-"));
-        Ok(Given(names.collect()))
+impl Between {
+    /// Reports what `find` finds for the ends, or for each row of the table.
+    ///
+    pub(super) fn answer<F: Reportable>(&self, find: impl Fn(&Ends, Wish) -> Result<F>) -> Result<Outcome> {
+        let Some(path) = &self.points else {
+            // clap has asked for them.
+            let ends = self.ends().unwrap_or_else(|| refuse("two ends or `--points` are needed"));
+            return self.output.report(|wish| find(&ends, wish));
+        };
+        points::run(path, &[&COLUMNS], self.output.csv, |row| {
+            let [start, end] = states(row.cells)?;
+            let ends = Ends {
+                start: start.point,
+                end: end.point,
+                start_direction: start.direction,
+                end_direction: end.direction,
+                start_curvature: start.curvature,
+                end_curvature: end.curvature,
+            };
+            let wish = self.output.wish(false);
+            let found = find(&ends, wish)?;
+            let report = Report::new(&found, wish)?;
+            if self.output.csv {
+                return row.table(report.samples.as_deref().unwrap_or_default(), report.reason.as_deref());
+            }
+            serde_json::to_vec(&report).map_err(output::json_error)
+        })
     }
 
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
-        *self = Given::from_arg_matches(matches)?;
-        Ok(())
+    fn ends(&self) -> Option<Ends> {
+        Some(Ends {
+            start: self.from?,
+            end: self.to?,
+            start_direction: self.start_direction?,
+            end_direction: self.end_direction?,
+            start_curvature: self.start_curvature?,
+            end_curvature: self.end_curvature?,
+        })
     }
 }
 
-/// It has no option of its own.
-impl clap::Args for Given {
-    fn augment_args(command: clap::Command) -> clap::Command {
-        command
+/// Where a segment between a line and a circle lies.
+#[derive(clap::Args)]
+pub(super) struct Segment {
+    /// Where it starts.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub from: [f64; 2],
+    /// Direction of travel at the start: angle from the x axis, counter-clockwise, or a vector.
+    #[arg(long, value_name = "ANGLE|DX,DY", value_parser = direction, allow_hyphen_values = true)]
+    pub start_direction: f64,
+    /// Which way it turns.
+    #[arg(long, value_name = "SIDE", value_parser = numbers::named::<Turn>(&["left", "right"]))]
+    pub turn: Turn,
+    /// Radius of its round end.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    pub radius: f64,
+    /// How far it turns.
+    #[arg(long, value_name = "ANGLE", value_parser = parse_angle, allow_hyphen_values = true)]
+    pub angle: f64,
+}
+
+/// What is printed and drawn.
+#[derive(clap::Args)]
+pub(super) struct Output {
+    /// A curve longer than this counts as none; in your unit of length.
+    #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
+    longest: Option<f64>,
+    /// Print so many points at equal lengths along the curve too, both ends included: station (length from the start),
+    /// x, y, heading (radians), curvature.
+    #[arg(long, value_name = "N", value_parser = numbers::samples)]
+    samples: Option<u32>,
+    /// Print the samples as CSV, and nothing else; of a table each after the number of its row of data, from 1.
+    #[arg(long, requires = "samples", conflicts_with = "json")]
+    csv: bool,
+    /// Draw the curve with its polygon and end circles, its curvature and the derivative of that.
+    #[arg(long, value_name = "FILE.png")]
+    figure: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Output {
+    fn wish(&self, advice: bool) -> Wish {
+        Wish { longest: self.longest, samples: self.samples, advice }
     }
 
-    fn augment_args_for_update(command: clap::Command) -> clap::Command {
-        command
+    /// Prints what `find` finds, and draws it where that is asked for.
+    pub(super) fn report<F: Reportable>(&self, find: impl FnOnce(Wish) -> Result<F>) -> Result<Outcome> {
+        output::check_figure(self.figure.as_deref())?;
+        let wish = self.wish(true);
+        let found = find(wish)?;
+        let report = Report::new(&found, wish)?;
+        match (self.json, self.csv) {
+            (true, _) => output::print_json(&report)?,
+            (_, true) => report.csv()?,
+            _ => report.text()?,
+        }
+        let Some(path) = &self.figure else { return Ok(report.outcome()) };
+        match found.figure() {
+            Ok(figure) => {
+                spiral_atlas::files::write_file(path, &plot::curve_png(&figure, SIZE)?)?;
+                if !(self.json || self.csv) {
+                    output::print(&format!("drawn in {}\n", path.display()))?;
+                }
+            }
+            Err(e) => output::note(&format!("{} was not drawn: {e}", path.display())),
+        }
+        Ok(report.outcome())
     }
 }
 
-impl Args {
-    /// Ends the program unless all of `needed` are given and nothing but them and `allowed`.
-    pub(crate) fn check(&self, needed: &[&str], allowed: &[&str]) {
-        let given = |name: &str| self.given.0.iter().any(|given| given == name);
-        let list = |names: Vec<&str>| names.iter().map(|n| format!("`--{n}`")).collect::<Vec<_>>().join(", ");
-        let missing: Vec<&str> = needed.iter().copied().filter(|name| !given(name)).collect();
-        if !missing.is_empty() {
-            self.refuse(&format!("`{}` needs {} too", self.asked(), list(missing)), needed, allowed);
-        }
-        let known = |name: &str| needed.contains(&name) || allowed.contains(&name) || ALL.contains(&name);
-        let surplus: Vec<&str> = self.given.0.iter().map(String::as_str).filter(|name| !known(name)).collect();
-        if !surplus.is_empty() {
-            self.refuse(&format!("{} means nothing to `{}`", list(surplus), self.asked()), needed, allowed);
-        }
-    }
+/// Two numbers with a comma between.
+pub(super) fn point(text: &str) -> std::result::Result<[f64; 2], String> {
+    let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    both.filter(|p: &[f64; 2]| p.iter().all(|v| v.is_finite()))
+        .ok_or_else(|| format!("{text:?} is not two finite numbers `x,y`"))
+}
 
-    /// The option that says which others are needed.
-    fn asked(&self) -> String {
-        match &self.template {
-            _ if self.points.is_some() => "--points".into(),
-            Some(name) if self.family == Family::TrigQuintic => format!("--template {name}"),
-            _ => format!("--family {}", self.family.name()),
-        }
-    }
+/// An angle, or a vector.
+fn direction(text: &str) -> Result<f64> {
+    if text.contains(',') { direction_of(point(text).map_err(Error::invalid)?) } else { parse_angle(text) }
+}
 
-    /// Ends the program, with the options of this family as the usage.
-    fn refuse(&self, what: &str, needed: &[&str], allowed: &[&str]) -> ! {
-        let command = given();
-        let typed = |name: &str| {
-            let known = command.get_arguments().find(|arg| arg.get_long() == Some(name));
-            known.map_or_else(|| format!("--{name}"), |arg| arg.to_string())
-        };
-        let mut usage = format!("spiral-atlas curve --family {}", self.family.name());
-        usage.extend(self.points.iter().map(|_| format!(" {}", typed("points"))));
-        usage.extend(needed.iter().map(|name| match &self.template {
-            Some(template) if *name == "template" => format!(" --template {template}"),
-            _ => format!(" {}", typed(name)),
-        }));
-        usage.extend(allowed.iter().map(|name| format!(" [{}]", typed(name))));
-        refuse_by(command.override_usage(usage + " [OPTIONS]"), what)
-    }
-
-    /// The two ends, of a family that knows also the options `more`.
-    pub(crate) fn ends(&self, more: &[&str]) -> Ends {
-        self.check(&ENDS, more);
-        Ends {
-            start: self.from.unwrap_or_default(),
-            end: self.to.unwrap_or_default(),
-            start_direction: self.start_direction.unwrap_or_default(),
-            end_direction: self.end_direction.unwrap_or_default(),
-            start_curvature: self.start_curvature.unwrap_or_default(),
-            end_curvature: self.end_curvature.unwrap_or_default(),
-        }
-    }
-
-    /// The segment to add.
-    pub(crate) fn segment(&self) -> reach::Request {
-        let needed = ["from", "start-direction", "base", "turn", "radius", "angle"];
-        let target = match (self.to, self.m, self.q) {
-            (Some(point), None, None) => Target::Point(point),
-            (None, Some(m), Some(q)) => Target::Shape { m, q },
-            _ => self.refuse("a segment needs its end point `--to` or its shape `--m` and `--q`", &needed, &SHAPE),
-        };
-        self.check(&needed, &SHAPE);
-        reach::Request {
-            base: if self.base.as_deref() == Some("circle") { Base::Circle } else { Base::Line },
-            start: self.from.unwrap_or_default(),
-            direction: self.start_direction.unwrap_or_default(),
-            turn: if self.turn.as_deref() == Some("right") { Turn::Right } else { Turn::Left },
-            radius: self.radius.unwrap_or_default(),
-            theta: self.angle.unwrap_or_default(),
-            target,
-        }
-    }
-
-    /// The template and where it lies.
-    pub(crate) fn template(&self) -> trig::Request {
-        let name = self.template.as_deref().unwrap_or_default();
-        let mut needed = vec!["template", "from", "start-direction", "turn", "radius", "angle", "m"];
-        let mut allowed = vec!["ratio", "p", "q", "as-printed"];
-        match name {
-            "circle-in-circle" => needed.push("outer"),
-            "line-circle" => {}
-            _ => allowed.push("second"),
-        }
-        self.check(&needed, &allowed);
-        let (m, radius) = (self.m.unwrap_or_default(), self.radius.unwrap_or_default());
-        let ratio = self.ratio.unwrap_or(if self.as_printed { 0.5 * (6.0 + m) } else { 6.0 });
-        let shape = Shape {
-            ratio,
-            theta: self.angle.unwrap_or_default(),
-            m,
-            p: self.p.unwrap_or_default(),
-            q: self.q.unwrap_or_default(),
-        };
-        let first = Segment { shape, radius };
-        let second = self.second.map_or(first, |[theta, radius, ratio, m, p, q]| Segment {
-            shape: Shape { ratio, theta, m, p, q },
-            radius,
-        });
-        trig::Request {
-            template: match name {
-                "line-circle" => Template::LineCircle(first),
-                "line-line" => Template::LineLine { first, second },
-                "s" => Template::S { first, second },
-                "c" => Template::C { first, second },
-                _ => Template::CircleInCircle { inner: first, outer: self.outer.unwrap_or_default() },
-            },
-            at: self.from.unwrap_or_default(),
-            direction: self.start_direction.unwrap_or_default(),
-            turn: if self.turn.as_deref() == Some("right") { Turn::Right } else { Turn::Left },
-            scaling: if self.as_printed { Scaling::AsPrinted } else { Scaling::Corrected },
-        }
-    }
+fn length(text: &str) -> std::result::Result<f64, String> {
+    text.trim()
+        .parse()
+        .ok()
+        .filter(|x: &f64| *x > 0.0 && x.is_finite())
+        .ok_or_else(|| format!("{text:?} is no finite length above 0"))
 }

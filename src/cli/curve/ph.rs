@@ -1,9 +1,16 @@
-//! `curve --family ph-quintic`: the Pythagorean-hodograph quintic spiral of least bending energy.
+//! `curve ph-quintic`: the Pythagorean-hodograph quintic spiral of least bending energy.
 
+use super::report::Wish;
 use super::{Reportable, drawn, end_circles};
 use spiral_atlas::plot::CurveFigure;
-use spiral_atlas::transition::{Ends, PhAnswer, Piece};
+use spiral_atlas::transition::{Ends, Kind, PhAnswer, Piece, ph_spiral};
 use spiral_atlas::{Error, Result};
+
+/// The answer for two ends.
+pub(super) fn find(ends: &Ends, wish: Wish) -> Result<PhAnswer> {
+    let found = ph_spiral(ends)?.no_longer_than(wish.longest());
+    if wish.advice { found.with_remedies() } else { Ok(found) }
+}
 
 impl Reportable for PhAnswer {
     fn spirals(&self) -> std::result::Result<Vec<Piece>, String> {
@@ -13,8 +20,8 @@ impl Reportable for PhAnswer {
         }
     }
 
-    fn ends(&self) -> Option<&Ends> {
-        Some(&self.ends)
+    fn between(&self) -> Option<(&Ends, Kind)> {
+        Some((&self.ends, Kind::PhQuintic))
     }
 
     fn text(&self) -> String {

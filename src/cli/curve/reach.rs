@@ -1,18 +1,50 @@
-//! `curve --family reach-cubic|reach-ph`: a segment added to the end of a line or of an arc (Habib & Sakai, CGIV 2004).
+//! `curve reach-cubic|reach-ph`: a segment added to the end of a line or of an arc (Habib & Sakai, CGIV 2004).
 
-use super::super::output;
+use super::super::{Outcome, numbers, output, refuse};
+use super::options::{Output, Segment, point};
 use super::{Reportable, circle, drawn};
 use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::{Kind, Level};
 use spiral_atlas::plot::CurveFigure;
-pub(super) use spiral_atlas::transition::segment::Request;
-use spiral_atlas::transition::segment::{Added, Base, add_segment};
+use spiral_atlas::transition::segment::{Added, Base, Request, Target, add_segment};
 use spiral_atlas::transition::{Piece, Turn};
 use spiral_atlas::{Error, Result};
 
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// What the segment is added to.
+    #[arg(long, value_parser = numbers::named::<Base>(&["line", "circle"]))]
+    base: Base,
+    #[command(flatten)]
+    segment: Segment,
+    /// Where it ends.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    #[arg(required_unless_present_any = ["m", "q"], conflicts_with_all = ["m", "q"])]
+    to: Option<[f64; 2]>,
+    /// Its shape m, with q instead of its end.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, requires = "q")]
+    m: Option<f64>,
+    /// Its shape q.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, requires = "m")]
+    q: Option<f64>,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Args {
+    pub(super) fn run(&self, kind: Kind) -> Result<Outcome> {
+        let shape = self.m.zip(self.q).map(|(m, q)| Target::Shape { m, q });
+        let target = shape.or(self.to.map(Target::Point)).unwrap_or_else(|| refuse("`--to` is needed"));
+        let &Segment { from, start_direction, turn, radius, angle } = &self.segment;
+        let request =
+            Request { base: self.base, start: from, direction: start_direction, turn, radius, theta: angle, target };
+        self.output.report(|_| find(kind, &request))
+    }
+}
+
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub(super) struct Answer {
+struct Answer {
     #[serde(skip)]
     kind: Kind,
     request: Request,
@@ -38,23 +70,8 @@ fn segment_or_none<S: Serializer>(
     .serialize(to)
 }
 
-pub(super) fn find(kind: Kind, request: &Request) -> Result<Answer> {
+fn find(kind: Kind, request: &Request) -> Result<Answer> {
     Ok(Answer { kind, request: *request, outcome: add_segment(kind, request)? })
-}
-
-/// What to type for a segment that ends at a point.
-pub(super) fn command(kind: Kind, request: &Request, to: [f64; 2]) -> String {
-    let Request { base, start, direction, turn, radius, theta, .. } = request;
-    let base = if *base == Base::Line { "line" } else { "circle" };
-    format!(
-        "spiral-atlas curve --family {} --base {base} --from={:?},{:?} --start-direction={direction:?} --turn {turn} --radius {radius:?} \
-         --angle {theta:?} --to={:?},{:?}",
-        kind.name(),
-        start[0],
-        start[1],
-        to[0],
-        to[1]
-    )
 }
 
 impl Reportable for Answer {

@@ -1,12 +1,12 @@
 //! What every family of `curve` reports alike: paths, reasons, other families, samples.
 
 use super::super::{Outcome, output};
-use super::{Family, Reportable, reach};
+use super::Reportable;
 use serde::{Serialize, Serializer};
-use spiral_atlas::family::reach::Kind;
+use spiral_atlas::family::reach::{self, Level};
 use spiral_atlas::path::{Course, Summary};
-use spiral_atlas::transition::segment::Request;
-use spiral_atlas::transition::{self, Ends, Fit, Piece, Station, fit};
+use spiral_atlas::transition::segment::{Base, Request, add_segment};
+use spiral_atlas::transition::{Ends, Fit, Kind, Piece, Station, fit};
 use spiral_atlas::{Error, Result};
 use std::io::Write;
 
@@ -56,9 +56,9 @@ impl Path {
     /// Points at equal lengths. The curvature of an end that is straight by the question is 0.
     ///
     /// There the first two sides of the polygon, or the first two numbers of the pre-image, are multiples of each
-    /// other. Turned into the user's frame each of their coordinates has a few roundings, so their cross product is no 0
-    /// but up to 2^-51 of the product of their lengths a and b. The curvature shown is some b 2^-51 over a²: a rounding
-    /// of this frame, and nothing of the curve.
+    /// other. Turned into the user's frame each of their coordinates has a few roundings, so their cross product is no
+    /// 0 but up to 2^-51 of the product of their lengths a and b. The curvature shown is some b 2^-51 over a²: a
+    /// rounding of this frame, and nothing of the curve.
     fn stations(&self, count: u32, found: &impl Reportable) -> Result<Vec<Station>> {
         let mut all = self.course.stations(count as usize)?;
         let last = all.len() - 1;
@@ -71,14 +71,12 @@ impl Path {
     }
 }
 
-/// What is asked of a curve whatever its family.
+/// What is asked of a curve whatever its kind.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wish {
-    pub family: Family,
     pub longest: Option<f64>,
     pub samples: Option<u32>,
-    /// Whether a no comes with advice. In a batch it does not: asking every other family costs far more than the
-    /// answer.
+    /// Whether a no comes with advice. In a batch it does not: asking every other kind costs far more than the answer.
     pub advice: bool,
 }
 
@@ -107,8 +105,8 @@ impl<'f, F: Reportable> Report<'f, F> {
                 }
             }
         };
-        let unsure = found.ends().filter(|_| wish.advice && reason.is_some());
-        let others = unsure.map(|ends| Others::new(ends, wish));
+        let unsure = found.between().filter(|_| wish.advice && reason.is_some());
+        let others = unsure.map(|(ends, kind)| Others::new(ends, kind, wish.longest()));
         let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.stations(n, found)));
         Ok(Report { found, paths, reason, others, samples: samples.transpose()? })
     }
@@ -149,7 +147,7 @@ impl<'f, F: Reportable> Report<'f, F> {
 #[derive(Debug, Default, Serialize)]
 struct Others {
     /// Those that take the same ends.
-    families: Vec<String>,
+    families: Vec<&'static str>,
     /// Commands for a segment added to the straight end, where one of the ends is straight.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     segments: Vec<String>,
@@ -158,32 +156,27 @@ struct Others {
 impl Others {
     /// All families that join two ends by a spiral no longer than allowed, but for the one that was asked: each is
     /// asked too. One that fails counts as none. Where no involute exists no spiral does, so that nobody is asked.
-    fn new(ends: &Ends, wish: Wish) -> Others {
-        let longest = wish.longest();
-        let involute = fit(ends, transition::Kind::Involute, longest);
+    fn new(ends: &Ends, kind: Kind, longest: f64) -> Others {
+        let involute = fit(ends, Kind::Involute, longest);
         if involute.as_ref().is_ok_and(|found| found.solutions.is_empty()) {
             return Others::default();
         }
-        let has = |found: Result<Fit>| found.is_ok_and(|found| found.outcome.is_ok());
-        let asked = |family: Family| match family {
-            Family::Cubic => has(fit(ends, transition::Kind::Cubic, longest)),
-            Family::PhQuintic => has(fit(ends, transition::Kind::PhQuintic, longest)),
-            _ => involute.as_ref().is_ok_and(|found| found.outcome.is_ok()),
+        let has = |found: &Result<Fit>| found.as_ref().is_ok_and(|found| found.outcome.is_ok());
+        let joins = |kind: &Kind| match kind {
+            Kind::Involute => has(&involute),
+            _ => has(&fit(ends, *kind, longest)),
         };
-        let others =
-            [Family::Cubic, Family::PhQuintic, Family::Involute].into_iter().filter(|family| *family != wish.family);
-        let families = others.filter(|family| asked(*family)).map(|family| family.name());
+        let others = [Kind::Cubic, Kind::PhQuintic, Kind::Involute].into_iter().filter(|other| *other != kind);
         let segment = Request::between(ends).ok().flatten();
-        let added = |kind: Kind| {
-            let short = |pieces: Vec<Piece>| pieces.iter().map(Piece::length).sum::<f64>() <= longest;
-            let found =
-                |request: &Request| reach::find(kind, request).is_ok_and(|found| found.spirals().is_ok_and(short));
-            let request = segment.filter(found)?;
-            Some(reach::command(kind, &request, ends.end))
+        let added = |kind: reach::Kind| {
+            let request = segment?;
+            let added = add_segment(kind, &request).ok()?.ok()?;
+            let spiral = added.level != Level::Exists && added.piece.length() <= longest;
+            spiral.then(|| command(kind, &request, ends.end))
         };
         Others {
-            families: families.collect(),
-            segments: [Kind::Cubic, Kind::Ph].into_iter().filter_map(added).collect(),
+            families: others.filter(joins).map(Kind::name).collect(),
+            segments: [reach::Kind::Cubic, reach::Kind::Ph].into_iter().filter_map(added).collect(),
         }
     }
 
@@ -191,12 +184,27 @@ impl Others {
     fn advice(&self) -> String {
         let mut text = String::new();
         if !self.families.is_empty() {
-            let names: Vec<String> = self.families.iter().map(|name| format!("`--family {name}`")).collect();
-            text += &format!("\nanother kind of curve would do: add {}", names.join(" or "));
+            let names: Vec<String> = self.families.iter().map(|name| format!("`curve {name}`")).collect();
+            text += &format!("\nanother kind of curve would do: {}", names.join(" or "));
         }
         for command in &self.segments {
             text += &format!("\na segment that is added to the straight end would do: `{command}`");
         }
         text
     }
+}
+
+/// What to type for a segment that ends at a point.
+fn command(kind: reach::Kind, request: &Request, to: [f64; 2]) -> String {
+    let Request { base, start, direction, turn, radius, theta, .. } = request;
+    let base = if *base == Base::Line { "line" } else { "circle" };
+    format!(
+        "spiral-atlas curve {} --base {base} --from={:?},{:?} --start-direction={direction:?} --turn {turn} --radius \
+         {radius:?} --angle {theta:?} --to={:?},{:?}",
+        kind.name(),
+        start[0],
+        start[1],
+        to[0],
+        to[1]
+    )
 }

@@ -1,17 +1,101 @@
-//! `curve --family trig-quintic`: the five templates of Misro, Ramli and Ali, with spirals that are some.
+//! `curve trig-quintic`: the five templates of Misro, Ramli and Ali, with spirals that are some.
 
+use super::super::{Outcome, numbers, refuse};
+use super::options::{Output, Segment};
 use super::{Reportable, SAMPLES};
 use serde::{Serialize, Serializer};
 use spiral_atlas::Result;
 use spiral_atlas::curve::Jet;
+use spiral_atlas::family::trig_quintic::{Scaling, Shape};
 use spiral_atlas::plot::{self, CurveFigure, Graph};
-pub(super) use spiral_atlas::transition::templates::Request;
-use spiral_atlas::transition::templates::{NoSpirals, Path, Template, path};
+use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::transition::templates::{self, NoSpirals, Path, Request, Template, path};
 use spiral_atlas::transition::{EndCircle, Piece, Sample, TrigPart};
+
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// What is joined, in the direction of travel; `--from` is its start, for `s` and `c` the point between the
+    /// spirals.
+    #[arg(long, value_name = "NAME", value_enum)]
+    template: Joined,
+    #[command(flatten)]
+    first: Segment,
+    /// Shape m of the first spiral.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    m: f64,
+    /// Its shape p, from -4 to 1.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(default_value_t = 0.0)]
+    p: f64,
+    /// Its shape q, from -4 to 1.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(default_value_t = 0.0)]
+    q: f64,
+    /// Its s / tan(angle/2); left out: 6, or with --as-printed the paper's (6 + m)/2.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    ratio: Option<f64>,
+    /// The second spiral of `line-line`, `s` and `c`; left out: as the first.
+    #[arg(long, value_name = "ANGLE,RADIUS,RATIO,M,P,Q", value_parser = parse_second, allow_hyphen_values = true)]
+    second: Option<templates::Segment>,
+    /// Radius of the outer circle, for `circle-in-circle`.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(required_if_eq("template", "circle-in-circle"))]
+    outer: Option<f64>,
+    /// Scale the curve as the paper does, which misses the end curvature.
+    #[arg(long)]
+    as_printed: bool,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// What the templates join.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum Joined {
+    LineCircle,
+    LineLine,
+    S,
+    C,
+    CircleInCircle,
+}
+
+impl Args {
+    pub(super) fn run(&self) -> Result<Outcome> {
+        let &Args { m, p, q, .. } = self;
+        let &Segment { from, start_direction, turn, radius, angle } = &self.first;
+        let ratio = self.ratio.unwrap_or(if self.as_printed { 0.5 * (6.0 + m) } else { 6.0 });
+        let first = templates::Segment { shape: Shape { ratio, theta: angle, m, p, q }, radius };
+        let second = self.second.unwrap_or(first);
+        let template = match (self.template, self.second, self.outer) {
+            (Joined::LineCircle, None, None) => Template::LineCircle(first),
+            (Joined::LineLine, _, None) => Template::LineLine { first, second },
+            (Joined::S, _, None) => Template::S { first, second },
+            (Joined::C, _, None) => Template::C { first, second },
+            (Joined::CircleInCircle, None, Some(outer)) => Template::CircleInCircle { inner: first, outer },
+            _ => refuse("`--second` is for `line-line`, `s` and `c`, `--outer` for `circle-in-circle`"),
+        };
+        let scaling = if self.as_printed { Scaling::AsPrinted } else { Scaling::Corrected };
+        let request = Request { template, at: from, direction: start_direction, turn, scaling };
+        self.output.report(|_| find(&request))
+    }
+}
+
+/// An angle and five numbers with commas between.
+fn parse_second(text: &str) -> std::result::Result<templates::Segment, String> {
+    let wrong = || format!("{text:?} is not an angle and five finite numbers `angle,radius,ratio,m,p,q`");
+    let (angle, rest) = text.split_once(',').ok_or_else(wrong)?;
+    let theta = parse_angle(angle.trim()).map_err(|_| wrong())?;
+    let rest: Vec<f64> = rest.split(',').map_while(|cell| cell.trim().parse().ok()).collect();
+    match rest[..] {
+        [radius, ratio, m, p, q] if rest.iter().all(|x| x.is_finite()) => {
+            Ok(templates::Segment { shape: Shape { ratio, theta, m, p, q }, radius })
+        }
+        _ => Err(wrong()),
+    }
+}
 
 /// What was asked and what was found.
 #[derive(Debug, Serialize)]
-pub(super) struct Answer {
+struct Answer {
     request: Request,
     #[serde(serialize_with = "spirals_or_not")]
     outcome: std::result::Result<Path, NoSpirals>,
@@ -27,7 +111,7 @@ fn spirals_or_not<S: Serializer>(
     }
 }
 
-pub(super) fn find(request: &Request) -> Result<Answer> {
+fn find(request: &Request) -> Result<Answer> {
     Ok(Answer { request: *request, outcome: path(request)? })
 }
 

@@ -1,5 +1,6 @@
 //! `export lattice`: motion primitives for nav2.
 
+use super::super::join::FAMILIES;
 use super::super::{Outcome, numbers, output};
 use spiral_atlas::Result;
 use spiral_atlas::export::{Lattice, LatticeOptions, lattice};
@@ -14,16 +15,15 @@ const STEPS: usize = 200;
 
 /// Motion primitives for nav2's Smac lattice planner whose curvature is continuous, within 1 / radius.
 ///
-/// Each is a line, or a turn of spirals and an arc between lines, and so straight at both ends: whatever the planner puts
-/// together of them has a continuous curvature. The set is as small as nav2's own rules make it. The output is JSON as
-/// nav2 reads it, the same for the same options.
+/// Each is a line, or a turn of spirals and an arc between lines, and so straight at both ends: whatever the planner
+/// puts together of them has a continuous curvature. The set is as small as nav2's own rules make it. The output is
+/// JSON as nav2 reads it, the same for the same options.
 ///
 /// In the planner's settings analytic expansion and the smoother must be off, since both join what they make with jumps
 /// of the curvature: `analytic_expansion_max_length: 0.0` and `smooth_path: false`.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Example:\n  spiral-atlas export lattice --turning-radius 0.5 --grid-resolution 0.05 --out lattice.json"
-)]
+#[command(after_help = "Example:\n  \
+              spiral-atlas export lattice --turning-radius 0.5 --grid-resolution 0.05 --out lattice.json")]
 pub(super) struct LatticeArgs {
     /// Least radius in metres.
     #[arg(long, value_name = "METRES", value_parser = numbers::number, allow_hyphen_values = true)]
@@ -36,10 +36,11 @@ pub(super) struct LatticeArgs {
     headings: u32,
     /// Two primitives with the same directions end further apart than this share of the length of the longer: from 0 to
     /// 1. With less there are more.
-    #[arg(long, value_name = "SHARE", value_parser = numbers::number, allow_hyphen_values = true, default_value_t = 0.9)]
+    #[arg(long, value_name = "SHARE", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(default_value_t = 0.9)]
     distinctness: f64,
     /// What kind of spirals.
-    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&["cubic", "ph-quintic", "involute", "trig-quintic"]))]
+    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&FAMILIES))]
     family: Family,
     /// Where the file goes; standard output unless given.
     #[arg(long, value_name = "FILE.json")]

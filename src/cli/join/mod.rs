@@ -32,21 +32,26 @@ use std::path::PathBuf;
 #[command(
     group(clap::ArgGroup::new("start").args(["from", "from_line", "from_circle"])),
     group(clap::ArgGroup::new("goal").args(["to", "to_line", "to_circle"])),
-    after_help = "Examples:\n  spiral-atlas join --from 0,0,0deg --to 8,6,90deg --greatest-curvature 0.5 --figure join.png\n  \
-                        spiral-atlas join --from-line 0,0,0deg --to-circle 90,35,30,left --greatest-curvature 0.04 --samples 101 --csv\n  \
-                        spiral-atlas join --points states.csv --greatest-curvature 1 > joins.jsonl\n  \
-                        spiral-atlas join request.toml"
+    after_help = "Examples:\n  \
+        spiral-atlas join --from 0,0,0deg --to 8,6,90deg --greatest-curvature 0.5 --figure join.png\n  \
+        spiral-atlas join --from-line 0,0,0deg --to-circle 90,35,30,left --greatest-curvature 0.04 \\\n      \
+        --samples 101 --csv\n  \
+        spiral-atlas join --points states.csv --greatest-curvature 1 > joins.jsonl\n  \
+        spiral-atlas join request.toml"
 )]
 pub(super) struct Args {
     /// All of the options below but those of output in one file: JSON, TOML if named .toml, `-` for JSON from standard
     /// input.
-    #[arg(value_name = "FILE", conflicts_with_all = ["start", "goal", "points", "greatest_curvature", "family", "objective", "longest", "most_pieces"])]
+    #[arg(value_name = "FILE", conflicts_with_all = ["start", "goal", "points", "greatest_curvature"])]
+    #[arg(conflicts_with_all = ["family", "objective", "longest", "most_pieces"])]
     request: Option<PathBuf>,
     /// Start in a state; the direction is an angle from the x axis, the curvature 0 unless given.
-    #[arg(long, value_name = "X,Y,ANGLE[,CURVATURE]", value_parser = parse::state, allow_hyphen_values = true, help_heading = ENDS)]
+    #[arg(long, value_name = "X,Y,ANGLE[,CURVATURE]", value_parser = parse::state)]
+    #[arg(allow_hyphen_values = true, help_heading = ENDS)]
     from: Option<End>,
     /// End in a state.
-    #[arg(long, value_name = "X,Y,ANGLE[,CURVATURE]", value_parser = parse::state, allow_hyphen_values = true, help_heading = ENDS)]
+    #[arg(long, value_name = "X,Y,ANGLE[,CURVATURE]", value_parser = parse::state)]
+    #[arg(allow_hyphen_values = true, help_heading = ENDS)]
     to: Option<End>,
     /// Start anywhere on a straight line: a point of it and its direction.
     #[arg(long, value_name = "X,Y,ANGLE", value_parser = parse::line, allow_hyphen_values = true, help_heading = ENDS)]
@@ -55,10 +60,12 @@ pub(super) struct Args {
     #[arg(long, value_name = "X,Y,ANGLE", value_parser = parse::line, allow_hyphen_values = true, help_heading = ENDS)]
     to_line: Option<End>,
     /// Start anywhere on a circle: its centre, its radius, and to which side it is travelled, left or right.
-    #[arg(long, value_name = "X,Y,RADIUS,SIDE", value_parser = parse::circle, allow_hyphen_values = true, help_heading = ENDS)]
+    #[arg(long, value_name = "X,Y,RADIUS,SIDE", value_parser = parse::circle)]
+    #[arg(allow_hyphen_values = true, help_heading = ENDS)]
     from_circle: Option<End>,
     /// End anywhere on a circle.
-    #[arg(long, value_name = "X,Y,RADIUS,SIDE", value_parser = parse::circle, allow_hyphen_values = true, help_heading = ENDS)]
+    #[arg(long, value_name = "X,Y,RADIUS,SIDE", value_parser = parse::circle)]
+    #[arg(allow_hyphen_values = true, help_heading = ENDS)]
     to_circle: Option<End>,
     /// A CSV file of states, - for standard input. Columns, in any order: x0, y0, direction0, curvature0, x1, y1,
     /// direction1, curvature1.
@@ -68,16 +75,18 @@ pub(super) struct Args {
     #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
     greatest_curvature: Option<f64>,
     /// What kind of spirals.
-    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&["cubic", "ph-quintic", "involute", "trig-quintic"]))]
+    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&FAMILIES))]
     family: Family,
     /// What is to be least; a rate is |dκ/ds|, how fast the steering must turn.
     #[arg(long, value_name = "NAME", default_value = "length", value_parser = numbers::named::<Objective>(&OBJECTIVES))]
     objective: Objective,
     /// A join longer than this counts as none; in your unit of length.
-    #[arg(long, value_name = "LENGTH", value_parser = numbers::number, default_value_t = f64::INFINITY, hide_default_value = true, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(default_value_t = f64::INFINITY, hide_default_value = true)]
     longest: f64,
     /// Most pieces allowed.
-    #[arg(long, value_name = "N", value_parser = numbers::count::<0, 1000>, default_value_t = Request::MOST_PIECES as u32)]
+    #[arg(long, value_name = "N", value_parser = numbers::count::<0, 1000>)]
+    #[arg(default_value_t = Request::MOST_PIECES as u32)]
     most_pieces: u32,
     /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from
     /// the start), x, y, heading (radians), curvature.
@@ -92,6 +101,8 @@ pub(super) struct Args {
 }
 
 const ENDS: &str = "What is joined";
+/// The kinds of spirals that joins are made of.
+pub(super) const FAMILIES: [&str; 4] = ["cubic", "ph-quintic", "involute", "trig-quintic"];
 const OBJECTIVES: [&str; 4] = ["length", "greatest-curvature", "greatest-rate", "bending-energy"];
 
 /// What is printed of a single join.

@@ -9,10 +9,9 @@ use spiral_atlas::tools::Tool;
 ///
 /// Input: {"start": [x, y], "end": [x, y], "start_derivative": [x, y], "end_derivative": [x, y]}.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Example:\n  echo '{\"start\": [0, 0], \"end\": [1, 0], \"start_derivative\": [1, 1], \"end_derivative\": [1, -1]}' |\n      \
-                        spiral-atlas path hermite - --figure hermite.png"
-)]
+#[command(after_help = "Example:\n  \
+      echo '{\"start\": [0, 0], \"end\": [1, 0], \"start_derivative\": [1, 1], \"end_derivative\": [1, -1]}' |\n      \
+        spiral-atlas path hermite - --figure hermite.png")]
 pub(super) struct Args {
     #[command(flatten)]
     files: Files,

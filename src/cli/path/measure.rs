@@ -10,19 +10,18 @@ use std::io::Write;
 /// Tell of paths: points at equal steps of arc length, where the curvature is extreme and where it changes its sign,
 /// and offset curves.
 ///
-/// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools, `join` and `curve --json` print it, or a line
-/// of JSON for each of several, as with --points; lines without a path are told on standard error, and not counted.
-/// Other fields are left out of account. Pieces of all kinds are read. A `station` is the length from the start of the
-/// path, a `parameter` that of the piece.
+/// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools, `join` and `curve NAME --json` print it, or a
+/// line of JSON for each of several, as with --points; lines without a path are told on standard error, and not
+/// counted. Other fields are left out of account. Pieces of all kinds are read. A `station` is the length from the
+/// start of the path, a `parameter` that of the piece.
 ///
 /// The offset of a PH quintic is exact, rational of degree 9: at parameter t it is the Bernstein form `numerator`
 /// divided by the form `weight`. Of other pieces it is given by `points`.
 ///
 /// Heading and curvature are null where the path stands still.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Example:\n  spiral-atlas path spline examples/lap.json | spiral-atlas path measure - --samples 101 --offset 0.2"
-)]
+#[command(after_help = "Example:\n  \
+        spiral-atlas path spline examples/lap.json | spiral-atlas path measure - --samples 101 --offset 0.2")]
 pub(super) struct Args {
     #[command(flatten)]
     files: Files,

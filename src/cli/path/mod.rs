@@ -24,12 +24,12 @@ use std::path::PathBuf;
 /// among obstacles, and apart from each other.
 ///
 /// Each tool reads JSON or TOML from a file, or JSON from standard input for `-`, and prints JSON. What the others
-/// print has `paths`, which `separation` and `measure` read, and so they read what `curve --json` and `join` print,
-/// also with --points. Any unit of length; angles are radians, or degrees when written like "40deg".
+/// print has `paths`, which `separation` and `measure` read, and so they read what `curve NAME --json` and `join`
+/// print, also with --points. Any unit of length; angles are radians, or degrees when written like "40deg".
 #[derive(clap::Args)]
-#[command(
-    after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json --figure swarm.png | spiral-atlas path separation - --minimum 0.03"
-)]
+#[command(after_help = "Example:\n  \
+        spiral-atlas path equal-length examples/swarm.json --figure swarm.png |\n      \
+        spiral-atlas path separation - --minimum 0.03")]
 pub(super) struct Args {
     #[command(subcommand)]
     tool: Tool,

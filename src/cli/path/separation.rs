@@ -17,9 +17,8 @@ use spiral_atlas::tools::{Separations, Vehicle};
 /// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit
 /// status is 0 for `kept`, 1 for `violated` and `undecided`.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Example:\n  spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03"
-)]
+#[command(after_help = "Example:\n  \
+        spiral-atlas path equal-length examples/swarm.json | spiral-atlas path separation - --minimum 0.03")]
 pub(super) struct Args {
     #[command(flatten)]
     files: Files,

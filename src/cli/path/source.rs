@@ -30,9 +30,9 @@ struct Given<P> {
     paths: Vec<P>,
 }
 
-/// Which of the shapes of a batch a line has.
+/// The keys of a line of a batch, which tell what it is.
 #[derive(Deserialize)]
-struct Shape {
+struct BatchLine {
     paths: Option<Vec<IgnoredAny>>,
     pieces: Option<IgnoredAny>,
     #[serde(alias = "error")]
@@ -55,7 +55,7 @@ impl Source {
         let text = spiral_atlas::files::read_text(&self.input, MAX_INPUT)?;
         let wrong = |place: &str, what: String| self.blame(Error::invalid(format!("{place}{what}")));
         let lines: Vec<(usize, &str)> = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).collect();
-        let whole = |line: &str| serde_json::from_str::<Shape>(line).is_ok();
+        let whole = |line: &str| serde_json::from_str::<BatchLine>(line).is_ok();
         if self.is_toml() || lines.len() < 2 || !whole(lines[0].1) {
             return match one(&text, self.is_toml(), "").map_err(|what| wrong("", what))? {
                 Read::Paths(paths) => Ok(paths),
@@ -115,11 +115,11 @@ enum Read<P> {
 
 /// The paths of one text: several, one alone, or none with a reason or an error.
 fn one<P: DeserializeOwned>(text: &str, toml: bool, place: &str) -> std::result::Result<Read<P>, String> {
-    match if toml { None } else { serde_json::from_str::<Shape>(text).ok() } {
-        Some(Shape { paths: None, pieces: Some(_), .. }) => {
+    match if toml { None } else { serde_json::from_str::<BatchLine>(text).ok() } {
+        Some(BatchLine { paths: None, pieces: Some(_), .. }) => {
             Ok(Read::Paths(vec![(format!("{place}the path"), read::parse(text, false)?)]))
         }
-        Some(Shape { paths, reason: Some(reason), .. }) if paths.as_ref().is_none_or(Vec::is_empty) => {
+        Some(BatchLine { paths, reason: Some(reason), .. }) if paths.as_ref().is_none_or(Vec::is_empty) => {
             Ok(Read::None(reason))
         }
         _ => {

@@ -8,9 +8,8 @@ use spiral_atlas::tools::{Through, Tool};
 ///
 /// Input: {"points": [[x, y], ..], "closed": false}.
 #[derive(clap::Args)]
-#[command(
-    after_help = "Example:\n  echo '{\"points\": [[0, 0], [1, 1], [2, 0], [3, 1]]}' | spiral-atlas path spline - --figure spline.png"
-)]
+#[command(after_help = "Example:\n  \
+        echo '{\"points\": [[0, 0], [1, 1], [2, 0], [3, 1]]}' | spiral-atlas path spline - --figure spline.png")]
 pub(super) struct Args {
     #[command(flatten)]
     files: Files,

@@ -51,12 +51,12 @@ pub struct Lattice {
 /// The smallest set found of primitives that lead from each direction to all directions up to a quarter turn away.
 ///
 /// # Accuracy
-/// Each spiral is proved to have monotone curvature, from 0 to that of the arc or the next spiral. So no primitive bends
-/// more than one over the turning radius. Pieces meet as those of [`crate::transition::join::join`].
+/// Each spiral is proved to have monotone curvature, from 0 to that of the arc or the next spiral. So no primitive
+/// bends more than one over the turning radius. Pieces meet as those of [`crate::transition::join::join`].
 ///
 /// # Errors
-/// [`Domain`](crate::Error::Domain) for options out of range (see [`LatticeOptions`]), for a radius of less than one cell
-/// or more than 200, and those of joins.
+/// [`Domain`](crate::Error::Domain) for options out of range (see [`LatticeOptions`]), for a radius of less than one
+/// cell or more than 200, and those of joins.
 pub fn lattice(options: &LatticeOptions) -> Result<Lattice> {
     options.check()?;
     let turns = Turns::new(options)?;

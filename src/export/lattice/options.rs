@@ -50,12 +50,14 @@ impl LatticeOptions {
         let cells = turning_radius / grid_resolution;
         if cells < 1.0 {
             return fail(format!(
-                "the grid resolution {grid_resolution:?} m is larger than the turning radius {turning_radius:?} m; take a finer grid"
+                "the grid resolution {grid_resolution:?} m is larger than the turning radius {turning_radius:?} m; \
+                 take a finer grid"
             ));
         }
         if cells > MOST_CELLS {
             return fail(format!(
-                "the turning radius is {cells:.0} cells of {grid_resolution:?} m, and at most {MOST_CELLS} are searched; take a coarser grid"
+                "the turning radius is {cells:.0} cells of {grid_resolution:?} m, and at most {MOST_CELLS} are \
+                 searched; take a coarser grid"
             ));
         }
         Ok(())

@@ -21,7 +21,7 @@ pub(super) struct Pose {
 
 /// A turn of some angle between two straight lines, in units of one over the limit of curvature that it is made for.
 #[derive(Debug, Clone, Copy)]
-struct Shape {
+struct TurnShape {
     /// It is the shortest join of so many pieces.
     most_pieces: usize,
     /// From where it leaves the first line to the corner of the two, and from there to where it reaches the second.
@@ -46,7 +46,7 @@ pub(super) struct Turns<'o> {
     pub options: &'o LatticeOptions,
     pub headings: Headings,
     /// By the cosine of the angle: scalar product, and product of the squared lengths.
-    shapes: BTreeMap<(i64, i64), Vec<Shape>>,
+    shapes: BTreeMap<(i64, i64), Vec<TurnShape>>,
 }
 
 impl Turns<'_> {
@@ -67,13 +67,13 @@ impl Turns<'_> {
     }
 
     /// The shortest turn, and the shortest without an arc: the latter is longer and steers more slowly.
-    fn shapes_of(options: &LatticeOptions, angle: f64) -> Result<Vec<Shape>> {
+    fn shapes_of(options: &LatticeOptions, angle: f64) -> Result<Vec<TurnShape>> {
         let line = |direction: f64| End::Line { point: [0.0, 0.0], direction };
         let mut all = Vec::new();
         for most_pieces in [3, 2] {
             let request = Request { family: options.family, most_pieces, ..Request::new(line(0.0), line(angle), 1.0) };
             if let Ok(Join { measures, pieces }) = &join(&request)? {
-                all.push(Shape {
+                all.push(TurnShape {
                     most_pieces,
                     leg: pieces.first().map_or(0.0, |piece| length(piece.start())),
                     length: measures.length,
@@ -154,8 +154,8 @@ impl Turns<'_> {
         // A join that leaves a line elsewhere would go back to it.
         if (whole - fit.length).abs() > 1e-6 * fit.length {
             return Err(Error::invalid(format!(
-                "lattice: the turn from heading {heading} to heading {} at {end:?} should be {} m long, and the join found is {whole} m; \
-                 take another family or radius",
+                "lattice: the turn from heading {heading} to heading {} at {end:?} should be {} m long, and the join \
+                 found is {whole} m; take another family or radius",
                 to.heading, fit.length
             )));
         }

@@ -52,8 +52,8 @@ const FLAGS: &[Flag] = &[
     Flag {
         name: "EXISTS",
         label: "some spiral",
-        doc: "some short spiral has these ends: Q < 0, and omega has the sign of k2 - k1, which is not 0; necessary and \
-              sufficient",
+        doc: "some short spiral has these ends: Q < 0, and omega has the sign of k2 - k1, which is not 0; necessary \
+              and sufficient",
     },
     Flag {
         name: "RISING",

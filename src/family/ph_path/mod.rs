@@ -7,9 +7,9 @@
 //! - The scalar is the least of four greatest curvatures. A minimum needs no winner: overlapping enclosures are united.
 //!   The flags need one, which is proved by a single curvature that it stays below and each other exceeds; two that tie
 //!   for all precisions are told by symmetry (`curves.rs`, `truth.rs`).
-//! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`curve/hodograph.rs`). v is just above the value at a
-//!   peak (scalars), between two solutions (winner), or the end's own curvature, whose zero is left out (PEAK_INSIDE).
-//!   Guesses are free: a missed peak is where the certificate fails, and the next start.
+//! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`curve/hodograph.rs`). v is just above the value at
+//!   a peak (scalars), between two solutions (winner), or the end's own curvature, whose zero is left out
+//!   (PEAK_INSIDE). Guesses are free: a missed peak is where the certificate fails, and the next start.
 //! - Both angles 0 make straight lines, decided by exact signs (`straight.rs`).
 //! - `range.rs` runs the same formulas on ranges of sizes, as doubles with that much error: the bounds of
 //!   `path/least_curvature.rs`.
@@ -113,8 +113,9 @@ const EQUAL_LENGTH: About = About {
     name: "ph-equal-length",
     title: "the least greatest curvature of PH quintics of given arc length (Farouki et al.)",
     charts: CHARTS[Kind::EqualLength as usize],
-    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients \
-                  w0, w1, w2, |w0| = |w2|; lengths in chords, curvatures in their inverses, angles in radians",
+    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein \
+                  coefficients w0, w1, w2, |w0| = |w2|; lengths in chords, curvatures in their inverses, angles in \
+                  radians",
     flags: FLAGS,
     yes: &["REGULAR"],
     nested: &["REGULAR", "ONE_WAY"],
@@ -126,9 +127,9 @@ const HERMITE: About = About {
     name: "ph-hermite",
     title: "the least greatest curvature of PH quintics with given end derivatives (Farouki et al.)",
     charts: CHARTS[Kind::Hermite as usize],
-    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein coefficients \
-                  w0, w1, w2, |w0|^2 = l0, |w2|^2 = l1; lengths in chords, curvatures in their inverses, angles in \
-                  radians",
+    conventions: "start (0, 0), end (1, 0); the curve's derivative is w^2 for a quadratic w with Bernstein \
+                  coefficients w0, w1, w2, |w0|^2 = l0, |w2|^2 = l1; lengths in chords, curvatures in their inverses, \
+                  angles in radians",
     ..EQUAL_LENGTH
 };
 

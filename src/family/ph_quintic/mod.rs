@@ -52,7 +52,8 @@ const FLAGS: &[Flag] = &[
     Flag {
         name: "SOLVABLE",
         label: "solvable",
-        doc: "some PH quintic with w0 = A e^(-i phi0/2), w2 = B e^(i phi1/2), A, B > 0 has these ends, none of whose curvatures is negative",
+        doc: "some PH quintic with w0 = A e^(-i phi0/2), w2 = B e^(i phi1/2), A, B > 0 has these ends, none of whose \
+              curvatures is negative",
     },
     Flag {
         name: "SPIRAL",
@@ -92,19 +93,22 @@ const SCALARS: &[Scalar] = &[
     },
     Scalar {
         name: "energy",
-        doc: "bending energy of that spiral, above 0: the integral of the squared curvature over arc length, times half the chord",
+        doc: "bending energy of that spiral, above 0: the integral of the squared curvature over arc length, times \
+              half the chord",
     },
     Scalar { name: "length", doc: "arc length of that spiral in half chords, above 2" },
     Scalar {
         name: "margin",
-        doc: "margin of that spiral, in [0, 1], no unit: least value of the numerator of the curvature's derivative on [0, 1] over its largest Bernstein coefficient",
+        doc: "margin of that spiral, in [0, 1], no unit: least value of the numerator of the curvature's derivative on \
+              [0, 1] over its largest Bernstein coefficient",
     },
 ];
 
 const CHARTS: &[Chart] = &[Chart {
     name: "curvature",
     axes: &["phi0", "phi1", "kappa0", "kappa1"],
-    doc: "phi0, phi1: angles of the end tangents against the chord, radians, positive, phi0 + phi1 < pi; kappa0, kappa1: signed end curvatures times half the chord",
+    doc: "phi0, phi1: angles of the end tangents against the chord, radians, positive, phi0 + phi1 < pi; kappa0, \
+          kappa1: signed end curvatures times half the chord",
 }];
 
 impl Family for PhQuintic {
@@ -113,9 +117,10 @@ impl Family for PhQuintic {
             name: "ph-quintic",
             title: "Pythagorean-hodograph quintic spirals matching G2 Hermite data",
             charts: CHARTS,
-            conventions: "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos phi1, sin phi1); \
-         curvature positive to the left and increasing along the curve; the curve's derivative is w^2 for a quadratic w with Bernstein \
-         coefficients w0, w1, w2; lengths in half chords, angles in radians",
+            conventions: "end points (-1, 0) and (1, 0); start direction (cos phi0, -sin phi0), end direction (cos \
+                          phi1, sin phi1); curvature positive to the left and increasing along the curve; the curve's \
+                          derivative is w^2 for a quadratic w with Bernstein coefficients w0, w1, w2; lengths in half \
+                          chords, angles in radians",
             flags: FLAGS,
             yes: &["SPIRAL"],
             nested: &["ANY_SPIRAL", "SPIRAL"],

@@ -95,8 +95,8 @@ fn within_range(datum: &Datum, quintic: &Quintic) -> Result<()> {
         Some((name, _)) => {
             let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
             Err(Error::invalid(format!(
-                "{name} of a PH quintic leaves the range of doubles for phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = {kappa0:?}, \
-                 kappa1 = {kappa1:?}; choose less extreme numbers"
+                "{name} of a PH quintic leaves the range of doubles for phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = \
+                 {kappa0:?}, kappa1 = {kappa1:?}; choose less extreme numbers"
             )))
         }
     }

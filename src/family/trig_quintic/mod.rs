@@ -54,8 +54,8 @@ const FLAGS: &[Flag] = &[
     Flag {
         name: "PRINTED_RATIO",
         label: "condition as printed",
-        doc: "ratio >= (6 + m)/2, for m = 1 the 7/2 that the paper takes: a condition for polynomial curves, which says \
-              nothing here",
+        doc: "ratio >= (6 + m)/2, for m = 1 the 7/2 that the paper takes: a condition for polynomial curves, which \
+              says nothing here",
     },
     Flag {
         name: "END_CURVATURE_AS_PRINTED",
@@ -106,9 +106,9 @@ impl Family for TrigQuintic {
             title: "quintic trigonometric Bezier spirals from a line to a circle (Misro, Ramli & Ali)",
             charts: CHARTS,
             conventions: "start point (0, 0), start direction (1, 0), curvature 0 at the start and positive to the \
-                          left; end direction (cos theta, sin theta); basis (2), control points (3) with (9); angles in \
-                          radians; the radius scales out of every field: a curve has the end curvature 1/r when (9) is \
-                          taken with 15 r / (4 + q)^2 in place of r",
+                          left; end direction (cos theta, sin theta); basis (2), control points (3) with (9); angles \
+                          in radians; the radius scales out of every field: a curve has the end curvature 1/r when (9) \
+                          is taken with 15 r / (4 + q)^2 in place of r",
             flags: FLAGS,
             yes: &["SPIRAL"],
             nested: &["END_RISES", "SPIRAL"],

@@ -189,7 +189,8 @@ impl Scene {
 /// ```
 /// use spiral_atlas::path::{Scene, plan};
 /// let square = vec![[1.0, -1.0], [2.0, -1.0], [2.0, 1.0], [1.0, 1.0]];
-/// let scene = Scene { start: [0.0, 0.0], goal: [3.0, 0.0], obstacles: vec![square], clearance: 0.1, greatest_curvature: 5.0 };
+/// let (start, goal, obstacles) = ([0.0, 0.0], [3.0, 0.0], vec![square]);
+/// let scene = Scene { start, goal, obstacles, clearance: 0.1, greatest_curvature: 5.0 };
 /// let plan = plan(&scene)?;
 /// assert_eq!((plan.corners.len(), plan.spans.len()), (2, 5));
 /// assert!(plan.proof.curvature_at_most <= 5.0 && plan.proof.clearance.unwrap().at_least >= 0.1);
@@ -361,8 +362,8 @@ fn explain(path: &[Place], scene: &Scene, obstacles: &Obstacles, limits: Limits)
         place.vertex.map_or(String::new(), |v| format!(" around the vertex {:?} of obstacles[{}]", v.at, v.obstacle));
     let (at, angle, most) = (place.at, turn.angle().to_degrees(), scene.greatest_curvature);
     format!(
-        "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature {most:?} \
-         {why}; allow more curvature"
+        "no path was found: the shortest way turns by {angle:.1} degrees at {at:?}{vertex}, and with curvature \
+         {most:?} {why}; allow more curvature"
     )
 }
 

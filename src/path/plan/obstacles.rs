@@ -133,8 +133,8 @@ impl Obstacles {
                 };
                 if meet {
                     return fail(format!(
-                        "obstacles[{}] meets itself: the side from {:?} to {:?} and the one from {:?} to {:?}; split it \
-                         into simple polygons",
+                        "obstacles[{}] meets itself: the side from {:?} to {:?} and the one from {:?} to {:?}; split \
+                         it into simple polygons",
                         side.obstacle, side.ends[0], side.ends[1], other.ends[0], other.ends[1]
                     ));
                 }

@@ -7,8 +7,8 @@ use std::path::Path;
 /// An atlas of `any-spiral` whose outer axes have two and three nodes, and one plan.
 fn atlas_and_plan(folder: &Path, picture: &str) -> (crate::atlas::Atlas, PicturePlan) {
     use crate::atlas::{Spec, Writer};
-    let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = { \
-                values = [1, 2] }";
+    let axes = "alpha = { values = [-1, 0.5] }\nbeta = { values = [0.25, 0.75, 1.5] }\nk1 = { values = [0, 1] }\nk2 = \
+                { values = [1, 2] }";
     let text =
         format!("family = \"any-spiral\"\n[[atlas]]\nname = \"a\"\n[atlas.axes]\n{axes}\n[[atlas.picture]]\n{picture}");
     let recipe = Recipe::parse(&text).unwrap();

@@ -154,7 +154,8 @@ fn beyond(request: &Request) -> Option<String> {
             Some(format!("the {name} curvature {curvature:?} is beyond the greatest curvature {limit:?}"))
         }
         End::Circle { radius, .. } if 1.0 / radius > limit => Some(format!(
-            "the {name} circle has the radius {radius:?} and so the curvature {:?}, beyond the greatest curvature {limit:?}",
+            "the {name} circle has the radius {radius:?} and so the curvature {:?}, beyond the greatest curvature \
+             {limit:?}",
             1.0 / radius
         )),
         _ => None,

@@ -42,10 +42,12 @@ fn too_many_panels_are_refused() {
             if count == 1 { "values = [1]".into() } else { format!("linear = [0.5, 1.4], count = {count}") }
         });
         let axes = format!(
-            "ratio = {{ {ratio} }}\ntheta = {{ {theta} }}\nm = {{ {m} }}\np = {{ values = [0, 1] }}\nq = {{ values = [0, 1] }}"
+            "ratio = {{ {ratio} }}\ntheta = {{ {theta} }}\nm = {{ {m} }}\np = {{ values = [0, 1] }}\nq = {{ values = \
+             [0, 1] }}"
         );
         Recipe::parse(&format!(
-            "family = \"trig-quintic\"\n[[atlas]]\nname = \"a\"\n[atlas.axes]\n{axes}\n[[atlas.picture]]\nkind = \"multiples\"\nx = \"p\"\ny = \"q\"\n{at}"
+            "family = \"trig-quintic\"\n[[atlas]]\nname = \"a\"\n[atlas.axes]\n{axes}\n[[atlas.picture]]\nkind = \
+             \"multiples\"\nx = \"p\"\ny = \"q\"\n{at}"
         ))
     };
     // Six of each axis unless chosen: 4 x 6 x 6 panels fit, 5 x 6 x 6 do not.
@@ -54,7 +56,8 @@ fn too_many_panels_are_refused() {
         [4, 6, 6]
     );
     let Err(Error::Recipe(message)) = recipe([5, 6, 99], "") else { panic!("180 panels") };
-    let what = "line 11, column 8: the picture would have 180 panels: 5 of `ratio`, 6 of `theta`, 6 of `m`; it has room for 144. Choose fewer nodes";
+    let what = "line 11, column 8: the picture would have 180 panels: 5 of `ratio`, 6 of `theta`, 6 of `m`; it has \
+                room for 144. Choose fewer nodes";
     assert!(message.starts_with(what), "{message}");
     assert!(recipe([5, 6, 99], "at = { theta = [0.5, 1] }").is_ok());
 }

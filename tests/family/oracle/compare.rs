@@ -163,7 +163,8 @@ impl Tally {
     /// Prints the line of a data set and fails when anything was wrong, or when nothing was compared.
     pub(crate) fn finish(&self, name: &str, least: usize) {
         println!(
-            "{name}: {} nodes ({} with a spiral, {} with several roots); filter proved {}, abstained {}; solved {}; wrong {}",
+            "{name}: {} nodes ({} with a spiral, {} with several roots); filter proved {}, abstained {}; solved {}; \
+             wrong {}",
             self.nodes,
             self.spirals,
             self.several,

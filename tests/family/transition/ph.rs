@@ -69,11 +69,16 @@ fn no_spiral_has_a_reason_with_numbers() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, rng_seed: proptest::test_runner::RngSeed::Fixed(6), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 300,
+        rng_seed: proptest::test_runner::RngSeed::Fixed(6),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn whatever_is_returned_has_what_is_claimed(
-        (phi0, phi1) in (0.05..1.3f64, 0.1..1.6f64), (x, y) in (0.0..1.0f64, 0.0..1.0f64), turned in -3.0..3.0f64, half in 0.1..50.0f64,
+        (phi0, phi1) in (0.05..1.3f64, 0.1..1.6f64), (x, y) in (0.0..1.0f64, 0.0..1.0f64), turned in -3.0..3.0f64,
+        half in 0.1..50.0f64,
         mirrored: bool, reversed: bool,
     ) {
         let kappa0 = x * phi0.sin();

@@ -12,7 +12,9 @@ proptest! {
 
     /// The formula is `Q < 0` with `κ0 < κ1`, also where φ1 passes π/2.
     #[test]
-    fn the_bound_is_the_invariant(phi0 in 0.01..1.5f64, more in 0.01..1.5f64, share in 0.0..2.0f64, kappa1 in 0.0..10.0f64) {
+    fn the_bound_is_the_invariant(
+        phi0 in 0.01..1.5f64, more in 0.01..1.5f64, share in 0.0..2.0f64, kappa1 in 0.0..10.0f64,
+    ) {
         let (phi1, kappa0) = (phi0 + more, share * phi0.sin());
         prop_assume!(phi0 + phi1 < PI - 0.01);
         let q = (kappa0 - phi0.sin()) * (kappa1 - phi1.sin()) + (0.5 * more).sin().powi(2);

@@ -65,12 +65,17 @@ pub(super) fn check(ends: &Ends, legs: &[[f64; 2]]) -> (f64, bool) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, rng_seed: proptest::test_runner::RngSeed::Fixed(9), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 2000,
+        rng_seed: proptest::test_runner::RngSeed::Fixed(9),
+        ..ProptestConfig::default()
+    })]
 
     /// Also with an end tangent far shorter than the chord, where control points cannot.
     #[test]
     fn cubics_meet_their_ends(
-        (phi0, phi1) in (0.05..1.3f64, 0.1..1.6f64), (x, y) in (0.0..1.0f64, 0.0..1.0f64), turned in -3.0..3.0f64, half in 0.1..50.0f64,
+        (phi0, phi1) in (0.05..1.3f64, 0.1..1.6f64), (x, y) in (0.0..1.0f64, 0.0..1.0f64), turned in -3.0..3.0f64,
+        half in 0.1..50.0f64,
         mirrored: bool, reversed: bool,
     ) {
         let kappa0 = x * phi0.sin();

@@ -38,8 +38,8 @@ def to_dataset(atlas: Atlas, drop_variables: Iterable[str] = ()) -> xr.Dataset:
     """The atlas as a dataset, lazily.
 
     Variables: ``flags`` (uint8, CF ``flag_masks`` and ``flag_meanings``), one for each count that ``solutions`` packs
-    (uint8), one for each scalar (float32, NaN where a node has no value). Coordinates are the axes; angles have the unit
-    ``radian``.
+    (uint8), one for each scalar (float32, NaN where a node has no value). Coordinates are the axes; angles have the
+    unit ``radian``.
     """
     dropped = {drop_variables} if isinstance(drop_variables, str) else set(drop_variables)
     dims = tuple(atlas.axes)
@@ -53,7 +53,12 @@ def to_dataset(atlas: Atlas, drop_variables: Iterable[str] = ()) -> xr.Dataset:
     variables = {
         "flags": lazy(
             atlas.flags,
-            {"long_name": "proved conditions", "flag_masks": masks, "flag_meanings": " ".join(flag_docs), "comment": about},
+            {
+                "long_name": "proved conditions",
+                "flag_masks": masks,
+                "flag_meanings": " ".join(flag_docs),
+                "comment": about,
+            },
         ),
         "solutions": lazy(atlas.solutions, {"long_name": "packed counts", "comment": atlas.metadata["counts"]}),
     }

@@ -282,8 +282,8 @@ impl Involute {
         self.t0
     }
 
-    /// ρ and λ of Kurnosenko's map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature decreases. A ρ
-    /// beyond the range of normal doubles is told as the nearest of them.
+    /// ρ and λ of Kurnosenko's map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature
+    /// decreases. A ρ beyond the range of normal doubles is told as the nearest of them.
     pub fn map(&self) -> [f64; 2] {
         [self.rho, self.lambda]
     }

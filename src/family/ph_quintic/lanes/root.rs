@@ -89,9 +89,9 @@ pub(super) fn quintic<S: Simd>(equations: &Equations<S>, root: &Root<S>) -> ([S:
 
 /// Newton's method for both equations in logarithms of t and Z, then what the residuals prove.
 ///
-/// A residual r of a left-hand side puts the height of its curve at t within `exp(±1.05 |r|)` of Z. So D there is at most
-/// the sum of both. As |D'| is at least the bracket's pace, the solution is no further than D over that; and along the
-/// first curve Z changes by no more than its steepest slope times it.
+/// A residual r of a left-hand side puts the height of its curve at t within `exp(±1.05 |r|)` of Z. So D there is at
+/// most the sum of both. As |D'| is at least the bracket's pace, the solution is no further than D over that; and along
+/// the first curve Z changes by no more than its steepest slope times it.
 #[inline(always)]
 pub(super) fn root<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, wanted: u64) -> Root<S> {
     let [gap_a, gap_b] = bracket.gap;

@@ -1,4 +1,8 @@
-//! The nearest ends that a spiral joins, where none joins those that were given.
+//! Ends near the given ones that a spiral joins, where none joins those.
+//!
+//! [`crate::question::nearest`] proves how near the nearest is, in normalised numbers, and takes a second to half a
+//! minute. A page that follows a pointer has some 50 ms. So this looks at a few thousand ends, each of them with a
+//! verdict in microseconds, and promises no more than that a spiral joins those it returns.
 
 use super::placement::Ends;
 use super::words::rounded;
@@ -25,8 +29,8 @@ const HALVINGS: u32 = 10;
 /// A step: of the start and end curvature, and of the start and end direction.
 type Way = [f64; 4];
 
-/// Ends that a spiral of a kind joins: the nearest to the given ones among those that are tried. The points stay as
-/// they are.
+/// Ends that a spiral of a kind joins, near the given ones: the nearest of those that are tried. The points stay
+/// as they are.
 ///
 /// A distance is measured in directions (radians) and in the inverse hyperbolic sines of curvatures times half the
 /// chord: these are as the curvatures themselves where those are small, and as their logarithms where they are large.
@@ -42,7 +46,7 @@ type Way = [f64; 4];
 ///
 /// # Errors
 /// [`Error::Domain`] for another kind, and those of [`super::Placement::normalise`].
-pub fn nearest(ends: &Ends, kind: Kind) -> Result<Option<Ends>> {
+pub fn nearby(ends: &Ends, kind: Kind) -> Result<Option<Ends>> {
     let exists: fn(&Ends) -> bool = match kind {
         Kind::Cubic => cubic::exists,
         Kind::PhQuintic => ph_quintic::exists,
@@ -154,7 +158,7 @@ mod tests {
     #[test]
     fn what_is_found_has_a_spiral() {
         for kind in [Kind::Cubic, Kind::PhQuintic, Kind::Involute] {
-            assert_eq!(nearest(&ENDS, kind).unwrap(), Some(ENDS));
+            assert_eq!(nearby(&ENDS, kind).unwrap(), Some(ENDS));
             for ends in [
                 Ends { end_curvature: 0.012, ..ENDS },
                 Ends { end_curvature: -0.5, ..ENDS },
@@ -166,7 +170,7 @@ mod tests {
                 if fit(&ends, kind, f64::INFINITY).unwrap().curve().is_some() {
                     continue;
                 }
-                let found = nearest(&ends, kind).unwrap().unwrap_or_else(|| panic!("{kind:?}: none for {ends:?}"));
+                let found = nearby(&ends, kind).unwrap().unwrap_or_else(|| panic!("{kind:?}: none for {ends:?}"));
                 let answer = fit(&found, kind, f64::INFINITY).unwrap();
                 assert!(answer.curve().is_some(), "{kind:?}: {found:?} {:?}", answer.outcome);
                 assert_eq!((found.start, found.end), (ends.start, ends.end));
@@ -178,7 +182,7 @@ mod tests {
     #[test]
     fn it_is_near() {
         let ends = Ends { end_curvature: 0.012, ..ENDS };
-        let found = nearest(&ends, Kind::Involute).unwrap().unwrap();
+        let found = nearby(&ends, Kind::Involute).unwrap().unwrap();
         assert_eq!((found.start_direction, found.end_direction), (ends.start_direction, ends.end_direction));
         let step = |a: f64, b: f64| (100.0 * a).asinh() - (100.0 * b).asinh();
         let both =
@@ -190,7 +194,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_asked_is_refused() {
-        assert!(nearest(&ENDS, Kind::Line).unwrap_err().to_string().contains("`line`"));
-        assert!(nearest(&Ends { end: [0.0, 0.0], ..ENDS }, Kind::Cubic).is_err());
+        assert!(nearby(&ENDS, Kind::Line).unwrap_err().to_string().contains("`line`"));
+        assert!(nearby(&Ends { end: [0.0, 0.0], ..ENDS }, Kind::Cubic).is_err());
     }
 }
