@@ -1,7 +1,8 @@
 //! A curve with its control polygon and end circles, its curvature, and the derivative of its curvature.
 
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
-use super::canvas::{Canvas, Point, Rect};
+use super::drawing::Drawing;
+use super::geometry::{Point, Rect};
 use super::legend::{Entry, Heading, Key, Legend};
 use super::palette::{GREY, INK, LINES, PALE, RED};
 use super::scale::Scale;
@@ -33,7 +34,7 @@ pub struct Graph {
     pub points: Vec<[f64; 2]>,
 }
 
-/// What [`curve_png`] draws.
+/// What [`draw_curve`] draws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveFigure {
     /// Heading.
@@ -63,8 +64,8 @@ pub struct CurveFigure {
 /// # Errors
 /// [`Error::Domain`] when a number is not finite, the curve or a graph has fewer than two points or no extent, a
 /// direction is 0, or the size is 0, too large, or too small for plots beside their labels.
-pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
-    let mut canvas = Canvas::new(size)?;
+pub fn draw_curve(figure: &CurveFigure, size: (u32, u32)) -> Result<Drawing> {
+    let mut canvas = Drawing::new(size)?;
     check(figure)?;
     let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 64.0).max(10.0);
     let style = Style { em, slack: em * 0.8 };
@@ -80,7 +81,7 @@ pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     let middle = body.left + body.width() * 54 / 100;
     let half = body.top + body.height() / 2;
     heading.draw(&mut canvas, style, sheet);
-    draw_curve(&mut canvas, figure, style, Rect { right: middle, ..body })?;
+    plot_curve(&mut canvas, figure, style, Rect { right: middle, ..body })?;
     let right = Rect { left: middle + style.px(1.2), ..body };
     draw_graphs(
         &mut canvas,
@@ -89,7 +90,7 @@ pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
         [Rect { bottom: half, ..right }, Rect { top: half + style.px(0.6), ..right }],
     )?;
     legend.draw(&mut canvas, style, (sheet.left, sheet.bottom - legend.height(style)));
-    canvas.into_png()
+    Ok(canvas)
 }
 
 fn check(figure: &CurveFigure) -> Result<()> {
@@ -165,7 +166,7 @@ pub(super) fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
 }
 
-fn draw_curve(canvas: &mut Canvas, figure: &CurveFigure, style: Style, area: Rect) -> Result<()> {
+fn plot_curve(canvas: &mut Drawing, figure: &CurveFigure, style: Style, area: Rect) -> Result<()> {
     let mut rect = Rect { bottom: area.bottom - style.below() - style.px(1.6), ..area };
     check_room(canvas, rect)?;
     let [_, y] = window(figure, rect)?;
@@ -253,7 +254,7 @@ fn arc(circle: &EndCircle, reach: f64) -> Vec<Point> {
 }
 
 /// Curvature and its derivative, each in its own area, with their left sides in one line.
-fn draw_graphs(canvas: &mut Canvas, figure: &CurveFigure, style: Style, areas: [Rect; 2]) -> Result<()> {
+fn draw_graphs(canvas: &mut Drawing, figure: &CurveFigure, style: Style, areas: [Rect; 2]) -> Result<()> {
     let graphs = [&figure.curvature, &figure.derivative];
     let scales = [value_scale(graphs[0])?, value_scale(graphs[1])?];
     let mut rects = areas.map(|area| Rect { bottom: area.bottom - style.below() - style.px(1.6), ..area });
@@ -273,7 +274,7 @@ fn draw_graphs(canvas: &mut Canvas, figure: &CurveFigure, style: Style, areas: [
 }
 
 fn draw_graph(
-    canvas: &mut Canvas,
+    canvas: &mut Drawing,
     graph: &Graph,
     [x, y]: [Scale; 2],
     style: Style,

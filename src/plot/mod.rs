@@ -1,24 +1,33 @@
-//! PNG pictures: slices of an atlas, small multiples of slices, curves with their curvature, paths with graphs.
+//! Pictures: slices of an atlas, small multiples of slices, curves with their curvature, paths with graphs.
 //!
-//! Everything here is plain data in, PNG bytes out; the same data give the same bytes.
-//! [`crate::files::write_file`] puts them on disk.
+//! Everything here is plain data in, a [`Drawing`] out, and from that the bytes of a PNG or SVG file; the same data give
+//! the same bytes. [`crate::files::write_file`] puts them on disk.
 
 mod axes;
-mod canvas;
 mod curve;
+mod drawing;
+mod geometry;
+mod hatch;
 mod legend;
+mod letters;
 mod multiples;
 mod palette;
 mod paths;
+mod pixels;
+mod regions;
 mod scale;
+mod shapes;
 mod slice;
+mod svg;
 
-pub use canvas::{DPI, MAX_PIXELS, Sheet, missing_letter};
-pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
-pub use multiples::{Caption, Multiples, multiples_fit, multiples_png};
+pub use curve::{CurveFigure, EndCircle, Graph, draw_curve};
+pub use drawing::{Drawing, Format, MAX_PIXELS, Sheet};
+pub use letters::missing_letter;
+pub use multiples::{Caption, Multiples, draw_multiples, multiples_fit};
 pub use palette::region_colors;
-pub use paths::{Backdrop, Lines, PathsFigure, paths_png};
-pub use slice::{montage_fits, montage_png, slice_fits, slice_png};
+pub use paths::{Backdrop, Lines, PathsFigure, draw_paths};
+pub use shapes::DPI;
+pub use slice::{draw_montage, draw_slice, montage_fits, slice_fits};
 
 /// One axis of a slice.
 #[derive(Debug, Clone, PartialEq)]

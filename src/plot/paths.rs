@@ -1,8 +1,9 @@
 //! Several paths in one plane, with graphs beside them.
 
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
-use super::canvas::{Canvas, Point, Rect};
 use super::curve::{bounds, same_scales};
+use super::drawing::Drawing;
+use super::geometry::{Point, Rect};
 use super::legend::Heading;
 use super::palette::{GREY, GROWN, INK, LINES, OBSTACLE, RED};
 use super::scale::Scale;
@@ -31,7 +32,7 @@ pub struct Backdrop {
     pub polyline: Vec<[f64; 2]>,
 }
 
-/// What [`paths_png`] draws.
+/// What [`draw_paths`] draws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathsFigure {
     /// Heading.
@@ -54,8 +55,8 @@ pub struct PathsFigure {
 /// # Errors
 /// [`Error::Domain`] when a number is not finite, there is nothing to draw or it has no extent, or the size is 0, too
 /// large, or too small.
-pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
-    let mut canvas = Canvas::new(size)?;
+pub fn draw_paths(figure: &PathsFigure, size: (u32, u32)) -> Result<Drawing> {
+    let mut canvas = Drawing::new(size)?;
     let finite = |lines: &[Vec<Point>]| lines.iter().flatten().flatten().all(|v| v.is_finite());
     let behind = figure.backdrop.iter().flat_map(|b| b.obstacles.iter().chain([&b.polyline]));
     if !behind.flatten().flatten().all(|v| v.is_finite()) {
@@ -74,9 +75,9 @@ pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     let body = Rect { top: sheet.top + heading.height(style) + style.px(0.3), bottom, ..sheet };
     heading.draw(&mut canvas, style, sheet);
     let [paths, lines] = parts(body, style, figure.backdrop.is_some());
-    draw_paths(&mut canvas, figure, style, paths)?;
+    plot_paths(&mut canvas, figure, style, paths)?;
     draw_lines(&mut canvas, figure, style, lines)?;
-    canvas.into_png()
+    Ok(canvas)
 }
 
 /// Where the paths and the graphs go.
@@ -91,7 +92,7 @@ fn parts(body: Rect, style: Style, below: bool) -> [Rect; 2] {
 }
 
 /// Room for the numbers and the name on the left.
-fn narrowed(canvas: &mut Canvas, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
+fn narrowed(canvas: &mut Drawing, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
     let left = rect.left + width_left(canvas, y, style, rect.height()) + style.px(1.6);
     let rect = Rect { left, ..rect };
     check_room(canvas, rect)?;
@@ -99,7 +100,7 @@ fn narrowed(canvas: &mut Canvas, y: &Scale, style: Style, rect: Rect) -> Result<
 }
 
 /// Axes and frame with their names.
-fn finish(canvas: &mut Canvas, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
+fn finish(canvas: &mut Drawing, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
     draw_below(canvas, x, style, rect, true);
     draw_left(canvas, y, style, rect, true);
     label_below(canvas, style, rect, style.below(), names[0]);
@@ -107,7 +108,7 @@ fn finish(canvas: &mut Canvas, [x, y]: [&Scale; 2], names: [&str; 2], style: Sty
     label_left(canvas, style, rect, left, names[1]);
 }
 
-fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
+fn plot_paths(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
     check_room(canvas, area)?;
     let grown = figure.backdrop.iter().flat_map(|b| {
         let sides = [-b.grown, b.grown];
@@ -137,7 +138,7 @@ fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
 
 /// Everything within a distance of a polygon is the polygon and a broad line around it.
 fn draw_backdrop(
-    canvas: &mut Canvas,
+    canvas: &mut Drawing,
     backdrop: &Backdrop,
     style: Style,
     clip: Rect,
@@ -168,7 +169,7 @@ fn steep_at_an_end(lines: &[Vec<Point>], [from, to]: [f64; 2], height: f64) -> b
     steep(&|x| x - from < reach) || steep(&|x| to - x < reach)
 }
 
-fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
+fn draw_lines(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
     check_room(canvas, area)?;
     let Lines { across, up, lines } = &figure.graph;
     let (from, to) = bounds(lines.iter().flatten().map(|p| p[0]));

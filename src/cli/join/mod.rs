@@ -8,6 +8,7 @@ use super::{Outcome, numbers, output, points};
 use parse::{COLUMNS, states};
 use spiral_atlas::Result;
 use spiral_atlas::path::Course;
+use spiral_atlas::plot::Drawing;
 use spiral_atlas::transition::Station;
 use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
 use std::path::PathBuf;
@@ -87,7 +88,7 @@ pub(super) struct Args {
     #[arg(long, requires = "samples")]
     csv: bool,
     /// Draw the path and its curvature.
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png|svg")]
     figure: Option<PathBuf>,
 }
 
@@ -156,7 +157,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
     }
     let Ok(join) = &found else { return Ok(Outcome::Bad) };
     if let Some(path) = &args.figure {
-        spiral_atlas::files::write_file(path, &figure(join)?)?;
+        output::write_figure(path, &figure(join)?)?;
     }
     Ok(Outcome::Fine)
 }
@@ -188,7 +189,7 @@ impl Args {
 }
 
 /// The path, and its curvature over the length.
-fn figure(join: &Join) -> Result<Vec<u8>> {
+fn figure(join: &Join) -> Result<Drawing> {
     let all = Course::new(join.pieces.clone())?.outline(SAMPLES)?;
     let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
     let (lines, arcs) = (kinds("line"), kinds("arc"));

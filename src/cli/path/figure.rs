@@ -4,7 +4,7 @@ use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::{Course, Motion, Plan, Scene, Separation};
 use spiral_atlas::plain::count;
-use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
+use spiral_atlas::plot::{self, Backdrop, Drawing, Lines, PathsFigure};
 use spiral_atlas::transition::{Piece, Station};
 use spiral_atlas::{Error, Result};
 
@@ -52,12 +52,12 @@ fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2
 }
 
 /// Paths and their curvatures.
-pub(crate) fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Vec<u8>> {
+pub(crate) fn curves(paths: &[Vec<PhQuintic>], title: &str) -> Result<Drawing> {
     beside_others(paths, vec![], title, "dots: starts")
 }
 
 /// Paths with their curvatures and offset curves.
-pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f64>) -> Result<Vec<u8>> {
+pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f64>) -> Result<Drawing> {
     let courses: Vec<&Course> = courses.collect();
     let all = courses.iter().map(|course| course.outline(SAMPLES)).collect::<Result<Vec<_>>>()?;
     let each = |f: &dyn Fn(&Station) -> [f64; 2]| all.iter().map(|path| path.iter().map(f).collect()).collect();
@@ -73,7 +73,7 @@ pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Op
 }
 
 /// The curve taken, its curvature, and the others there are.
-pub(crate) fn choice(choice: &Choice) -> Result<Vec<u8>> {
+pub(crate) fn choice(choice: &Choice) -> Result<Drawing> {
     let others = choice.candidates.iter().enumerate().filter(|(i, _)| *i != choice.best);
     let others = others.map(|(_, c)| points(&[c.curve])).collect();
     let title = format!("{} curves between two ends", choice.candidates.len());
@@ -82,13 +82,13 @@ pub(crate) fn choice(choice: &Choice) -> Result<Vec<u8>> {
 }
 
 /// Paths and their curvatures, and points of other curves.
-fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &str, note: &str) -> Result<Vec<u8>> {
+fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &str, note: &str) -> Result<Drawing> {
     let lines = paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect();
     drawn(paths.iter().map(|spans| points(spans)).collect(), lines, others, title, note)
 }
 
 /// Points of paths, their curvatures over the length, and points of other curves.
-pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Vec<u8>> {
+pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Drawing> {
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
         return Err(Error::invalid("a path stands still somewhere, where it has no curvature"));
     }
@@ -100,11 +100,11 @@ pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title
         level: None,
         backdrop: None,
     };
-    plot::paths_png(&figure, SIZE)
+    plot::draw_paths(&figure, SIZE)
 }
 
 /// A planned path among its obstacles, above its curvature.
-pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
+pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Drawing> {
     let (most, spans) = (scene.greatest_curvature, &plan.spans);
     let figure = PathsFigure {
         title: format!(
@@ -126,7 +126,7 @@ pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
             polyline: plan.polyline.clone(),
         }),
     };
-    plot::paths_png(&figure, TALL)
+    plot::draw_paths(&figure, TALL)
 }
 
 fn length(spans: &[PhQuintic]) -> f64 {
@@ -139,7 +139,7 @@ pub(crate) fn separations(
     found: &[(usize, usize, Separation)],
     minimum: f64,
     title: String,
-) -> Result<Vec<u8>> {
+) -> Result<Drawing> {
     let line = |(first, second, found): &(usize, usize, Separation)| {
         let (a, b) = (&motions[*first], &motions[*second]);
         let (from, to) = (a.times()[0].min(b.times()[0]), a.times()[1].max(b.times()[1]));
@@ -162,5 +162,5 @@ pub(crate) fn separations(
         level: Some(minimum),
         backdrop: None,
     };
-    plot::paths_png(&figure, SIZE)
+    plot::draw_paths(&figure, SIZE)
 }
