@@ -3,11 +3,21 @@
 
 mod contrast;
 mod curves;
+mod svg;
 
 use super::crude::{cubic_slice, spaced};
+use spiral_atlas::Result;
 use spiral_atlas::files::write_file;
 use spiral_atlas::plot::*;
 use std::path::Path;
+
+fn slice_png(slice: &Slice, size: (u32, u32)) -> Result<Vec<u8>> {
+    draw_slice(slice, size)?.png()
+}
+
+fn multiples_png(figure: &Multiples, size: (u32, u32)) -> Result<Vec<u8>> {
+    draw_multiples(figure, size)?.png()
+}
 
 fn decode(png: &[u8]) -> image::RgbImage {
     image::load_from_memory(png).expect("a PNG").to_rgb8()

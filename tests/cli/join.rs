@@ -24,6 +24,10 @@ fn states_lines_and_circles_are_joined() {
     let figure = folder.text("join.png");
     let said = with_limit(&["--from", "0,0,0deg", "--to", "8,6,90deg", "--figure", &figure, "--samples", "11"]).json();
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    let lines = folder.text("join.SVG");
+    with_limit(&["--from", "0,0,0deg", "--to", "8,6,90deg", "--figure", &lines]);
+    let svg = std::fs::read_to_string(&lines).unwrap();
+    assert!(svg.starts_with("<?xml") && svg.trim_end().ends_with("</svg>") && svg.contains(">A join of length "));
     assert_eq!(said["samples"].as_array().unwrap().len(), 11);
     assert_eq!(said["samples"][10]["station"], said["paths"][0]["length"]);
     let arc = said["paths"][0]["pieces"].as_array().unwrap().iter().find(|piece| piece["kind"] == "arc").unwrap();

@@ -76,6 +76,7 @@ impl Page {
         let [w, h] = [width, height].map(|side| number(f64::from(side) * f64::from(DPI) / f64::from(dpi)));
         let attributes = [
             ("xmlns", "http://www.w3.org/2000/svg"),
+            ("xmlns:xlink", "http://www.w3.org/1999/xlink"),
             ("width", &w),
             ("height", &h),
             ("viewBox", &format!("0 0 {width} {height}")),

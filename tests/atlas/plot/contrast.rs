@@ -1,7 +1,7 @@
 //! What lies beside what in a drawn slice: each line and edge has at least 3 times the contrast of the Web Content
 //! Accessibility Guidelines.
 
-use super::{axis, decode, spaced};
+use super::{axis, decode, slice_png, spaced};
 use spiral_atlas::plot::*;
 
 const LEAST: f64 = 3.0;

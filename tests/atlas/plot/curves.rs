@@ -2,8 +2,17 @@
 
 use super::super::crude::curve_figure;
 use super::{decode, save};
+use spiral_atlas::Result;
 use spiral_atlas::plot::*;
 use std::f64::consts::PI;
+
+fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
+    draw_curve(figure, size)?.png()
+}
+
+fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
+    draw_paths(figure, size)?.png()
+}
 
 #[test]
 fn curves_of_the_paper() {
