@@ -57,8 +57,8 @@ pub(super) fn slice(name: &str, family: &dyn Family, grid: &Grid, plan: &Picture
         let label = family.about().flags[*bit].label;
         let mask = |holds: &dyn Fn(&Known) -> bool| known.iter().map(holds).collect();
         [
-            Region { label: format!("{label}: MIXED"), mask: mask(&|k| (k.inside | k.outside) >> bit & 1 == 0) },
-            Region { label: format!("{label}: INSIDE"), mask: mask(&|k| k.inside >> bit & 1 == 1) },
+            Region::of_nodes(format!("{label}: MIXED"), mask(&|k| (k.inside | k.outside) >> bit & 1 == 0)),
+            Region::of_nodes(format!("{label}: INSIDE"), mask(&|k| k.inside >> bit & 1 == 1)),
         ]
     });
     let places: Vec<String> =

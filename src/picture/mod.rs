@@ -2,6 +2,7 @@
 
 pub mod cells;
 mod figures;
+mod outlines;
 mod source;
 mod words;
 
@@ -13,7 +14,8 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::plot::{self, Drawing, Format, Multiples, Region, Sheet, Slice};
 use crate::recipe::{self, AtlasPlan, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE};
-use figures::{Subject, middle_slice, multiples, sheet};
+use figures::{middle_slice, multiples, sheet};
+use source::Subject;
 use std::path::{Path, PathBuf};
 
 // What a recipe may ask for can be drawn: the two rooms do not know each other.

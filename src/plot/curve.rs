@@ -1,6 +1,7 @@
-//! A curve with its control polygon and end circles, its curvature, and the derivative of its curvature.
+//! A curve with its curvature comb, control polygon and end circles, its curvature, and the derivative of that.
 
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
+use super::comb::Comb;
 use super::drawing::Drawing;
 use super::geometry::{Point, Rect};
 use super::legend::{Entry, Heading, Key, Legend};
@@ -49,7 +50,7 @@ pub struct CurveFigure {
     pub circles: Vec<EndCircle>,
     /// What the parameter of the two graphs is.
     pub parameter: String,
-    /// Curvature.
+    /// Signed curvature at each point of `curve`, positive to the left.
     pub curvature: Graph,
     /// Derivative of the curvature, drawn red where it goes against the change from one end to the other.
     pub derivative: Graph,
@@ -109,6 +110,10 @@ fn check(figure: &CurveFigure) -> Result<()> {
             return fail(format!("the {name} leaves the range of doubles somewhere, so it cannot be drawn"));
         }
     }
+    let (points, values) = (figure.curve.len(), figure.curvature.points.len());
+    if points != values {
+        return fail(format!("there are {values} curvatures for {points} points of the curve; there must be as many"));
+    }
     for graph in [&figure.curvature, &figure.derivative] {
         let (lo, hi) = bounds(graph.points.iter().map(|p| p[0]));
         if lo >= hi {
@@ -133,6 +138,7 @@ fn check(figure: &CurveFigure) -> Result<()> {
 
 fn entries(figure: &CurveFigure) -> Vec<Entry> {
     let mut entries = vec![Entry { key: Key::Line(INK, 0.2), text: "curve".into() }];
+    entries.push(Entry { key: Key::Line(PALE, 0.08), text: "comb: curvature".into() });
     if !figure.control.is_empty() {
         entries.push(Entry { key: Key::Line(GREY, 0.09), text: "control polygon".into() });
     }
@@ -169,14 +175,16 @@ pub(super) fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
 fn plot_curve(canvas: &mut Drawing, figure: &CurveFigure, style: Style, area: Rect) -> Result<()> {
     let mut rect = Rect { bottom: area.bottom - style.below() - style.px(1.6), ..area };
     check_room(canvas, rect)?;
-    let [_, y] = window(figure, rect)?;
+    let comb = Comb::new(&figure.curve, figure.curvature.points.iter().map(|p| p[1]));
+    let [_, y] = window(figure, &comb, rect)?;
     rect.left += width_left(canvas, &y, style, rect.height()) + style.px(1.6);
     check_room(canvas, rect)?;
-    let [x, y] = window(figure, rect)?;
+    let [x, y] = window(figure, &comb, rect)?;
     let to_sheet = |points: &[Point]| -> Vec<Point> {
         points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect()
     };
     canvas.frame(rect, INK);
+    comb.draw(canvas, style, rect, |p| rect.at(x.fraction(p[0]), y.fraction(p[1])));
     let em = style.em;
     let diagonal = f64::from(rect.width() + rect.height()) / unit(&x, rect);
     for (circle, color) in figure.circles.iter().zip(LINES.into_iter().cycle()) {
@@ -201,10 +209,10 @@ fn unit(x: &Scale, rect: Rect) -> f64 {
     (x.fraction(1.0) - x.fraction(0.0)) * f64::from(rect.width())
 }
 
-/// The axes of the curve's plot: all of the curve and its polygon, whole end circles as long as they are not much
-/// larger than these, and the same scale in both directions.
-fn window(figure: &CurveFigure, rect: Rect) -> Result<[Scale; 2]> {
-    let points = || figure.curve.iter().chain(&figure.control);
+/// The axes of the curve's plot: all of the curve, its comb and its polygon, whole end circles as long as they are not
+/// much larger than these, and the same scale in both directions.
+fn window(figure: &CurveFigure, comb: &Comb, rect: Rect) -> Result<[Scale; 2]> {
+    let points = || figure.curve.iter().chain(&figure.control).chain(comb.tips());
     let (mut x, mut y) = (bounds(points().map(|p| p[0])), bounds(points().map(|p| p[1])));
     let extent = (x.1 - x.0).hypot(y.1 - y.0);
     for circle in &figure.circles {

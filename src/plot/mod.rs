@@ -4,6 +4,7 @@
 //! the same bytes. [`crate::files::write_file`] puts them on disk.
 
 mod axes;
+mod comb;
 mod curve;
 mod drawing;
 mod geometry;
@@ -49,6 +50,32 @@ pub struct Region {
     pub label: String,
     /// Whether node `(i, j)` belongs to it, at `j * x.values.len() + i`: x fastest.
     pub mask: Vec<bool>,
+    /// Closed lines around it, in axis values: what is inside of an odd number of them is drawn. What lies beyond
+    /// [`AxisView::border`] is moved there. None: each node fills its cell.
+    pub rings: Vec<Vec<[f64; 2]>>,
+}
+
+impl Region {
+    /// One of nodes that fill their cells.
+    pub fn of_nodes(label: impl Into<String>, mask: Vec<bool>) -> Region {
+        Region { label: label.into(), mask, rings: Vec::new() }
+    }
+}
+
+impl AxisView {
+    /// Where a picture of these nodes begins and ends: half a step beyond them, in the axis's own spacing.
+    pub fn border(&self) -> [f64; 2] {
+        let beyond = |end: f64, next: f64| if self.log { end * (end / next).sqrt() } else { end + (end - next) / 2.0 };
+        match self.values[..] {
+            [] => [f64::NAN; 2],
+            [only] if self.log => [only / 2.0, only * 2.0],
+            [only] => [only - only.abs().max(1.0) / 2.0, only + only.abs().max(1.0) / 2.0],
+            [first, second, ..] => {
+                let last = self.values.len() - 1;
+                [beyond(first, second), beyond(self.values[last], self.values[last - 1])]
+            }
+        }
+    }
 }
 
 /// A point to point out.

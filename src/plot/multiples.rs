@@ -275,7 +275,7 @@ mod tests {
             title: String::new(),
             x: axis(),
             y: axis(),
-            regions: vec![Region { label: "some region of nodes".into(), mask: vec![true; 4] }],
+            regions: vec![Region::of_nodes("some region of nodes", vec![true; 4])],
             outlines: vec![],
             marks: vec![],
             note: String::new(),

@@ -1,6 +1,7 @@
 //! Several paths in one plane, with graphs beside them.
 
 use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
+use super::comb::Comb;
 use super::curve::{bounds, same_scales};
 use super::drawing::Drawing;
 use super::geometry::{Point, Rect};
@@ -41,6 +42,8 @@ pub struct PathsFigure {
     pub note: String,
     /// Points of each path, in order; a dot marks the first.
     pub paths: Vec<Vec<[f64; 2]>>,
+    /// Signed curvature at each point of the first path, positive to the left, for a comb; may be empty.
+    pub comb: Vec<f64>,
     /// Graphs; where there is one for each path, in its colour.
     pub graph: Lines,
     /// A value of the graphs to mark with a line.
@@ -61,6 +64,9 @@ pub fn draw_paths(figure: &PathsFigure, size: (u32, u32)) -> Result<Drawing> {
     let behind = figure.backdrop.iter().flat_map(|b| b.obstacles.iter().chain([&b.polyline]));
     if !behind.flatten().flatten().all(|v| v.is_finite()) {
         return Err(Error::invalid("paths figure: the backdrop must have points that are finite"));
+    }
+    if !figure.comb.iter().all(|k| k.is_finite()) {
+        return Err(Error::invalid("paths figure: the curvatures of the comb must be finite"));
     }
     for (name, lines) in [("paths", &figure.paths), ("graphs", &figure.graph.lines)] {
         if lines.iter().all(Vec::is_empty) || !finite(lines) {
@@ -114,7 +120,8 @@ fn plot_paths(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Re
         let sides = [-b.grown, b.grown];
         b.obstacles.iter().flatten().flat_map(move |p| sides.map(|by| [p[0] + by, p[1] + by]))
     });
-    let all: Vec<Point> = figure.paths.iter().flatten().copied().chain(grown).collect();
+    let comb = Comb::new(figure.paths.first().map_or(&[], |path| path), figure.comb.iter().copied());
+    let all: Vec<Point> = figure.paths.iter().flatten().chain(comb.tips()).copied().chain(grown).collect();
     let values = |i: usize| bounds(all.iter().map(|p| p[i]));
     let [_, y] = same_scales(values(0), values(1), area)?;
     let rect = narrowed(canvas, &y, style, area)?;
@@ -125,6 +132,7 @@ fn plot_paths(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Re
         let pixels = (place(&[backdrop.grown, 0.0])[0] - place(&[0.0, 0.0])[0]).abs();
         draw_backdrop(canvas, backdrop, style, rect, (pixels, &place));
     }
+    comb.draw(canvas, style, rect, place);
     for (path, color) in figure.paths.iter().zip(LINES.into_iter().cycle()) {
         let places: Vec<Point> = path.iter().map(place).collect();
         canvas.cased(&places, style.em * 0.18, color, rect);

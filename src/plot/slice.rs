@@ -7,7 +7,7 @@ use super::hatch::{Hatch, Outline};
 use super::legend::{Entry, Heading, Key, Legend, star};
 use super::palette::{INK, region_colors};
 use super::regions::{Area, Regions};
-use super::scale::Cells;
+use super::scale::{Cells, Scale};
 use super::shapes::Pen;
 use super::{Region, Slice, grouped};
 use crate::error::{Error, Result};
@@ -174,6 +174,16 @@ impl Panel<'_> {
                 )));
             }
         }
+        for region in slice.regions.iter().chain(&slice.outlines) {
+            let drawn =
+                |p: &[f64; 2]| panel.x.scale.fraction(p[0]).is_finite() && panel.y.scale.fraction(p[1]).is_finite();
+            if let Some([x, y]) = region.rings.iter().flatten().find(|p| !drawn(p)) {
+                let label = &region.label;
+                return Err(Error::invalid(format!(
+                    "a line around region `{label}` leads to ({x}, {y}), no place on the axes"
+                )));
+            }
+        }
         if let Some(mark) = slice.marks.iter().find(|m| !(m.x.is_finite() && m.y.is_finite())) {
             let (label, x, y) = (&mark.label, mark.x, mark.y);
             return Err(Error::invalid(format!("mark `{label}` is at ({x}, {y}); both must be finite")));
@@ -183,7 +193,12 @@ impl Panel<'_> {
 
     /// Draws all but axes; labels of marks only where asked.
     pub(super) fn draw(&self, canvas: &mut Drawing, style: Style, rect: Rect, mark_labels: bool) {
-        let area = |region: &Region| Area { mask: region.mask.clone(), rings: Vec::new() };
+        let fraction = |scale: &Scale, value: f64| scale.fraction(value).clamp(0.0, 1.0);
+        let point = |p: &[f64; 2]| [fraction(&self.x.scale, p[0]), fraction(&self.y.scale, p[1])];
+        let area = |region: &Region| Area {
+            mask: region.mask.clone(),
+            rings: region.rings.iter().map(|ring| ring.iter().map(point).collect()).collect(),
+        };
         canvas.regions(Regions {
             rect,
             x: self.x.clone(),

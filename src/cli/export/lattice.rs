@@ -95,6 +95,7 @@ fn figure(lattice: &Lattice) -> Result<Drawing> {
                 .into(),
         paths,
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
+        comb: Vec::new(),
         level: Some(1.0 / lattice.options.turning_radius),
         backdrop: None,
     };

@@ -87,15 +87,23 @@ fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &s
     drawn(paths.iter().map(|spans| points(spans)).collect(), lines, others, title, note)
 }
 
-/// Points of paths, their curvatures over the length, and points of other curves.
+/// Points of paths, their curvatures over the length, and points of other curves. A single path without other curves
+/// beside it (dots are none) has a comb, where its curvatures are those at its points.
 pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Drawing> {
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
         return Err(Error::invalid("a path stands still somewhere, where it has no curvature"));
     }
+    let comb = match (&paths[..], &lines[..]) {
+        ([path], [line]) if path.len() == line.len() && others.iter().all(|other| other.len() == 1) => {
+            line.iter().map(|[_, curvature]| *curvature).collect()
+        }
+        _ => Vec::new(),
+    };
     let figure = PathsFigure {
         title: title.into(),
         note: note.into(),
         paths: paths.into_iter().chain(others).collect(),
+        comb,
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
         level: None,
         backdrop: None,
@@ -119,6 +127,7 @@ pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Drawing> {
         ),
         paths: vec![points(spans)],
         graph: Lines { across: "s".into(), up: "|κ|".into(), lines: vec![along(spans, |c, t| c.curvature(t).abs())] },
+        comb: Vec::new(),
         level: Some(most),
         backdrop: Some(Backdrop {
             obstacles: scene.obstacles.clone(),
@@ -159,6 +168,7 @@ pub(crate) fn separations(
         note: format!("dots: starts; on the right a line for each pair; red: the minimum {minimum}"),
         paths: motions.iter().map(|m| pieces(m.course().pieces())).collect(),
         graph: Lines { across: "time".into(), up: "separation".into(), lines },
+        comb: Vec::new(),
         level: Some(minimum),
         backdrop: None,
     };

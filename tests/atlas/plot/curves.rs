@@ -81,6 +81,7 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         title: "two".into(),
         note: String::new(),
         paths: vec![straight(1.0), straight(1.5)],
+        comb: Vec::new(),
         graph: graph(0.0),
         level: None,
         backdrop: None,
@@ -96,6 +97,7 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         PathsFigure { level: Some(0.5), ..figure.clone() },
         PathsFigure { paths: vec![straight(1.0)], ..figure.clone() },
         PathsFigure { graph: graph(3.0), ..figure.clone() },
+        PathsFigure { comb: vec![0.1, 0.2], ..figure.clone() },
         PathsFigure { backdrop: behind(0.5), ..figure.clone() },
     ];
     assert!(others.iter().all(|other| picture(other).unwrap() != first));
