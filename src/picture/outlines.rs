@@ -195,13 +195,16 @@ impl Lattice<'_> {
 
 /// A ring without the points that lie between their neighbours on a line along an axis.
 fn bends(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(ring.len());
-    for (k, point) in ring.iter().enumerate() {
-        let after = ring[(k + 1) % ring.len()];
-        let before = kept.last().copied().unwrap_or(ring[ring.len() - 1]);
-        if !(0..2).any(|c| before[c] == point[c] && point[c] == after[c]) {
-            kept.push(*point);
-        }
+    // Places that are one would seem to lie between their neighbours, and corners would be lost.
+    let mut apart = ring.to_vec();
+    apart.dedup();
+    if apart.len() > 1 && apart.first() == apart.last() {
+        apart.pop();
     }
-    kept
+    let count = apart.len();
+    let straight = |k: usize| {
+        let [before, here, after] = [k + count - 1, k, k + 1].map(|k| apart[k % count]);
+        (0..2).any(|c| before[c] == here[c] && here[c] == after[c])
+    };
+    (0..count).filter(|k| !straight(*k)).map(|k| apart[k]).collect()
 }

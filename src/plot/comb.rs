@@ -67,3 +67,27 @@ impl Comb {
         canvas.line(&tips, style.em * 0.08, PALE, clip);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn teeth_stand_on_the_outer_side_and_are_as_long_as_the_curvature() {
+        // A quarter of a circle of radius 2 to the left, from (2, 0), then twice its curvature said at one point.
+        let curve: Vec<Point> =
+            (0..=90).map(|i| f64::from(i).to_radians().sin_cos()).map(|(s, c)| [2.0 * c, 2.0 * s]).collect();
+        let longest = SHARE * 8f64.sqrt();
+        let radii = |curvature: &[f64]| -> Vec<f64> {
+            Comb::new(&curve, curvature.iter().copied()).tips().map(|p| p[0].hypot(p[1])).collect()
+        };
+        // The chords at the ends are half a step of direction off.
+        assert!(radii(&[0.5; 91]).iter().all(|r| (r - 2.0 - longest).abs() < 1e-4));
+        assert!(radii(&[-0.5; 91]).iter().all(|r| (r - 2.0 + longest).abs() < 1e-4), "to the right");
+        let mut bent = [0.5; 91];
+        bent[45] = 1.0;
+        let found = radii(&bent);
+        assert!((found[45] - 2.0 - longest).abs() < 1e-4 && (found[9] - 2.0 - longest / 2.0).abs() < 1e-4);
+        assert_eq!(Comb::new(&curve, [0.0; 91].into_iter()).tips().count(), 0, "a straight line has none");
+    }
+}

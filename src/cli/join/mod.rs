@@ -199,6 +199,6 @@ fn figure(join: &Join) -> Result<Drawing> {
         vec![all.iter().map(|s| [s.station, s.curvature]).collect()],
         join.pieces.iter().skip(1).map(|piece| vec![piece.start()]).collect(),
         &format!("A join of length {:.6}", join.measures.length),
-        &format!("dots: where pieces start; spirals: {spirals}, arcs: {arcs}, lines: {lines}"),
+        &format!("dots: where pieces start; comb: curvature; spirals: {spirals}, arcs: {arcs}, lines: {lines}"),
     )
 }
