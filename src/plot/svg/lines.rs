@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn lines_are_cut_a_little_outside() {
         let inside = vec![[1.0, 2.0], [30.5, 2.0], [99.0, 49.0]];
-        assert_eq!(within(&inside, SHEET, 2.0), [inside.clone()]);
+        assert_eq!(within(&inside, SHEET, 2.0), std::slice::from_ref(&inside));
         assert_eq!(path(&[inside], false), "M1 2H30.5L99 49");
         let far =
             [[-1e300, 25.0], [1e300, 25.0], [1e300, 1e308], [50.0, -10.0], [f64::NAN, 3.0], [4.0, 4.0], [4.0, 5.0]];

@@ -23,7 +23,7 @@ fn contrast(a: [u8; 3], b: [u8; 3]) -> f64 {
 fn bands(regions: usize, outlines: usize) -> Slice {
     let (columns, rows) = (2 * (regions + 1), 24);
     let region = |k: usize| {
-        let inside = |node: usize| (node % columns) / 2 > k && (node / columns) % 4 > 0;
+        let inside = |node: usize| (node % columns) / 2 > k && !(node / columns).is_multiple_of(4);
         Region::of_nodes(format!("region {k}"), (0..columns * rows).map(inside).collect())
     };
     let outline = |k: usize| {
