@@ -5,36 +5,8 @@ use super::geometry::Rect;
 use super::palette::INK;
 use super::scale::{Room, Scale, Tick};
 use super::shapes::Pen;
+use super::style::Style;
 use super::{AxisView, short};
-
-/// Sizes that a figure's parts share, in pixels.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Style {
-    /// Size of ordinary text.
-    pub em: f64,
-    /// How far the numbers of an axis may stick out beyond its ends.
-    pub slack: f64,
-}
-
-impl Style {
-    /// Whole pixels for so many em.
-    pub(super) fn px(&self, ems: f64) -> i32 {
-        (self.em * ems).round() as i32
-    }
-
-    /// Height of the ticks and numbers below a rectangle.
-    pub(super) fn below(&self) -> i32 {
-        self.px(1.95)
-    }
-
-    fn numbers(&self) -> f64 {
-        self.em * 0.9
-    }
-
-    fn tick(&self) -> i32 {
-        self.px(0.35)
-    }
-}
 
 fn ticks_right(canvas: &Drawing, scale: &Scale, style: Style, length: i32) -> Vec<Tick> {
     let extent = |label: &str| canvas.text_width(style.numbers(), label);

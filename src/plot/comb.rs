@@ -1,9 +1,9 @@
 //! Curvature combs.
 
-use super::axes::Style;
 use super::drawing::Drawing;
 use super::geometry::{Point, Rect};
 use super::palette::PALE;
+use super::style::Style;
 
 /// Length of the longest tooth, as a share of the diagonal of the curve's box.
 const SHARE: f64 = 0.14;

@@ -1,6 +1,6 @@
 //! A curve with its curvature comb, control polygon and end circles, its curvature, and the derivative of that.
 
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
+use super::axes::{draw_below, draw_left, label_below, label_left, width_left};
 use super::comb::Comb;
 use super::drawing::Drawing;
 use super::geometry::{Point, Rect};
@@ -8,6 +8,7 @@ use super::legend::{Entry, Heading, Key, Legend};
 use super::palette::{GREY, INK, LINES, PALE, RED};
 use super::scale::Scale;
 use super::slice::check_room;
+use super::style::Style;
 use crate::error::{Error, Result};
 
 /// From this ratio of largest to smallest on, positive values get a logarithmic axis.

@@ -1,7 +1,7 @@
 //! Hatched lines: how the inner side of a region is shown, on a slice and, alike, in its legend.
 
-use super::axes::Style;
 use super::palette::{Color, OUTLINES};
+use super::style::Style;
 
 /// How one of several outlines is told from the others: by its colour, and where there are more than colours, by the
 /// way its stripes run.

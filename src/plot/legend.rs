@@ -1,11 +1,11 @@
 //! Heading above a figure and legend below it.
 
-use super::axes::Style;
 use super::drawing::Drawing;
 use super::geometry::{Point, Rect};
 use super::hatch::{Hatch, Outline};
 use super::palette::{Color, GREY, INK, WHITE};
 use super::shapes::Pen;
+use super::style::Style;
 
 /// The sign of a legend's entry.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -19,6 +19,7 @@ mod regions;
 mod scale;
 mod shapes;
 mod slice;
+mod style;
 mod svg;
 
 pub use curve::{CurveFigure, EndCircle, Graph, draw_curve};

@@ -1,12 +1,13 @@
 //! Small multiples: many slices side by side under one legend.
 
 use super::Slice;
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
+use super::axes::{draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
 use super::drawing::{Drawing, Sheet};
 use super::geometry::Rect;
 use super::legend::{Heading, Legend};
 use super::shapes::Pen;
 use super::slice::{Panel, check_room, entries};
+use super::style::Style;
 use crate::error::{Error, Result};
 
 /// Height of a line of a caption, in em.

@@ -1,6 +1,6 @@
 //! Several paths in one plane, with graphs beside them.
 
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
+use super::axes::{draw_below, draw_left, label_below, label_left, width_left};
 use super::comb::Comb;
 use super::curve::{bounds, same_scales};
 use super::drawing::Drawing;
@@ -9,6 +9,7 @@ use super::legend::Heading;
 use super::palette::{GREY, GROWN, INK, LINES, OBSTACLE, RED};
 use super::scale::Scale;
 use super::slice::check_room;
+use super::style::Style;
 use crate::error::{Error, Result};
 
 /// Graphs over a common axis.

@@ -1,6 +1,6 @@
 //! One slice: coloured cells, outlines, marks.
 
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
+use super::axes::{draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
 use super::drawing::{Drawing, Sheet};
 use super::geometry::Rect;
 use super::hatch::{Hatch, Outline};
@@ -9,6 +9,7 @@ use super::palette::{INK, region_colors};
 use super::regions::{Area, Regions};
 use super::scale::{Cells, Scale};
 use super::shapes::Pen;
+use super::style::Style;
 use super::{Region, Slice, grouped};
 use crate::error::{Error, Result};
 

@@ -262,7 +262,7 @@ fn mistakes_are_told() {
         (vec!["--from", "0,0,0", "--from-line", "0,0,0", "--to-line", "1,0,0"], "cannot be used with"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--most-pieces", "0"], "the most pieces are 0"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--longest=-1"], "the longest length is -1;"),
-        (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "would be a PNG picture"),
+        (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "end its name with .png or .svg"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "/no/such/a.png"], "has no folder `/no/such` to be in"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--csv"], "--samples"),
         (
