@@ -6,6 +6,7 @@ use super::output::{self, Object, Product, grouped};
 use spiral_atlas::atlas::{Atlas, Kind};
 use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec};
 use spiral_atlas::files::{size, write_file};
+use spiral_atlas::plot::Format;
 use spiral_atlas::recipe::{AtlasPlan, PicturePlan, Recipe};
 use spiral_atlas::{Result, atlas, picture};
 use std::path::{Path, PathBuf};
@@ -108,7 +109,7 @@ pub(super) fn make(
     let beside = output::report_path(out, &plan.name);
     write_file(&beside, (output::to_json(&made)? + "\n").as_bytes())?;
     made.files = vec![Product::of(&path)?, Product::of(&beside)?];
-    made.files.extend(draw(&cells, &plan.pictures, out)?);
+    made.files.extend(draw(&cells, &plan.pictures, out, Format::Png)?);
     Ok(made)
 }
 
@@ -123,10 +124,10 @@ impl Made {
 }
 
 /// Draws pictures of cells into a folder.
-pub(super) fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
-    let files = picture::files(folder, &cells.about().name, plans.len());
+pub(super) fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path, format: Format) -> Result<Vec<Product>> {
+    let files = picture::files(folder, &cells.about().name, plans.len(), format);
     let draw = |(plan, file): (&PicturePlan, PathBuf)| {
-        write_file(&file, &picture::cells::draw(cells, plan)?)?;
+        write_file(&file, &picture::cells::draw(cells, plan)?.file(format)?)?;
         Product::of(&file)
     };
     plans.iter().zip(files).map(draw).collect()

@@ -3,15 +3,16 @@
 use super::output::Product;
 use spiral_atlas::atlas::Atlas;
 use spiral_atlas::files::{check_place, write_file};
+use spiral_atlas::plot::Format;
 use spiral_atlas::recipe::{AtlasPlan, Look, PictureKind, PicturePlan, Recipe};
 use spiral_atlas::{Error, Result, picture, plain};
 use std::path::{Path, PathBuf};
 
 /// Draws an atlas's pictures into a folder.
-pub(super) fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path) -> Result<Vec<Product>> {
-    let files = picture::files(folder, &atlas.about().name, plans.len());
+pub(super) fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path, format: Format) -> Result<Vec<Product>> {
+    let files = picture::files(folder, &atlas.about().name, plans.len(), format);
     let draw = |(plan, file): (&PicturePlan, PathBuf)| {
-        write_file(&file, &picture::draw(atlas, plan)?)?;
+        write_file(&file, &picture::draw(atlas, plan)?.file(format)?)?;
         Product::of(&file)
     };
     plans.iter().zip(files).map(draw).collect()
@@ -27,15 +28,21 @@ fn with_slice(plan: &AtlasPlan) -> Option<(&AtlasPlan, &PicturePlan)> {
 }
 
 /// Draws the first planned slices or comparisons of several atlases side by side; `None` when there are not several.
-pub(super) fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder: &Path) -> Result<Option<Product>> {
+pub(super) fn together(
+    source: &Path,
+    recipe: &Recipe,
+    atlases: &[Atlas],
+    folder: &Path,
+    format: Format,
+) -> Result<Option<Product>> {
     let of_nodes = recipe.atlases.iter().filter(|plan| plan.cells.is_none());
     let planned = atlases.iter().zip(of_nodes).filter_map(|(atlas, plan)| Some((atlas, first_slice(&plan.pictures)?)));
     let slices = planned.map(|(atlas, plan)| picture::slice(atlas, plan)).collect::<Result<Vec<_>>>()?;
     if slices.len() < 2 {
         return Ok(None);
     }
-    let (stem, file) = (stem(source), together_path(source, folder));
-    write_file(&file, &picture::side_by_side(&stem, &recipe.look, slices)?)?;
+    let (stem, file) = (stem(source), together_path(source, folder, format));
+    write_file(&file, &picture::side_by_side(&stem, &recipe.look, slices)?.file(format)?)?;
     Product::of(&file).map(Some)
 }
 
@@ -44,7 +51,7 @@ pub(super) fn together(source: &Path, recipe: &Recipe, atlases: &[Atlas], folder
 ///
 /// # Errors
 /// Those of [`spiral_atlas::family::Family::table`], [`Error::Recipe`] that names the file, and [`Error::Io`].
-pub(super) fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()> {
+pub(super) fn check(source: &Path, recipe: &Recipe, folder: &Path, format: Format) -> Result<()> {
     for plan in &recipe.atlases {
         let checked = match plan.cells {
             Some(budget) => spiral_atlas::cells::check(&super::cells::spec(recipe, plan, budget)),
@@ -65,14 +72,15 @@ pub(super) fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()>
     };
     let mut files: Vec<PathBuf> = Vec::new();
     for plan in &recipe.atlases {
-        for (picture, file) in plan.pictures.iter().zip(picture::files(folder, &plan.name, plan.pictures.len())) {
+        for (picture, file) in plan.pictures.iter().zip(picture::files(folder, &plan.name, plan.pictures.len(), format))
+        {
             blamed(&file, &picture.look, picture::check(plan, picture))?;
             files.push(file);
         }
     }
     let sliced: Vec<(&AtlasPlan, &PicturePlan)> = recipe.atlases.iter().filter_map(with_slice).collect();
     if sliced.len() > 1 {
-        let file = together_path(source, folder);
+        let file = together_path(source, folder, format);
         blamed(&file, &recipe.look, picture::check_side_by_side(&stem(source), &recipe.look, &sliced))?;
         files.push(file);
     }
@@ -86,8 +94,8 @@ pub(super) fn check(source: &Path, recipe: &Recipe, folder: &Path) -> Result<()>
     }
 }
 
-fn together_path(recipe: &Path, folder: &Path) -> PathBuf {
-    folder.join(stem(recipe) + ".png")
+fn together_path(recipe: &Path, folder: &Path, format: Format) -> PathBuf {
+    folder.join(format!("{}.{}", stem(recipe), format.ending()))
 }
 
 fn stem(recipe: &Path) -> String {

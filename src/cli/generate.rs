@@ -9,6 +9,7 @@ use spiral_atlas::Result;
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, Report, evaluate};
 use spiral_atlas::files::{self, write_file};
+use spiral_atlas::plot::Format;
 use spiral_atlas::recipe::{AtlasPlan, Recipe};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -71,7 +72,7 @@ struct ReportFile<'a> {
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<Outcome> {
     let (recipe, backend) = (Recipe::read(&args.recipe)?, args.backend.one()?);
-    draw::check(&args.recipe, &recipe, &args.out)?;
+    draw::check(&args.recipe, &recipe, &args.out, Format::Png)?;
     for plan in &recipe.atlases {
         files::check_place(&atlas_path(&args.out, &plan.name))?;
         files::check_place(&report_path(&args.out, &plan.name))?;
@@ -104,7 +105,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
         all.push(output::to_value(&made)?);
         atlases.push(atlas);
     }
-    let together = draw::together(&args.recipe, &recipe, &atlases, &args.out)?;
+    let together = draw::together(&args.recipe, &recipe, &atlases, &args.out, Format::Png)?;
     if args.json {
         output::print_json(&serde_json::json!({ "atlases": all, "together": together }))?;
     } else if let Some(picture) = together {
@@ -177,7 +178,7 @@ fn finish(
     let text = output::to_json(&ReportFile { atlas: &plan.name, id: &id, report: &report, check: &check })? + "\n";
     write_file(&beside, text.as_bytes())?;
     let mut files = vec![Product::of(atlas.path())?, Product::of(&beside)?];
-    files.extend(draw::one(atlas, &plan.pictures, &args.out)?);
+    files.extend(draw::one(atlas, &plan.pictures, &args.out, Format::Png)?);
     Ok(Made { atlas: plan.name.clone(), id, report, check, files })
 }
 

@@ -2,8 +2,9 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
-use spiral_atlas::files::{check_place, size};
+use spiral_atlas::files::{check_place, size, write_file};
 pub(super) use spiral_atlas::picture::{angle, grouped};
+use spiral_atlas::plot::{Drawing, Format};
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufWriter, Write};
@@ -36,12 +37,7 @@ pub(super) fn stdout_error(source: io::Error) -> Error {
 /// Before any work, whether a figure can be what its name says, where it says.
 pub(super) fn check_figure(figure: Option<&Path>) -> Result<()> {
     let Some(path) = figure else { return Ok(()) };
-    if !has_extension(path, "png") {
-        return Err(Error::invalid(format!(
-            "the figure `{}` would be a PNG picture; name it with .png",
-            path.display()
-        )));
-    }
+    Format::of(path)?;
     match path.parent().filter(|folder| !(folder.as_os_str().is_empty() || folder.is_dir())) {
         None => check_place(path),
         Some(folder) => Err(Error::invalid(format!(
@@ -50,6 +46,11 @@ pub(super) fn check_figure(figure: Option<&Path>) -> Result<()> {
             folder.display()
         ))),
     }
+}
+
+/// Writes a figure in the format that its name asks for.
+pub(super) fn write_figure(path: &Path, figure: &Drawing) -> Result<()> {
+    write_file(path, &figure.file(Format::of(path)?)?)
 }
 
 /// Whether a file's name ends so, in letters of either size.

@@ -108,7 +108,9 @@ fn spline(points: &[Vector]) -> Result<EntityType> {
 fn point(at: Vector) -> Result<Point> {
     if length(at) > RANGE[1] {
         let [x, y] = at;
-        return Err(Error::invalid(format!("the point {x}, {y} is beyond 1e9; move the path, or choose a larger unit")));
+        return Err(Error::invalid(format!(
+            "the point {x}, {y} is beyond 1e9; move the path, or choose a larger unit"
+        )));
     }
     Ok(Point::new(at[0], at[1], 0.0))
 }

@@ -5,7 +5,7 @@ use crate::cells::{Cells, Known};
 use crate::error::{Error, Result};
 use crate::family::Family;
 use crate::grid::{Axis, Grid, Spacing};
-use crate::plot::{self, AxisView, Mark, Region, Slice};
+use crate::plot::{self, AxisView, Drawing, Mark, Region, Slice};
 use crate::recipe::{PicturePlan, Recipe, SLICE_SIZE};
 
 /// The plans of a file of cells: those of the recipe in its metadata, or its last two axes at the middle of the others.
@@ -27,7 +27,7 @@ pub fn plans(cells: &Cells) -> Result<Vec<PicturePlan>> {
 ///
 /// # Errors
 /// Those of [`plot`].
-pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
+pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Drawing> {
     let axes = cells.grid().axes();
     let [across, up] = [plan.x, plan.y].map(|axis| middles(&axes[axis]));
     let mut point: Vec<f64> = axes.iter().map(|axis| axis.values()[0]).collect();
@@ -43,7 +43,7 @@ pub fn draw(cells: &Cells, plan: &PicturePlan) -> Result<Vec<u8>> {
         }
     }
     let slice = slice(&cells.about().name, cells.family(), cells.grid(), plan, &known);
-    plot::slice_png(&slice, sheet(&plan.look, SLICE_SIZE))
+    plot::draw_slice(&slice, sheet(&plan.look, SLICE_SIZE))
 }
 
 /// The slice, of what is known of each finest cell, x fastest.
@@ -57,8 +57,8 @@ pub(super) fn slice(name: &str, family: &dyn Family, grid: &Grid, plan: &Picture
         let label = family.about().flags[*bit].label;
         let mask = |holds: &dyn Fn(&Known) -> bool| known.iter().map(holds).collect();
         [
-            Region { label: format!("{label}: MIXED"), mask: mask(&|k| (k.inside | k.outside) >> bit & 1 == 0) },
-            Region { label: format!("{label}: INSIDE"), mask: mask(&|k| k.inside >> bit & 1 == 1) },
+            Region::of_nodes(format!("{label}: MIXED"), mask(&|k| (k.inside | k.outside) >> bit & 1 == 0)),
+            Region::of_nodes(format!("{label}: INSIDE"), mask(&|k| k.inside >> bit & 1 == 1)),
         ]
     });
     let places: Vec<String> =

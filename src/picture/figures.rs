@@ -1,6 +1,7 @@
 //! What pictures show, as the plain data that [`crate::plot`] draws: slices and small multiples of a grid.
 
-use super::Source;
+use super::outlines;
+use super::source::Subject;
 use super::words::{angles, grouped, short};
 use crate::error::{Error, Result};
 use crate::eval::{Backend, Job, evaluate};
@@ -9,29 +10,6 @@ use crate::grid::{Axis, Grid, Spacing};
 use crate::plot::{self, AxisView, Caption, Mark, Multiples, Region, Sheet, Slice};
 use crate::recipe::{Levels, Look, PictureKind, PicturePlan, is_angle};
 use std::sync::atomic::AtomicBool;
-
-/// What is drawn: the nodes of an atlas or, to look for room before there is one, a grid without anything known of its
-/// nodes; then masks are empty.
-#[derive(Clone, Copy)]
-pub(super) struct Subject<'a> {
-    pub name: &'a str,
-    pub family: &'static dyn Family,
-    pub grid: &'a Grid,
-    pub atlas: Option<&'a dyn Source>,
-}
-
-impl<'a> Subject<'a> {
-    /// # Errors
-    /// [`Error::Domain`] for a family that this program does not have.
-    pub(super) fn of(atlas: &'a dyn Source) -> Result<Subject<'a>> {
-        Ok(Subject {
-            name: &atlas.about().name,
-            family: atlas.about().family()?,
-            grid: atlas.grid(),
-            atlas: Some(atlas),
-        })
-    }
-}
 
 /// The sheet for a look, of a usual size at the usual resolution.
 pub(super) fn sheet(look: &Look, usual: (u32, u32)) -> Sheet {
@@ -186,31 +164,33 @@ fn panel(subject: &Subject, plan: &PicturePlan, at: &[(usize, Vec<usize>)]) -> R
     let family = subject.family;
     let (axes, flags, plane) = (subject.grid.axes(), family.about().flags, plane(subject, plan, at)?);
     let (x, y) = (&axes[plan.x], &axes[plan.y]);
-    let region = |(bit, flag): (usize, &Flag)| Region {
-        label: flag.label.to_owned(),
-        mask: plane.iter().map(|byte| byte >> bit & 1 == 1).collect(),
+    let region = |(bit, flag): (usize, &Flag)| {
+        (bit, Region::of_nodes(flag.label, plane.iter().map(|byte| byte >> bit & 1 == 1).collect()))
     };
     let place = |name: &&str| flags.iter().enumerate().find(|(_, f)| f.name == *name);
     let nested = family.about().nested;
     let chosen = |places: &[usize]| places.iter().map(|i| region((*i, &flags[*i]))).collect::<Vec<_>>();
+    let (x, y) = (view(x), view(y));
     let (regions, outlines) = if let Some(levels) = &plan.levels {
         (at_most(subject, plan, levels, at)?, Vec::new())
-    } else if plan.regions.is_empty() {
-        let others = flags.iter().enumerate().filter(|(_, f)| !nested.contains(&f.name));
-        (nested.iter().filter_map(place).map(region).collect(), others.map(region).collect())
     } else {
-        (chosen(&plan.regions), chosen(&plan.outlines))
+        let (mut regions, mut outlines): (Vec<_>, Vec<_>) = if plan.regions.is_empty() {
+            let others = flags.iter().enumerate().filter(|(_, f)| !nested.contains(&f.name));
+            (nested.iter().filter_map(place).map(region).collect(), others.map(region).collect())
+        } else {
+            (chosen(&plan.regions), chosen(&plan.outlines))
+        };
+        // A union, or a plane of which nothing is known yet, has no verdicts between its nodes.
+        if subject.atlas.is_some() && at.iter().all(|(_, nodes)| nodes.len() == 1) {
+            let bits: Vec<_> = regions.iter().chain(&outlines).map(|(bit, region)| (*bit, &region.mask[..])).collect();
+            let rings = outlines::rings(subject, plan, [&x, &y], at, &bits);
+            let all = regions.iter_mut().chain(&mut outlines);
+            all.zip(rings).for_each(|((_, region), rings)| region.rings = rings);
+        }
+        let alone = |all: Vec<(usize, Region)>| all.into_iter().map(|(_, region)| region).collect();
+        (alone(regions), alone(outlines))
     };
-    Ok(Slice {
-        title: String::new(),
-        x: view(x),
-        y: view(y),
-        regions,
-        outlines,
-        marks: Vec::new(),
-        note: String::new(),
-        counted: "node",
-    })
+    Ok(Slice { title: String::new(), x, y, regions, outlines, marks: Vec::new(), note: String::new(), counted: "node" })
 }
 
 /// Where a scalar is at most each level, on the plane through one node of each other axis: the largest first.
@@ -229,9 +209,9 @@ fn at_most(subject: &Subject, plan: &PicturePlan, levels: &Levels, at: &[(usize,
         Ok(Some(value).filter(|value| *value != family::NO_VALUE))
     });
     let values: Vec<Option<f32>> = values.collect::<Result<_>>()?;
-    let region = |level: &f64| Region {
-        label: format!("{} ≤ {level}", levels.field),
-        mask: values.iter().map(|value| value.is_some_and(|value| f64::from(value) <= *level)).collect(),
+    let region = |level: &f64| {
+        let mask = values.iter().map(|value| value.is_some_and(|value| f64::from(value) <= *level));
+        Region::of_nodes(format!("{} ≤ {level}", levels.field), mask.collect())
     };
     Ok(levels.values.iter().rev().map(region).collect())
 }
@@ -244,12 +224,12 @@ fn compared(subject: &Subject, plan: &PicturePlan, with: &str) -> Result<Vec<Reg
     let (a, b) = (bit(own, "SPIRAL"), bit(other, "SPIRAL"));
     let region = |label: String, holds: &dyn Fn(bool, bool) -> bool| {
         let mask = ours.iter().zip(&theirs).map(|(x, y)| holds(x >> a & 1 == 1, y >> b & 1 == 1)).collect();
-        Region { label, mask }
+        Region::of_nodes(label, mask)
     };
     let outer = own.about().nested.first().map_or(a, |name| bit(own, name));
     let outer_mask = ours.iter().map(|byte| byte >> outer & 1 == 1).collect();
     Ok(vec![
-        Region { label: own.about().flags[outer].label.to_owned(), mask: outer_mask },
+        Region::of_nodes(own.about().flags[outer].label, outer_mask),
         region(format!("{} only", own.about().name), &|a, b| a && !b),
         region(format!("{with} only"), &|a, b| b && !a),
         region("both".into(), &|a, b| a && b),

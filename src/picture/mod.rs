@@ -2,6 +2,7 @@
 
 pub mod cells;
 mod figures;
+mod outlines;
 mod source;
 mod words;
 
@@ -11,9 +12,10 @@ pub use words::{angle, grouped, short};
 use crate::atlas::About;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::plot::{self, Multiples, Region, Sheet, Slice};
+use crate::plot::{self, Drawing, Format, Multiples, Region, Sheet, Slice};
 use crate::recipe::{self, AtlasPlan, Look, MULTIPLES_SIZE, PANEL_SIZE, PictureKind, PicturePlan, Recipe, SLICE_SIZE};
-use figures::{Subject, middle_slice, multiples, sheet};
+use figures::{middle_slice, multiples, sheet};
+use source::Subject;
 use std::path::{Path, PathBuf};
 
 // What a recipe may ask for can be drawn: the two rooms do not know each other.
@@ -35,11 +37,12 @@ pub fn plans(about: &About, grid: &Grid) -> Result<Vec<PicturePlan>> {
     }
 }
 
-/// The files of an atlas's pictures: `NAME.png`, or `NAME-1.png`, `NAME-2.png`, ... for several.
-pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
+/// The files of an atlas's pictures: `NAME.png`, or `NAME-1.png`, `NAME-2.png`, ... for several; the same with `.svg`.
+pub fn files(folder: &Path, name: &str, count: usize, format: Format) -> Vec<PathBuf> {
+    let ending = format.ending();
     match count {
-        1 => vec![folder.join(format!("{name}.png"))],
-        _ => (1..=count).map(|i| folder.join(format!("{name}-{i}.png"))).collect(),
+        1 => vec![folder.join(format!("{name}.{ending}"))],
+        _ => (1..=count).map(|i| folder.join(format!("{name}-{i}.{ending}"))).collect(),
     }
 }
 
@@ -47,13 +50,13 @@ pub fn files(folder: &Path, name: &str, count: usize) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// Those of [`plot`], and [`Error::Domain`] for a family that this program does not have.
-pub fn draw(atlas: &dyn Source, plan: &PicturePlan) -> Result<Vec<u8>> {
+pub fn draw(atlas: &dyn Source, plan: &PicturePlan) -> Result<Drawing> {
     let subject = Subject::of(atlas)?;
     match plan.kind {
         PictureKind::Slice | PictureKind::Union | PictureKind::Compare { .. } => {
-            plot::slice_png(&figures::slice(&subject, plan)?, sheet(&plan.look, SLICE_SIZE))
+            plot::draw_slice(&figures::slice(&subject, plan)?, sheet(&plan.look, SLICE_SIZE))
         }
-        PictureKind::Multiples => plot::multiples_png(&multiples(&subject, plan)?, sheet(&plan.look, MULTIPLES_SIZE)),
+        PictureKind::Multiples => plot::draw_multiples(&multiples(&subject, plan)?, sheet(&plan.look, MULTIPLES_SIZE)),
     }
 }
 
@@ -69,11 +72,11 @@ pub fn slice(atlas: &dyn Source, plan: &PicturePlan) -> Result<Slice> {
 ///
 /// # Errors
 /// As [`draw`].
-pub fn side_by_side(stem: &str, look: &Look, slices: Vec<Slice>) -> Result<Vec<u8>> {
+pub fn side_by_side(stem: &str, look: &Look, slices: Vec<Slice>) -> Result<Drawing> {
     match SideBySide::new(stem, look, slices) {
-        SideBySide::Alike(figure, usual) => plot::multiples_png(&figure, sheet(look, usual)),
+        SideBySide::Alike(figure, usual) => plot::draw_multiples(&figure, sheet(look, usual)),
         SideBySide::Unlike { title, slices, columns, usual } => {
-            plot::montage_png(title, &slices, columns, sheet(look, usual))
+            plot::draw_montage(title, &slices, columns, sheet(look, usual))
         }
     }
 }

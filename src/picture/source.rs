@@ -2,6 +2,7 @@
 
 use crate::atlas::{About, Atlas, Outline};
 use crate::error::{Error, Result};
+use crate::family::Family;
 use crate::grid::Grid;
 use crate::recipe::PicturePlan;
 use std::collections::BTreeMap;
@@ -33,6 +34,29 @@ impl Source for Atlas {
 
     fn scalar(&self, name: &str, index: &[usize]) -> Option<f32> {
         self.scalar(name)?.get(self.grid().flat(index)? as usize).copied()
+    }
+}
+
+/// What is drawn: the nodes of an atlas or, to look for room before there is one, a grid without anything known of its
+/// nodes; then masks are empty.
+#[derive(Clone, Copy)]
+pub(super) struct Subject<'a> {
+    pub name: &'a str,
+    pub family: &'static dyn Family,
+    pub grid: &'a Grid,
+    pub atlas: Option<&'a dyn Source>,
+}
+
+impl<'a> Subject<'a> {
+    /// # Errors
+    /// [`Error::Domain`] for a family that this program does not have.
+    pub(super) fn of(atlas: &'a dyn Source) -> Result<Subject<'a>> {
+        Ok(Subject {
+            name: &atlas.about().name,
+            family: atlas.about().family()?,
+            grid: atlas.grid(),
+            atlas: Some(atlas),
+        })
     }
 }
 

@@ -1,40 +1,14 @@
 //! Axes beside a rectangle: ticks, numbers, labels.
 
-use super::canvas::{Canvas, Pen, Rect};
+use super::drawing::Drawing;
+use super::geometry::Rect;
 use super::palette::INK;
 use super::scale::{Room, Scale, Tick};
+use super::shapes::Pen;
+use super::style::Style;
 use super::{AxisView, short};
 
-/// Sizes that a figure's parts share, in pixels.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Style {
-    /// Size of ordinary text.
-    pub em: f64,
-    /// How far the numbers of an axis may stick out beyond its ends.
-    pub slack: f64,
-}
-
-impl Style {
-    /// Whole pixels for so many em.
-    pub(super) fn px(&self, ems: f64) -> i32 {
-        (self.em * ems).round() as i32
-    }
-
-    /// Height of the ticks and numbers below a rectangle.
-    pub(super) fn below(&self) -> i32 {
-        self.px(1.95)
-    }
-
-    fn numbers(&self) -> f64 {
-        self.em * 0.9
-    }
-
-    fn tick(&self) -> i32 {
-        self.px(0.35)
-    }
-}
-
-fn ticks_right(canvas: &Canvas, scale: &Scale, style: Style, length: i32) -> Vec<Tick> {
+fn ticks_right(canvas: &Drawing, scale: &Scale, style: Style, length: i32) -> Vec<Tick> {
     let extent = |label: &str| canvas.text_width(style.numbers(), label);
     scale.ticks(&Room { length: length.into(), slack: style.slack, gap: style.em, extent: &extent })
 }
@@ -45,14 +19,14 @@ fn ticks_up(scale: &Scale, style: Style, length: i32) -> Vec<Tick> {
 }
 
 /// Width of the ticks and numbers to the left of a rectangle of this height.
-pub(super) fn width_left(canvas: &Canvas, scale: &Scale, style: Style, height: i32) -> i32 {
+pub(super) fn width_left(canvas: &Drawing, scale: &Scale, style: Style, height: i32) -> i32 {
     let ticks = ticks_up(scale, style, height);
     let widest = ticks.iter().map(|t| canvas.text_width(style.numbers(), &t.label)).fold(0.0, f64::max);
     widest.ceil() as i32 + style.tick() + style.px(0.4)
 }
 
 /// Draws an axis below a rectangle; without numbers when they stand elsewhere.
-pub(super) fn draw_below(canvas: &mut Canvas, scale: &Scale, style: Style, rect: Rect, numbers: bool) {
+pub(super) fn draw_below(canvas: &mut Drawing, scale: &Scale, style: Style, rect: Rect, numbers: bool) {
     let ticks = ticks_right(canvas, scale, style, rect.width());
     let minor = scale.minor_ticks().into_iter().map(|at| (at, style.tick() / 2));
     for (at, length) in ticks.iter().map(|t| (t.at, style.tick())).chain(minor) {
@@ -66,7 +40,7 @@ pub(super) fn draw_below(canvas: &mut Canvas, scale: &Scale, style: Style, rect:
 }
 
 /// Draws an axis to the left of a rectangle; without numbers when they stand elsewhere.
-pub(super) fn draw_left(canvas: &mut Canvas, scale: &Scale, style: Style, rect: Rect, numbers: bool) {
+pub(super) fn draw_left(canvas: &mut Drawing, scale: &Scale, style: Style, rect: Rect, numbers: bool) {
     let ticks = ticks_up(scale, style, rect.height());
     let minor = scale.minor_ticks().into_iter().map(|at| (at, style.tick() / 2));
     for (at, length) in ticks.iter().map(|t| (t.at, style.tick())).chain(minor) {
@@ -80,7 +54,7 @@ pub(super) fn draw_left(canvas: &mut Canvas, scale: &Scale, style: Style, rect: 
 }
 
 /// What an axis below a rectangle of this width is called: its label, with its ends where no numbers have room.
-pub(super) fn named_below(canvas: &Canvas, axis: &AxisView, scale: &Scale, style: Style, width: i32) -> String {
+pub(super) fn named_below(canvas: &Drawing, axis: &AxisView, scale: &Scale, style: Style, width: i32) -> String {
     named(axis, ticks_right(canvas, scale, style, width).is_empty())
 }
 
@@ -98,14 +72,14 @@ fn named(axis: &AxisView, bare: bool) -> String {
 }
 
 /// Writes what the axis below `rect` is, centred, `below` pixels under it.
-pub(super) fn label_below(canvas: &mut Canvas, style: Style, rect: Rect, below: i32, label: &str) {
+pub(super) fn label_below(canvas: &mut Drawing, style: Style, rect: Rect, below: i32, label: &str) {
     let label = canvas.fit(style.em, label, rect.width().into());
     let at = [rect.at(0.5, 0.0)[0], f64::from(rect.bottom + below) + style.em * 0.6];
     canvas.text(at, Pen::new(style.em, 0.5), &label);
 }
 
 /// Writes what the axis to the left of `rect` is, upwards, `left` pixels beside it.
-pub(super) fn label_left(canvas: &mut Canvas, style: Style, rect: Rect, left: i32, label: &str) {
+pub(super) fn label_left(canvas: &mut Drawing, style: Style, rect: Rect, left: i32, label: &str) {
     let label = canvas.fit(style.em, label, rect.height().into());
     let at = [f64::from(rect.left - left) - style.em * 0.8, rect.at(0.0, 0.5)[1]];
     canvas.text(at, Pen { up: true, ..Pen::new(style.em, 0.5) }, &label);

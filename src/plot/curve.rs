@@ -1,11 +1,14 @@
-//! A curve with its control polygon and end circles, its curvature, and the derivative of its curvature.
+//! A curve with its curvature comb, control polygon and end circles, its curvature, and the derivative of that.
 
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
-use super::canvas::{Canvas, Point, Rect};
+use super::axes::{draw_below, draw_left, label_below, label_left, width_left};
+use super::comb::Comb;
+use super::drawing::Drawing;
+use super::geometry::{Point, Rect};
 use super::legend::{Entry, Heading, Key, Legend};
 use super::palette::{GREY, INK, LINES, PALE, RED};
 use super::scale::Scale;
 use super::slice::check_room;
+use super::style::Style;
 use crate::error::{Error, Result};
 
 /// From this ratio of largest to smallest on, positive values get a logarithmic axis.
@@ -33,7 +36,7 @@ pub struct Graph {
     pub points: Vec<[f64; 2]>,
 }
 
-/// What [`curve_png`] draws.
+/// What [`draw_curve`] draws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveFigure {
     /// Heading.
@@ -48,7 +51,7 @@ pub struct CurveFigure {
     pub circles: Vec<EndCircle>,
     /// What the parameter of the two graphs is.
     pub parameter: String,
-    /// Curvature.
+    /// Signed curvature at each point of `curve`, positive to the left.
     pub curvature: Graph,
     /// Derivative of the curvature, drawn red where it goes against the change from one end to the other.
     pub derivative: Graph,
@@ -63,8 +66,8 @@ pub struct CurveFigure {
 /// # Errors
 /// [`Error::Domain`] when a number is not finite, the curve or a graph has fewer than two points or no extent, a
 /// direction is 0, or the size is 0, too large, or too small for plots beside their labels.
-pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
-    let mut canvas = Canvas::new(size)?;
+pub fn draw_curve(figure: &CurveFigure, size: (u32, u32)) -> Result<Drawing> {
+    let mut canvas = Drawing::new(size)?;
     check(figure)?;
     let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 64.0).max(10.0);
     let style = Style { em, slack: em * 0.8 };
@@ -80,7 +83,7 @@ pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     let middle = body.left + body.width() * 54 / 100;
     let half = body.top + body.height() / 2;
     heading.draw(&mut canvas, style, sheet);
-    draw_curve(&mut canvas, figure, style, Rect { right: middle, ..body })?;
+    plot_curve(&mut canvas, figure, style, Rect { right: middle, ..body })?;
     let right = Rect { left: middle + style.px(1.2), ..body };
     draw_graphs(
         &mut canvas,
@@ -89,7 +92,7 @@ pub fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
         [Rect { bottom: half, ..right }, Rect { top: half + style.px(0.6), ..right }],
     )?;
     legend.draw(&mut canvas, style, (sheet.left, sheet.bottom - legend.height(style)));
-    canvas.into_png()
+    Ok(canvas)
 }
 
 fn check(figure: &CurveFigure) -> Result<()> {
@@ -107,6 +110,10 @@ fn check(figure: &CurveFigure) -> Result<()> {
         if !finite(points) {
             return fail(format!("the {name} leaves the range of doubles somewhere, so it cannot be drawn"));
         }
+    }
+    let (points, values) = (figure.curve.len(), figure.curvature.points.len());
+    if points != values {
+        return fail(format!("there are {values} curvatures for {points} points of the curve; there must be as many"));
     }
     for graph in [&figure.curvature, &figure.derivative] {
         let (lo, hi) = bounds(graph.points.iter().map(|p| p[0]));
@@ -132,6 +139,7 @@ fn check(figure: &CurveFigure) -> Result<()> {
 
 fn entries(figure: &CurveFigure) -> Vec<Entry> {
     let mut entries = vec![Entry { key: Key::Line(INK, 0.2), text: "curve".into() }];
+    entries.push(Entry { key: Key::Line(PALE, 0.08), text: "comb: curvature".into() });
     if !figure.control.is_empty() {
         entries.push(Entry { key: Key::Line(GREY, 0.09), text: "control polygon".into() });
     }
@@ -165,17 +173,19 @@ pub(super) fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
 }
 
-fn draw_curve(canvas: &mut Canvas, figure: &CurveFigure, style: Style, area: Rect) -> Result<()> {
+fn plot_curve(canvas: &mut Drawing, figure: &CurveFigure, style: Style, area: Rect) -> Result<()> {
     let mut rect = Rect { bottom: area.bottom - style.below() - style.px(1.6), ..area };
     check_room(canvas, rect)?;
-    let [_, y] = window(figure, rect)?;
+    let comb = Comb::new(&figure.curve, figure.curvature.points.iter().map(|p| p[1]));
+    let [_, y] = window(figure, &comb, rect)?;
     rect.left += width_left(canvas, &y, style, rect.height()) + style.px(1.6);
     check_room(canvas, rect)?;
-    let [x, y] = window(figure, rect)?;
+    let [x, y] = window(figure, &comb, rect)?;
     let to_sheet = |points: &[Point]| -> Vec<Point> {
         points.iter().map(|p| rect.at(x.fraction(p[0]), y.fraction(p[1]))).collect()
     };
     canvas.frame(rect, INK);
+    comb.draw(canvas, style, rect, |p| rect.at(x.fraction(p[0]), y.fraction(p[1])));
     let em = style.em;
     let diagonal = f64::from(rect.width() + rect.height()) / unit(&x, rect);
     for (circle, color) in figure.circles.iter().zip(LINES.into_iter().cycle()) {
@@ -200,10 +210,10 @@ fn unit(x: &Scale, rect: Rect) -> f64 {
     (x.fraction(1.0) - x.fraction(0.0)) * f64::from(rect.width())
 }
 
-/// The axes of the curve's plot: all of the curve and its polygon, whole end circles as long as they are not much
-/// larger than these, and the same scale in both directions.
-fn window(figure: &CurveFigure, rect: Rect) -> Result<[Scale; 2]> {
-    let points = || figure.curve.iter().chain(&figure.control);
+/// The axes of the curve's plot: all of the curve, its comb and its polygon, whole end circles as long as they are not
+/// much larger than these, and the same scale in both directions.
+fn window(figure: &CurveFigure, comb: &Comb, rect: Rect) -> Result<[Scale; 2]> {
+    let points = || figure.curve.iter().chain(&figure.control).chain(comb.tips());
     let (mut x, mut y) = (bounds(points().map(|p| p[0])), bounds(points().map(|p| p[1])));
     let extent = (x.1 - x.0).hypot(y.1 - y.0);
     for circle in &figure.circles {
@@ -253,7 +263,7 @@ fn arc(circle: &EndCircle, reach: f64) -> Vec<Point> {
 }
 
 /// Curvature and its derivative, each in its own area, with their left sides in one line.
-fn draw_graphs(canvas: &mut Canvas, figure: &CurveFigure, style: Style, areas: [Rect; 2]) -> Result<()> {
+fn draw_graphs(canvas: &mut Drawing, figure: &CurveFigure, style: Style, areas: [Rect; 2]) -> Result<()> {
     let graphs = [&figure.curvature, &figure.derivative];
     let scales = [value_scale(graphs[0])?, value_scale(graphs[1])?];
     let mut rects = areas.map(|area| Rect { bottom: area.bottom - style.below() - style.px(1.6), ..area });
@@ -273,7 +283,7 @@ fn draw_graphs(canvas: &mut Canvas, figure: &CurveFigure, style: Style, areas: [
 }
 
 fn draw_graph(
-    canvas: &mut Canvas,
+    canvas: &mut Drawing,
     graph: &Graph,
     [x, y]: [Scale; 2],
     style: Style,

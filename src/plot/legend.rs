@@ -1,8 +1,11 @@
 //! Heading above a figure and legend below it.
 
-use super::axes::Style;
-use super::canvas::{Canvas, Pen, Point, Rect};
-use super::palette::{Color, GREY, INK, OUTLINES, WHITE};
+use super::drawing::Drawing;
+use super::geometry::{Point, Rect};
+use super::hatch::{Hatch, Outline};
+use super::palette::{Color, GREY, INK, WHITE};
+use super::shapes::Pen;
+use super::style::Style;
 
 /// The sign of a legend's entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +39,7 @@ pub(super) struct Legend<'a> {
 
 impl Legend<'_> {
     /// As many columns as fit in `width`, evenly filled.
-    pub(super) fn new<'a>(canvas: &Canvas, entries: &'a [Entry], style: Style, width: i32) -> Legend<'a> {
+    pub(super) fn new<'a>(canvas: &Drawing, entries: &'a [Entry], style: Style, width: i32) -> Legend<'a> {
         let widest = entries.iter().map(|e| canvas.text_width(style.em, &e.text)).fold(0.0, f64::max);
         let needed = widest + style.em * (KEY + 1.5);
         let most = (f64::from(width) / needed).floor().max(1.0) as usize;
@@ -54,7 +57,7 @@ impl Legend<'_> {
     }
 
     /// Draws it with its top left corner at `corner`.
-    pub(super) fn draw(&self, canvas: &mut Canvas, style: Style, corner: (i32, i32)) {
+    pub(super) fn draw(&self, canvas: &mut Drawing, style: Style, corner: (i32, i32)) {
         for (i, entry) in self.entries.iter().enumerate() {
             let (column, row) = (i / self.rows(), i % self.rows());
             let x = f64::from(corner.0) + column as f64 * self.column_width;
@@ -72,7 +75,7 @@ impl Legend<'_> {
     }
 }
 
-fn draw_key(canvas: &mut Canvas, style: Style, rect: Rect, key: Key) {
+fn draw_key(canvas: &mut Drawing, style: Style, rect: Rect, key: Key) {
     match key {
         Key::Fill(color) => {
             canvas.fill(rect, color);
@@ -80,11 +83,7 @@ fn draw_key(canvas: &mut Canvas, style: Style, rect: Rect, key: Key) {
         }
         Key::Hatched(outline) => {
             let hatch = Hatch::new(style);
-            for y in rect.top..rect.bottom {
-                for x in rect.left..rect.right {
-                    hatch.draw(canvas, (x, y), outline, true);
-                }
-            }
+            canvas.stripes(rect, hatch, outline);
             canvas.fill(Rect { bottom: rect.top + hatch.line, ..rect }, outline.color);
         }
         Key::Line(color, width) => {
@@ -94,67 +93,8 @@ fn draw_key(canvas: &mut Canvas, style: Style, rect: Rect, key: Key) {
     }
 }
 
-/// How one of several outlines is told from the others: by its colour, and where there are more than colours, by the
-/// way its stripes run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Outline {
-    pub color: Color,
-    /// Whether stripes rise to the right. Those of the first ones fall, because boundaries tend to rise.
-    rising: bool,
-}
-
-impl Outline {
-    pub(super) fn of(index: usize) -> Outline {
-        Outline { color: OUTLINES[index % OUTLINES.len()], rising: index / OUTLINES.len() % 2 == 1 }
-    }
-}
-
-/// The lines that show a region's inner side: on a slice and, alike, in its legend.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Hatch {
-    /// Width of the line around the region.
-    pub line: i32,
-    /// How far the stripes reach inwards.
-    pub band: i32,
-    period: f64,
-    half: f64,
-    casing: f64,
-}
-
-impl Hatch {
-    pub(super) fn new(style: Style) -> Hatch {
-        let line = style.px(0.13).max(1);
-        Hatch {
-            line,
-            band: style.px(0.7).max(3),
-            period: style.em * 0.7,
-            half: style.em * 0.04 + 0.1,
-            casing: style.em * 0.06,
-        }
-    }
-
-    /// Width of the casing on either side of the line.
-    pub(super) fn rim(&self) -> i32 {
-        (self.line / 2).max(1)
-    }
-
-    /// Draws as much of the stripes and their casing as lies on this pixel; of the casing alone where the stripes have
-    /// ended.
-    pub(super) fn draw(&self, canvas: &mut Canvas, (x, y): (i32, i32), outline: Outline, stripes: bool) {
-        // Distance from the nearest of the lines x - y, or x + y, = multiple of the period.
-        let off = f64::from(if outline.rising { x + y } else { x - y }).rem_euclid(self.period);
-        let distance = off.min(self.period - off) / std::f64::consts::SQRT_2;
-        let cover = |half: f64| (half + 0.5 - distance).clamp(0.0, 1.0);
-        // A pixel that the stripe touches at all is white under it.
-        canvas.blend(x, y, WHITE, cover(self.half + self.casing.max(1.0) + 0.5));
-        if stripes {
-            canvas.blend(x, y, outline.color, cover(self.half));
-        }
-    }
-}
-
 /// The sign of a mark: a black star with a white rim, seen on every colour.
-pub(super) fn star(canvas: &mut Canvas, at: Point, radius: f64) {
+pub(super) fn star(canvas: &mut Drawing, at: Point, radius: f64) {
     // A rim of even width all round: the outline is drawn as a line before the star is filled.
     let corner = |i: usize| {
         let length = if i.is_multiple_of(2) { radius } else { radius * 0.42 };
@@ -174,7 +114,7 @@ pub(super) struct Heading<'a> {
 }
 
 impl Heading<'_> {
-    pub(super) fn new<'a>(canvas: &Canvas, title: &'a str, note: &str, style: Style, width: i32) -> Heading<'a> {
+    pub(super) fn new<'a>(canvas: &Drawing, title: &'a str, note: &str, style: Style, width: i32) -> Heading<'a> {
         Heading { title, note: canvas.wrap(style.em * 0.95, note, width.into()) }
     }
 
@@ -184,7 +124,7 @@ impl Heading<'_> {
     }
 
     /// Draws it into the top of `rect`.
-    pub(super) fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect) {
+    pub(super) fn draw(&self, canvas: &mut Drawing, style: Style, rect: Rect) {
         let (x, mut y) = (f64::from(rect.left), f64::from(rect.top));
         if !self.title.is_empty() {
             let em = style.em * 1.25;

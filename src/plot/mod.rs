@@ -1,24 +1,35 @@
-//! PNG pictures: slices of an atlas, small multiples of slices, curves with their curvature, paths with graphs.
+//! Pictures: slices of an atlas, small multiples of slices, curves with their curvature, paths with graphs.
 //!
-//! Everything here is plain data in, PNG bytes out; the same data give the same bytes.
-//! [`crate::files::write_file`] puts them on disk.
+//! Everything here is plain data in, a [`Drawing`] out, and from that the bytes of a PNG or SVG file; the same data give
+//! the same bytes. [`crate::files::write_file`] puts them on disk.
 
 mod axes;
-mod canvas;
+mod comb;
 mod curve;
+mod drawing;
+mod geometry;
+mod hatch;
 mod legend;
+mod letters;
 mod multiples;
 mod palette;
 mod paths;
+mod pixels;
+mod regions;
 mod scale;
+mod shapes;
 mod slice;
+mod style;
+mod svg;
 
-pub use canvas::{DPI, MAX_PIXELS, Sheet, missing_letter};
-pub use curve::{CurveFigure, EndCircle, Graph, curve_png};
-pub use multiples::{Caption, Multiples, multiples_fit, multiples_png};
+pub use curve::{CurveFigure, EndCircle, Graph, draw_curve};
+pub use drawing::{Drawing, Format, MAX_PIXELS, Sheet};
+pub use letters::missing_letter;
+pub use multiples::{Caption, Multiples, draw_multiples, multiples_fit};
 pub use palette::region_colors;
-pub use paths::{Backdrop, Lines, PathsFigure, paths_png};
-pub use slice::{montage_fits, montage_png, slice_fits, slice_png};
+pub use paths::{Backdrop, Lines, PathsFigure, draw_paths};
+pub use shapes::DPI;
+pub use slice::{draw_montage, draw_slice, montage_fits, slice_fits};
 
 /// One axis of a slice.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +51,32 @@ pub struct Region {
     pub label: String,
     /// Whether node `(i, j)` belongs to it, at `j * x.values.len() + i`: x fastest.
     pub mask: Vec<bool>,
+    /// Closed lines around it, in axis values: what is inside of an odd number of them is drawn. What lies beyond
+    /// [`AxisView::border`] is moved there. None: each node fills its cell.
+    pub rings: Vec<Vec<[f64; 2]>>,
+}
+
+impl Region {
+    /// One of nodes that fill their cells.
+    pub fn of_nodes(label: impl Into<String>, mask: Vec<bool>) -> Region {
+        Region { label: label.into(), mask, rings: Vec::new() }
+    }
+}
+
+impl AxisView {
+    /// Where a picture of these nodes begins and ends: half a step beyond them, in the axis's own spacing.
+    pub fn border(&self) -> [f64; 2] {
+        let beyond = |end: f64, next: f64| if self.log { end * (end / next).sqrt() } else { end + (end - next) / 2.0 };
+        match self.values[..] {
+            [] => [f64::NAN; 2],
+            [only] if self.log => [only / 2.0, only * 2.0],
+            [only] => [only - only.abs().max(1.0) / 2.0, only + only.abs().max(1.0) / 2.0],
+            [first, second, ..] => {
+                let last = self.values.len() - 1;
+                [beyond(first, second), beyond(self.values[last], self.values[last - 1])]
+            }
+        }
+    }
 }
 
 /// A point to point out.

@@ -1,10 +1,13 @@
 //! Small multiples: many slices side by side under one legend.
 
 use super::Slice;
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
-use super::canvas::{Canvas, Pen, Rect, Sheet};
+use super::axes::{draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
+use super::drawing::{Drawing, Sheet};
+use super::geometry::Rect;
 use super::legend::{Heading, Legend};
+use super::shapes::Pen;
 use super::slice::{Panel, check_room, entries};
+use super::style::Style;
 use crate::error::{Error, Result};
 
 /// Height of a line of a caption, in em.
@@ -46,10 +49,10 @@ pub struct Multiples {
 ///
 /// # Errors
 /// [`Error::Domain`] when the number of panels is not rows times columns, when two panels have different regions, and
-/// whenever [`super::slice_png`] would fail for a panel.
-pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
+/// whenever [`super::draw_slice`] would fail for a panel.
+pub fn draw_multiples(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Drawing> {
     let sheet = sheet.into();
-    let mut canvas = Canvas::new(sheet)?;
+    let mut canvas = Drawing::new(sheet)?;
     check(figure)?;
     let panels = figure.panels.iter().map(Panel::new).collect::<Result<Vec<_>>>()?;
     let layout = Layout::new(&canvas, figure, &panels, sheet.size)?;
@@ -84,7 +87,7 @@ pub fn multiples_png(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<Vec<
     let entries = entries(&all, true);
     let legend = Legend::new(&canvas, &entries, style, layout.sheet.width());
     legend.draw(&mut canvas, style, (layout.sheet.left, layout.sheet.bottom - legend.height(style)));
-    canvas.into_png()
+    Ok(canvas)
 }
 
 fn check(figure: &Multiples) -> Result<()> {
@@ -141,7 +144,7 @@ struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    fn new(canvas: &Canvas, figure: &'a Multiples, panels: &[Panel], size: (u32, u32)) -> Result<Layout<'a>> {
+    fn new(canvas: &Drawing, figure: &'a Multiples, panels: &[Panel], size: (u32, u32)) -> Result<Layout<'a>> {
         let first = &figure.panels[0];
         let shared = figure.panels.iter().all(|p| p.x == first.x && p.y == first.y);
         let [rows, columns] = figure.shape.map(|count| count as i32);
@@ -192,7 +195,7 @@ impl<'a> Layout<'a> {
     }
 
     /// What the axes of a panel are called, below and on its left.
-    fn names(&self, canvas: &Canvas, slice: &Slice, panel: &Panel) -> [String; 2] {
+    fn names(&self, canvas: &Drawing, slice: &Slice, panel: &Panel) -> [String; 2] {
         let (width, height) = self.panel;
         [
             named_below(canvas, &slice.x, &panel.x.scale, self.style, width),
@@ -201,7 +204,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Captions of rows and columns.
-    fn draw_captions(&self, canvas: &mut Canvas, figure: &Multiples) {
+    fn draw_captions(&self, canvas: &mut Drawing, figure: &Multiples) {
         let style = self.style;
         let em = self.caption_em(canvas, &figure.columns, self.step.0);
         for (caption, i) in figure.columns.iter().rev().zip(0..) {
@@ -231,7 +234,7 @@ impl<'a> Layout<'a> {
 
     /// Size of the letters of values, so small that each fits over its panels, whose steps are so long; but not too
     /// small to read.
-    fn caption_em(&self, canvas: &Canvas, captions: &[Caption], step: i32) -> f64 {
+    fn caption_em(&self, canvas: &Drawing, captions: &[Caption], step: i32) -> f64 {
         let em = self.style.em;
         let fits = |(value, _, count): (&str, usize, usize)| {
             em * (f64::from(step) * count as f64 - em * 0.5) / canvas.text_width(em, value)
@@ -252,12 +255,12 @@ fn spans(caption: &Caption) -> impl Iterator<Item = (&str, usize, usize)> {
 /// Whether there is room for small multiples, whatever their nodes turn out to be: masks are not looked at.
 ///
 /// # Errors
-/// As [`multiples_png`], where none of that size can be drawn.
+/// As [`draw_multiples`], where none of that size can be drawn.
 pub fn multiples_fit(figure: &Multiples, sheet: impl Into<Sheet>) -> Result<()> {
     let sheet = sheet.into();
     check(figure)?;
     let panels = figure.panels.iter().map(Panel::of_axes).collect::<Result<Vec<_>>>()?;
-    Layout::new(&Canvas::measuring(sheet)?, figure, &panels, sheet.size).map(drop)
+    Layout::new(&Drawing::new(sheet)?, figure, &panels, sheet.size).map(drop)
 }
 
 #[cfg(test)]
@@ -273,7 +276,7 @@ mod tests {
             title: String::new(),
             x: axis(),
             y: axis(),
-            regions: vec![Region { label: "some region of nodes".into(), mask: vec![true; 4] }],
+            regions: vec![Region::of_nodes("some region of nodes", vec![true; 4])],
             outlines: vec![],
             marks: vec![],
             note: String::new(),
@@ -295,7 +298,7 @@ mod tests {
             };
             let size = (1500, 1350);
             let panels: Vec<Panel> = figure.panels.iter().map(|p| Panel::new(p).unwrap()).collect();
-            let canvas = Canvas::measuring(size).unwrap();
+            let canvas = Drawing::new(size).unwrap();
             let layout = Layout::new(&canvas, &figure, &panels, size).unwrap();
             for (captions, step) in [(&figure.columns, layout.step.0), (&figure.rows, layout.step.1)] {
                 let em = layout.caption_em(&canvas, captions, step);

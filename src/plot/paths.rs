@@ -1,12 +1,15 @@
 //! Several paths in one plane, with graphs beside them.
 
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, width_left};
-use super::canvas::{Canvas, Point, Rect};
+use super::axes::{draw_below, draw_left, label_below, label_left, width_left};
+use super::comb::Comb;
 use super::curve::{bounds, same_scales};
+use super::drawing::Drawing;
+use super::geometry::{Point, Rect};
 use super::legend::Heading;
 use super::palette::{GREY, GROWN, INK, LINES, OBSTACLE, RED};
 use super::scale::Scale;
 use super::slice::check_room;
+use super::style::Style;
 use crate::error::{Error, Result};
 
 /// Graphs over a common axis.
@@ -31,7 +34,7 @@ pub struct Backdrop {
     pub polyline: Vec<[f64; 2]>,
 }
 
-/// What [`paths_png`] draws.
+/// What [`draw_paths`] draws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathsFigure {
     /// Heading.
@@ -40,6 +43,8 @@ pub struct PathsFigure {
     pub note: String,
     /// Points of each path, in order; a dot marks the first.
     pub paths: Vec<Vec<[f64; 2]>>,
+    /// Signed curvature at each point of the first path, positive to the left, for a comb; may be empty.
+    pub comb: Vec<f64>,
     /// Graphs; where there is one for each path, in its colour.
     pub graph: Lines,
     /// A value of the graphs to mark with a line.
@@ -54,12 +59,15 @@ pub struct PathsFigure {
 /// # Errors
 /// [`Error::Domain`] when a number is not finite, there is nothing to draw or it has no extent, or the size is 0, too
 /// large, or too small.
-pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
-    let mut canvas = Canvas::new(size)?;
+pub fn draw_paths(figure: &PathsFigure, size: (u32, u32)) -> Result<Drawing> {
+    let mut canvas = Drawing::new(size)?;
     let finite = |lines: &[Vec<Point>]| lines.iter().flatten().flatten().all(|v| v.is_finite());
     let behind = figure.backdrop.iter().flat_map(|b| b.obstacles.iter().chain([&b.polyline]));
     if !behind.flatten().flatten().all(|v| v.is_finite()) {
         return Err(Error::invalid("paths figure: the backdrop must have points that are finite"));
+    }
+    if !figure.comb.iter().all(|k| k.is_finite()) {
+        return Err(Error::invalid("paths figure: the curvatures of the comb must be finite"));
     }
     for (name, lines) in [("paths", &figure.paths), ("graphs", &figure.graph.lines)] {
         if lines.iter().all(Vec::is_empty) || !finite(lines) {
@@ -74,9 +82,9 @@ pub fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
     let body = Rect { top: sheet.top + heading.height(style) + style.px(0.3), bottom, ..sheet };
     heading.draw(&mut canvas, style, sheet);
     let [paths, lines] = parts(body, style, figure.backdrop.is_some());
-    draw_paths(&mut canvas, figure, style, paths)?;
+    plot_paths(&mut canvas, figure, style, paths)?;
     draw_lines(&mut canvas, figure, style, lines)?;
-    canvas.into_png()
+    Ok(canvas)
 }
 
 /// Where the paths and the graphs go.
@@ -91,7 +99,7 @@ fn parts(body: Rect, style: Style, below: bool) -> [Rect; 2] {
 }
 
 /// Room for the numbers and the name on the left.
-fn narrowed(canvas: &mut Canvas, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
+fn narrowed(canvas: &mut Drawing, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
     let left = rect.left + width_left(canvas, y, style, rect.height()) + style.px(1.6);
     let rect = Rect { left, ..rect };
     check_room(canvas, rect)?;
@@ -99,7 +107,7 @@ fn narrowed(canvas: &mut Canvas, y: &Scale, style: Style, rect: Rect) -> Result<
 }
 
 /// Axes and frame with their names.
-fn finish(canvas: &mut Canvas, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
+fn finish(canvas: &mut Drawing, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
     draw_below(canvas, x, style, rect, true);
     draw_left(canvas, y, style, rect, true);
     label_below(canvas, style, rect, style.below(), names[0]);
@@ -107,13 +115,14 @@ fn finish(canvas: &mut Canvas, [x, y]: [&Scale; 2], names: [&str; 2], style: Sty
     label_left(canvas, style, rect, left, names[1]);
 }
 
-fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
+fn plot_paths(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
     check_room(canvas, area)?;
     let grown = figure.backdrop.iter().flat_map(|b| {
         let sides = [-b.grown, b.grown];
         b.obstacles.iter().flatten().flat_map(move |p| sides.map(|by| [p[0] + by, p[1] + by]))
     });
-    let all: Vec<Point> = figure.paths.iter().flatten().copied().chain(grown).collect();
+    let comb = Comb::new(figure.paths.first().map_or(&[], |path| path), figure.comb.iter().copied());
+    let all: Vec<Point> = figure.paths.iter().flatten().chain(comb.tips()).copied().chain(grown).collect();
     let values = |i: usize| bounds(all.iter().map(|p| p[i]));
     let [_, y] = same_scales(values(0), values(1), area)?;
     let rect = narrowed(canvas, &y, style, area)?;
@@ -124,6 +133,7 @@ fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
         let pixels = (place(&[backdrop.grown, 0.0])[0] - place(&[0.0, 0.0])[0]).abs();
         draw_backdrop(canvas, backdrop, style, rect, (pixels, &place));
     }
+    comb.draw(canvas, style, rect, place);
     for (path, color) in figure.paths.iter().zip(LINES.into_iter().cycle()) {
         let places: Vec<Point> = path.iter().map(place).collect();
         canvas.cased(&places, style.em * 0.18, color, rect);
@@ -137,7 +147,7 @@ fn draw_paths(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rec
 
 /// Everything within a distance of a polygon is the polygon and a broad line around it.
 fn draw_backdrop(
-    canvas: &mut Canvas,
+    canvas: &mut Drawing,
     backdrop: &Backdrop,
     style: Style,
     clip: Rect,
@@ -168,7 +178,7 @@ fn steep_at_an_end(lines: &[Vec<Point>], [from, to]: [f64; 2], height: f64) -> b
     steep(&|x| x - from < reach) || steep(&|x| to - x < reach)
 }
 
-fn draw_lines(canvas: &mut Canvas, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
+fn draw_lines(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Rect) -> Result<()> {
     check_room(canvas, area)?;
     let Lines { across, up, lines } = &figure.graph;
     let (from, to) = bounds(lines.iter().flatten().map(|p| p[0]));

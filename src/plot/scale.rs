@@ -197,7 +197,7 @@ fn superscript(number: i32) -> String {
 }
 
 /// The cells of an axis: each node owns what is nearer to it than to its neighbours, in the axis's own spacing.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Cells {
     /// From the low edge of the first cell to the high edge of the last.
     pub scale: Scale,
@@ -231,6 +231,11 @@ impl Cells {
         let span = scale.hi - scale.lo;
         let inner = u.windows(2).map(|w| ((w[0] - scale.lo) / 2.0 + (w[1] - scale.lo) / 2.0) / span).collect();
         Ok(Cells { scale, inner })
+    }
+
+    /// From the low end to the high one: where cells begin and end, as fractions.
+    pub(super) fn borders(&self) -> Vec<f64> {
+        [0.0].into_iter().chain(self.inner.iter().copied()).chain([1.0]).collect()
     }
 
     /// The cell that each of `count` pixels shows at its centre, from the low end up.

@@ -1,10 +1,15 @@
 //! One slice: coloured cells, outlines, marks.
 
-use super::axes::{Style, draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
-use super::canvas::{Canvas, Pen, Rect, Sheet};
-use super::legend::{Entry, Hatch, Heading, Key, Legend, Outline, star};
-use super::palette::{Color, INK, WHITE, edge, region_colors};
-use super::scale::Cells;
+use super::axes::{draw_below, draw_left, label_below, label_left, named_below, named_left, width_left};
+use super::drawing::{Drawing, Sheet};
+use super::geometry::Rect;
+use super::hatch::{Hatch, Outline};
+use super::legend::{Entry, Heading, Key, Legend, star};
+use super::palette::{INK, region_colors};
+use super::regions::{Area, Regions};
+use super::scale::{Cells, Scale};
+use super::shapes::Pen;
+use super::style::Style;
 use super::{Region, Slice, grouped};
 use crate::error::{Error, Result};
 
@@ -17,68 +22,9 @@ pub(super) const LEAST_SIDE: i32 = 24;
 /// # Errors
 /// [`Error::Domain`] when an axis is empty, not increasing or not finite, a mask has not one entry for each node, a
 /// mark is not finite, or the size is 0, too large, or too small for a plot beside its labels.
-pub fn slice_png(slice: &Slice, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
-    drawn(slice, sheet.into())?.into_png()
-}
-
-/// Draws slices of unlike regions in rows of `columns`, each with its own legend, under one title.
-///
-/// # Errors
-/// As [`slice_png`], and [`Error::Domain`] for no columns.
-pub fn montage_png(title: &str, slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<Vec<u8>> {
-    if columns == 0 || slices.is_empty() {
-        let (slices, columns) = (slices.len(), columns);
-        return Err(Error::invalid(format!(
-            "a montage of {slices} slices in {columns} columns; it needs at least 1 of each"
-        )));
-    }
+pub fn draw_slice(slice: &Slice, sheet: impl Into<Sheet>) -> Result<Drawing> {
     let sheet = sheet.into();
-    let mut canvas = Canvas::new(sheet)?;
-    let (columns, em, head, size) = montage(slices.len(), columns, sheet);
-    let title = canvas.fit(em, title, f64::from(sheet.size.0) - 1.6 * em);
-    canvas.text([em * 0.8, f64::from(head) * 0.6], Pen::new(em, 0.0), &title);
-    for (slice, i) in slices.iter().zip(0..) {
-        canvas.paste(&drawn(slice, Sheet { size, ..sheet })?, (i % columns * size.0, head + i / columns * size.1));
-    }
-    canvas.into_png()
-}
-
-/// Columns, size of the title's letters, height of the head and size of each slice.
-fn montage(slices: usize, columns: usize, sheet: Sheet) -> (u32, f64, u32, (u32, u32)) {
-    let (columns, rows) = (columns as u32, slices.div_ceil(columns) as u32);
-    let (width, height) = (sheet.size.0 / columns, sheet.size.1 / rows);
-    let em = style((width, height)).em * 1.5;
-    let head = (em * 2.4) as u32;
-    (columns, em, head, (width, sheet.size.1.saturating_sub(head) / rows))
-}
-
-/// Whether there is room for a slice, whatever its nodes turn out to be: its masks are not looked at.
-///
-/// # Errors
-/// As [`slice_png`], where none of that size can be drawn.
-pub fn slice_fits(slice: &Slice, sheet: impl Into<Sheet>) -> Result<()> {
-    let sheet = sheet.into();
-    let (canvas, entries) = (Canvas::measuring(sheet)?, entries(&[slice], false));
-    Layout::new(&canvas, slice, &Panel::of_axes(slice)?, &entries, style(sheet.size)).map(drop)
-}
-
-/// The same for [`montage_png`].
-///
-/// # Errors
-/// As [`montage_png`], where none of that size can be drawn.
-pub fn montage_fits(slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<()> {
-    let sheet = sheet.into();
-    let (.., size) = montage(slices.len(), columns.max(1), sheet);
-    slices.iter().try_for_each(|slice| slice_fits(slice, Sheet { size, ..sheet }))
-}
-
-fn style(size: (u32, u32)) -> Style {
-    let em = (f64::from(size.0) * f64::from(size.1)).sqrt() / 58.0;
-    Style { em: em.max(10.0), slack: em }
-}
-
-fn drawn(slice: &Slice, sheet: Sheet) -> Result<Canvas> {
-    let mut canvas = Canvas::new(sheet)?;
+    let mut canvas = Drawing::new(sheet)?;
     let panel = Panel::new(slice)?;
     let style = style(sheet.size);
     let entries = entries(&[slice], false);
@@ -94,6 +40,62 @@ fn drawn(slice: &Slice, sheet: Sheet) -> Result<Canvas> {
     Ok(canvas)
 }
 
+/// Draws slices of unlike regions in rows of `columns`, each with its own legend, under one title.
+///
+/// # Errors
+/// As [`draw_slice`], and [`Error::Domain`] for no columns.
+pub fn draw_montage(title: &str, slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<Drawing> {
+    if columns == 0 || slices.is_empty() {
+        let (slices, columns) = (slices.len(), columns);
+        return Err(Error::invalid(format!(
+            "a montage of {slices} slices in {columns} columns; it needs at least 1 of each"
+        )));
+    }
+    let sheet = sheet.into();
+    let mut canvas = Drawing::new(sheet)?;
+    let (columns, em, head, size) = montage(slices.len(), columns, sheet);
+    let title = canvas.fit(em, title, f64::from(sheet.size.0) - 1.6 * em);
+    canvas.text([em * 0.8, f64::from(head) * 0.6], Pen::new(em, 0.0), &title);
+    for (slice, i) in slices.iter().zip(0..) {
+        canvas.inset(draw_slice(slice, Sheet { size, ..sheet })?, (i % columns * size.0, head + i / columns * size.1));
+    }
+    Ok(canvas)
+}
+
+/// Columns, size of the title's letters, height of the head and size of each slice.
+fn montage(slices: usize, columns: usize, sheet: Sheet) -> (u32, f64, u32, (u32, u32)) {
+    let (columns, rows) = (columns as u32, slices.div_ceil(columns) as u32);
+    let (width, height) = (sheet.size.0 / columns, sheet.size.1 / rows);
+    let em = style((width, height)).em * 1.5;
+    let head = (em * 2.4) as u32;
+    (columns, em, head, (width, sheet.size.1.saturating_sub(head) / rows))
+}
+
+/// Whether there is room for a slice, whatever its nodes turn out to be: its masks are not looked at.
+///
+/// # Errors
+/// As [`draw_slice`], where none of that size can be drawn.
+pub fn slice_fits(slice: &Slice, sheet: impl Into<Sheet>) -> Result<()> {
+    let sheet = sheet.into();
+    let (canvas, entries) = (Drawing::new(sheet)?, entries(&[slice], false));
+    Layout::new(&canvas, slice, &Panel::of_axes(slice)?, &entries, style(sheet.size)).map(drop)
+}
+
+/// The same for [`draw_montage`].
+///
+/// # Errors
+/// As [`draw_montage`], where none of that size can be drawn.
+pub fn montage_fits(slices: &[Slice], columns: usize, sheet: impl Into<Sheet>) -> Result<()> {
+    let sheet = sheet.into();
+    let (.., size) = montage(slices.len(), columns.max(1), sheet);
+    slices.iter().try_for_each(|slice| slice_fits(slice, Sheet { size, ..sheet }))
+}
+
+fn style(size: (u32, u32)) -> Style {
+    let em = (f64::from(size.0) * f64::from(size.1)).sqrt() / 58.0;
+    Style { em: em.max(10.0), slack: em }
+}
+
 /// Where everything goes.
 struct Layout<'a> {
     /// What margins leave of the sheet.
@@ -107,7 +109,13 @@ struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    fn new(canvas: &Canvas, slice: &'a Slice, panel: &Panel, entries: &'a [Entry], style: Style) -> Result<Layout<'a>> {
+    fn new(
+        canvas: &Drawing,
+        slice: &'a Slice,
+        panel: &Panel,
+        entries: &'a [Entry],
+        style: Style,
+    ) -> Result<Layout<'a>> {
         let sheet = canvas.rect().grown(-style.px(1.2));
         let heading = Heading::new(canvas, &slice.title, &slice.note, style, sheet.width());
         let legend = Legend::new(canvas, entries, style, sheet.width());
@@ -125,7 +133,7 @@ impl<'a> Layout<'a> {
 }
 
 /// Says so when labels leave no room for a plot.
-pub(super) fn check_room(canvas: &Canvas, rect: Rect) -> Result<()> {
+pub(super) fn check_room(canvas: &Drawing, rect: Rect) -> Result<()> {
     let sheet = canvas.rect();
     if rect.width() >= LEAST_SIDE && rect.height() >= LEAST_SIDE {
         return Ok(());
@@ -167,6 +175,16 @@ impl Panel<'_> {
                 )));
             }
         }
+        for region in slice.regions.iter().chain(&slice.outlines) {
+            let drawn =
+                |p: &[f64; 2]| panel.x.scale.fraction(p[0]).is_finite() && panel.y.scale.fraction(p[1]).is_finite();
+            if let Some([x, y]) = region.rings.iter().flatten().find(|p| !drawn(p)) {
+                let label = &region.label;
+                return Err(Error::invalid(format!(
+                    "a line around region `{label}` leads to ({x}, {y}), no place on the axes"
+                )));
+            }
+        }
         if let Some(mark) = slice.marks.iter().find(|m| !(m.x.is_finite() && m.y.is_finite())) {
             let (label, x, y) = (&mark.label, mark.x, mark.y);
             return Err(Error::invalid(format!("mark `{label}` is at ({x}, {y}); both must be finite")));
@@ -175,42 +193,27 @@ impl Panel<'_> {
     }
 
     /// Draws all but axes; labels of marks only where asked.
-    pub(super) fn draw(&self, canvas: &mut Canvas, style: Style, rect: Rect, mark_labels: bool) {
-        let pixels = Pixels::new(self, rect);
-        self.draw_regions(canvas, style, &pixels);
-        // Lines around the whole plot would hide each other: each runs inside the one before.
-        let (hatch, mut inset) = (Hatch::new(style), 0);
-        for (i, region) in self.slice.outlines.iter().enumerate() {
-            let whole = region.mask.iter().all(|inside| *inside);
-            pixels.draw_outline(canvas, hatch, region, Outline::of(i), whole.then_some(inset));
-            inset += if whole { hatch.band + 2 * hatch.rim() } else { 0 };
-        }
+    pub(super) fn draw(&self, canvas: &mut Drawing, style: Style, rect: Rect, mark_labels: bool) {
+        let fraction = |scale: &Scale, value: f64| scale.fraction(value).clamp(0.0, 1.0);
+        let point = |p: &[f64; 2]| [fraction(&self.x.scale, p[0]), fraction(&self.y.scale, p[1])];
+        let area = |region: &Region| Area {
+            mask: region.mask.clone(),
+            rings: region.rings.iter().map(|ring| ring.iter().map(point).collect()).collect(),
+        };
+        canvas.regions(Regions {
+            rect,
+            x: self.x.clone(),
+            y: self.y.clone(),
+            fills: self.slice.regions.iter().map(area).collect(),
+            outlines: self.slice.outlines.iter().map(area).collect(),
+            edge: style.px(0.07).max(1),
+            hatch: Hatch::new(style),
+        });
         canvas.frame(rect, INK);
         self.draw_marks(canvas, style, rect, mark_labels);
     }
 
-    /// Fills each pixel with the last region that holds its node. Where two fills of too little contrast meet, the
-    /// pixels of the earlier one have the colour of an edge: the later region keeps all of its own.
-    fn draw_regions(&self, canvas: &mut Canvas, style: Style, pixels: &Pixels) {
-        let regions = &self.slice.regions;
-        let colors = [vec![WHITE], region_colors(regions.len())].concat();
-        let edges: Vec<Vec<Option<Color>>> =
-            colors.iter().map(|a| colors.iter().map(|b| edge(*a, *b)).collect()).collect();
-        let fill = |node: usize| regions.iter().rposition(|region| region.mask[node]).map_or(0, |last| last + 1);
-        let fills: Vec<usize> = (0..self.slice.x.values.len() * self.slice.y.values.len()).map(fill).collect();
-        let width = style.px(0.07).max(1);
-        for y in pixels.rect.top..pixels.rect.bottom {
-            for x in pixels.rect.left..pixels.rect.right {
-                let here = fills[pixels.node(x, y)];
-                let beside = (1..=width).flat_map(|by| [(by, 0), (-by, 0), (0, by), (0, -by)]);
-                let later = beside.map(|(dx, dy)| fills[pixels.node(x + dx, y + dy)]).filter(|other| *other > here);
-                let edge = later.max().and_then(|later| edges[here][later]);
-                canvas.blend(x, y, edge.unwrap_or(colors[here]), 1.0);
-            }
-        }
-    }
-
-    fn draw_marks(&self, canvas: &mut Canvas, style: Style, rect: Rect, labels: bool) {
+    fn draw_marks(&self, canvas: &mut Drawing, style: Style, rect: Rect, labels: bool) {
         for mark in &self.slice.marks {
             let (x, y) = (self.x.scale.fraction(mark.x), self.y.scale.fraction(mark.y));
             if !((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y)) {
@@ -227,94 +230,10 @@ impl Panel<'_> {
                 let level = at[1].clamp(f64::from(rect.top) + style.em, f64::from(rect.bottom) - style.em);
                 let start = [at[0] + side * radius * 2.2, level];
                 // A white rim, legible on every colour.
-                let rim = Pen { color: WHITE, ..Pen::new(style.em, anchor) };
-                for i in 0..16 {
-                    let (sin, cos) = (std::f64::consts::PI * f64::from(i) / 8.0).sin_cos();
-                    canvas.text([start[0] + style.em * 0.2 * cos, level + style.em * 0.2 * sin], rim, &label);
-                }
-                canvas.text(start, Pen::new(style.em, anchor), &label);
+                canvas.text(start, Pen { rim: style.em * 0.2, ..Pen::new(style.em, anchor) }, &label);
             }
         }
     }
-}
-
-/// Which node each pixel of a rectangle shows.
-struct Pixels {
-    rect: Rect,
-    /// Node of each pixel column, left to right.
-    columns: Vec<usize>,
-    /// First node of the grid row of each pixel row, top to bottom.
-    rows: Vec<usize>,
-}
-
-impl Pixels {
-    fn new(panel: &Panel, rect: Rect) -> Pixels {
-        let count = panel.slice.x.values.len();
-        let columns = panel.x.of_pixels(rect.width() as usize);
-        let rows = panel.y.of_pixels(rect.height() as usize).into_iter().rev().map(|j| j * count).collect();
-        Pixels { rect, columns, rows }
-    }
-
-    /// The node at a pixel of the sheet; outside the rectangle, that of the nearest pixel inside.
-    fn node(&self, x: i32, y: i32) -> usize {
-        let x = (x - self.rect.left).clamp(0, self.columns.len() as i32 - 1);
-        let y = (y - self.rect.top).clamp(0, self.rows.len() as i32 - 1);
-        self.rows[y as usize] + self.columns[x as usize]
-    }
-
-    /// A line along the inside of a region's boundary and stripes further in, all in a white casing that parts them
-    /// from every fill. The boundary of a region that is the whole plot is the plot's, so many pixels further in.
-    fn draw_outline(&self, canvas: &mut Canvas, hatch: Hatch, region: &Region, outline: Outline, whole: Option<i32>) {
-        let (line, rim) = (hatch.line, hatch.rim());
-        let columns = self.columns.len();
-        let inside: Vec<bool> =
-            self.rows.iter().flat_map(|j| self.columns.iter().map(move |i| region.mask[j + i])).collect();
-        let (width, height) = (columns as i32, self.rows.len() as i32);
-        let within = |at: usize, inset: i32| {
-            let (x, y) = ((at % columns) as i32, (at / columns) as i32);
-            let depth = x.min(y).min(width - 1 - x).min(height - 1 - y) - inset;
-            (depth >= 0, if depth >= 0 { depth + 1 } else { -depth } * STEP)
-        };
-        let all: Vec<(bool, i32)> = match whole {
-            Some(inset) => (0..inside.len()).map(|at| within(at, inset)).collect(),
-            None => inside.iter().copied().zip(depths(&inside, columns)).collect(),
-        };
-        for (at, (here, depth)) in all.iter().enumerate() {
-            let depth = *depth;
-            let (x, y) = (self.rect.left + (at % columns) as i32, self.rect.top + (at / columns) as i32);
-            if *here && depth <= line * STEP {
-                canvas.blend(x, y, outline.color, 1.0);
-            } else if depth <= if *here { line + rim } else { rim } * STEP {
-                canvas.blend(x, y, WHITE, 1.0);
-            } else if *here && depth <= (hatch.band + rim) * STEP {
-                hatch.draw(canvas, (x, y), outline, depth <= hatch.band * STEP);
-            }
-        }
-    }
-}
-
-/// A pixel's side in the unit of [`depths`].
-const STEP: i32 = 5;
-
-/// How far each pixel of a mask is from the nearest one that is not as it is, in fifths of a pixel, by steps of 1 to
-/// the sides and 1.4 across corners: one sweep down and one up (Borgefors 1986). Neighbours differ by one step at most.
-fn depths(inside: &[bool], columns: usize) -> Vec<i32> {
-    const AROUND: [(i32, i32, i32); 8] =
-        [(-1, 0, STEP), (1, 0, STEP), (0, -1, STEP), (0, 1, STEP), (-1, -1, 7), (1, -1, 7), (-1, 1, 7), (1, 1, 7)];
-    let (width, height) = (columns as i32, (inside.len() / columns) as i32);
-    let mut depths = vec![i32::MAX / 2; inside.len()];
-    for at in (0..inside.len()).chain((0..inside.len()).rev()) {
-        let (x, y) = ((at % columns) as i32, (at / columns) as i32);
-        for (dx, dy, step) in AROUND {
-            let (x, y) = (x + dx, y + dy);
-            if (0..width).contains(&x) && (0..height).contains(&y) {
-                let other = y as usize * columns + x as usize;
-                let through = if inside[other] == inside[at] { depths[other] + step } else { step };
-                depths[at] = depths[at].min(through);
-            }
-        }
-    }
-    depths
 }
 
 /// The legend of slices that have the same regions: nodes are counted over all of them.

@@ -67,7 +67,7 @@ const LABELS: [&str; 5] =
 pub(crate) fn cubic_slice(p0: f64, p1: f64, x: AxisView, y: AxisView) -> Slice {
     let nodes = y.values.iter().flat_map(|k1| x.values.iter().map(|k0| flags(p0, p1, *k0, *k1)));
     let nodes: Vec<[bool; 5]> = nodes.collect();
-    let region = |i: usize| Region { label: LABELS[i].into(), mask: nodes.iter().map(|f| f[i]).collect() };
+    let region = |i: usize| Region::of_nodes(LABELS[i], nodes.iter().map(|f| f[i]).collect());
     Slice {
         title: format!("Cubic spirals for φ₀ = {p0}, φ₁ = {p1}"),
         regions: (0..4).map(region).collect(),

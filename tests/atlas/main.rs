@@ -14,3 +14,5 @@ mod plot;
 mod recipes;
 #[cfg(feature = "cli")]
 mod shipped;
+#[cfg(feature = "cli")]
+mod smooth;

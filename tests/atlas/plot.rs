@@ -3,11 +3,21 @@
 
 mod contrast;
 mod curves;
+mod svg;
 
 use super::crude::{cubic_slice, spaced};
+use spiral_atlas::Result;
 use spiral_atlas::files::write_file;
 use spiral_atlas::plot::*;
 use std::path::Path;
+
+fn slice_png(slice: &Slice, size: (u32, u32)) -> Result<Vec<u8>> {
+    draw_slice(slice, size)?.png()
+}
+
+fn multiples_png(figure: &Multiples, size: (u32, u32)) -> Result<Vec<u8>> {
+    draw_multiples(figure, size)?.png()
+}
 
 fn decode(png: &[u8]) -> image::RgbImage {
     image::load_from_memory(png).expect("a PNG").to_rgb8()
@@ -33,8 +43,8 @@ fn pattern() -> Slice {
     Slice {
         title: "Pattern".into(),
         regions: vec![
-            Region { label: "all".into(), mask: vec![true; 28] },
-            Region { label: "chosen".into(), mask: (0..28).map(chosen).collect() },
+            Region::of_nodes("all", vec![true; 28]),
+            Region::of_nodes("chosen", (0..28).map(chosen).collect()),
         ],
         outlines: Vec::new(),
         marks: Vec::new(),
@@ -129,7 +139,7 @@ fn an_outline_hides_no_cell() {
     let inverse: Vec<bool> = mask.iter().map(|inside| !inside).collect();
     slice.regions[1].mask = mask.clone();
     let before = slice_png(&slice, (900, 700)).unwrap();
-    slice.outlines = vec![Region { label: "the others".into(), mask: inverse }];
+    slice.outlines = vec![Region::of_nodes("the others", inverse)];
     let after = slice_png(&slice, (900, 700)).unwrap();
     assert_ne!(before, after);
     let (picture, colors) = (decode(&after), region_colors(2));
@@ -155,7 +165,7 @@ fn bad_data_are_errors() {
         (|s| s.x.values = vec![-f64::MAX, -1.0, 0.0, 1.0, 2.0, 3.0, f64::MAX], "increase"),
         (|s| s.regions[1].mask.truncate(27), "27 nodes"),
         (|s| s.regions[0].mask.push(true), "29 nodes"),
-        (|s| s.outlines.push(Region { label: "o".into(), mask: vec![] }), "0 nodes"),
+        (|s| s.outlines.push(Region::of_nodes("o", vec![])), "0 nodes"),
         (|s| s.marks.push(Mark { x: f64::NAN, y: 1.0, label: "m".into() }), "mark `m`"),
         (|s| s.y.values.truncate(3), "28 nodes"),
     ];
@@ -183,7 +193,7 @@ fn bad_data_are_errors() {
 #[test]
 fn odd_but_legal_data_are_drawn() {
     let mut slice = pattern();
-    slice.regions = vec![Region { label: "only".into(), mask: vec![true] }];
+    slice.regions = vec![Region::of_nodes("only", vec![true])];
     for (x, y) in [(0.0, 1.0), (1e300, 1e-300), (-5e-324, 5e-324)] {
         slice.x.values = vec![x];
         slice.y.values = vec![y];
@@ -192,7 +202,7 @@ fn odd_but_legal_data_are_drawn() {
     slice.title = "a very long title, longer than the picture is wide ".repeat(9);
     slice.note = "漢字\n\u{0}\u{202e}".into();
     slice.x.label = "label".repeat(99);
-    slice.regions = vec![Region { label: "region".repeat(99), mask: vec![true] }; 9];
+    slice.regions = vec![Region::of_nodes("region".repeat(99), vec![true]); 9];
     slice_png(&slice, (500, 600)).unwrap();
     slice.regions.clear();
     slice.x.values = vec![1.0, 1.0 + f64::EPSILON];
@@ -308,7 +318,7 @@ fn what_is_true_everywhere_is_outlined() {
     let drawn = |outlines: usize| {
         let mut slice = pattern();
         let mask = vec![true; 28];
-        slice.outlines = (0..outlines).map(|i| Region { label: format!("o{i}"), mask: mask.clone() }).collect();
+        slice.outlines = (0..outlines).map(|i| Region::of_nodes(format!("o{i}"), mask.clone())).collect();
         slice.marks.clear();
         image::load_from_memory(&slice_png(&slice, (640, 480)).unwrap()).unwrap().to_rgb8()
     };

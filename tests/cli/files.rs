@@ -116,6 +116,10 @@ fn render_draws_what_generate_draws_and_keeps_nothing_else() {
             assert!(read(out.as_ref()) == read(&folder.at("out")), "{name}");
         }
     }
+    let lines = folder.text("lines");
+    fine(["render", &folder.text("out/tiny.atlas.safetensors"), "--out", &lines, "--format", "svg"]);
+    assert_eq!(names(lines.as_ref()), ["tiny-1.svg", "tiny-2.svg"]);
+    assert!(std::fs::read_to_string(folder.at("lines/tiny-1.svg")).unwrap().starts_with("<?xml"));
     // Without a recipe: one slice, which a recipe's first picture is not.
     let plain = folder.text("plain");
     fine(["render", &with_recipe(&folder, ""), "--out", &plain]);

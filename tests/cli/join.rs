@@ -24,6 +24,10 @@ fn states_lines_and_circles_are_joined() {
     let figure = folder.text("join.png");
     let said = with_limit(&["--from", "0,0,0deg", "--to", "8,6,90deg", "--figure", &figure, "--samples", "11"]).json();
     assert!(std::fs::read(&figure).unwrap().starts_with(b"\x89PNG"));
+    let lines = folder.text("join.SVG");
+    with_limit(&["--from", "0,0,0deg", "--to", "8,6,90deg", "--figure", &lines]);
+    let svg = std::fs::read_to_string(&lines).unwrap();
+    assert!(svg.starts_with("<?xml") && svg.trim_end().ends_with("</svg>") && svg.contains(">A join of length "));
     assert_eq!(said["samples"].as_array().unwrap().len(), 11);
     assert_eq!(said["samples"][10]["station"], said["paths"][0]["length"]);
     let arc = said["paths"][0]["pieces"].as_array().unwrap().iter().find(|piece| piece["kind"] == "arc").unwrap();
@@ -260,7 +264,7 @@ fn mistakes_are_told() {
         (vec!["--from", "0,0,0", "--from-line", "0,0,0", "--to-line", "1,0,0"], "cannot be used with"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--most-pieces", "0"], "the most pieces are 0"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--longest=-1"], "the longest length is -1;"),
-        (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "would be a PNG picture"),
+        (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "a.jpg"], "end its name with .png or .svg"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--figure", "/no/such/a.png"], "has no folder `/no/such` to be in"),
         (vec!["--from", "0,0,0", "--to", "1,0,0", "--csv"], "--samples"),
         (

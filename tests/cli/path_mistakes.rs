@@ -125,7 +125,7 @@ fn mistakes_are_named() {
         ),
         (&["plan", "-"], r#"{"start": [0, 0], "heading": 1}"#, &["there is no field `heading`"]),
         (&["separation", "missing.json", "--minimum", "1"], "", &["missing.json", "No such file"]),
-        (&["spline", "-", "--figure", "x.jpg"], "{}", &["x.jpg", ".png"]),
+        (&["spline", "-", "--figure", "x.jpg"], "{}", &["x.jpg", ".png or .svg"]),
     ];
     for (args, input, parts) in cases {
         let said = run_or_pipe(args, input);

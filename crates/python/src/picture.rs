@@ -43,8 +43,9 @@ impl Picture {
         let values = scalar.as_ref().map(|values| values.as_slice()).transpose().map_err(apart)?;
         let scalars = self.scalar().into_iter().zip(values).collect();
         let outline = &self.outline.get().0;
-        let png =
-            py.detach(|| picture::draw(&Part::new(outline, &nodes, flags, scalars)?, &self.plan)).map_err(raise)?;
+        let png = py
+            .detach(|| picture::draw(&Part::new(outline, &nodes, flags, scalars)?, &self.plan)?.png())
+            .map_err(raise)?;
         Ok(PyBytes::new(py, &png))
     }
 }

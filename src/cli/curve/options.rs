@@ -123,7 +123,7 @@ pub(super) struct Output {
     #[arg(long, requires = "samples", conflicts_with = "json")]
     csv: bool,
     /// Draw the curve with its polygon and end circles, its curvature and the derivative of that.
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png|svg")]
     figure: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
@@ -149,7 +149,7 @@ impl Output {
         let Some(path) = &self.figure else { return Ok(report.outcome()) };
         match found.figure() {
             Ok(figure) => {
-                spiral_atlas::files::write_file(path, &plot::curve_png(&figure, SIZE)?)?;
+                output::write_figure(path, &plot::draw_curve(&figure, SIZE)?)?;
                 if !(self.json || self.csv) {
                     output::print(&format!("drawn in {}\n", path.display()))?;
                 }

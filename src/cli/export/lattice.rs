@@ -5,7 +5,7 @@ use super::super::{Outcome, numbers, output};
 use spiral_atlas::Result;
 use spiral_atlas::export::{Lattice, LatticeOptions, lattice};
 use spiral_atlas::files::write_file;
-use spiral_atlas::plot::{Lines, PathsFigure, paths_png};
+use spiral_atlas::plot::{Drawing, Lines, PathsFigure, draw_paths};
 use spiral_atlas::transition::join::Family;
 use std::path::PathBuf;
 
@@ -46,7 +46,7 @@ pub(super) struct LatticeArgs {
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
     /// Draw the primitives, and the curvature of those that start along 0 to 45°.
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png|svg")]
     figure: Option<PathBuf>,
 }
 
@@ -65,14 +65,14 @@ pub(super) fn run(args: &LatticeArgs) -> Result<Outcome> {
         None => output::print(&text)?,
     }
     if let Some(path) = &args.figure {
-        write_file(path, &figure(&found)?)?;
+        output::write_figure(path, &figure(&found)?)?;
     }
     Ok(Outcome::Fine)
 }
 
 /// All primitives, one colour for each direction at the start; and their curvature, for those that are no images of
 /// others.
-fn figure(lattice: &Lattice) -> Result<Vec<u8>> {
+fn figure(lattice: &Lattice) -> Result<Drawing> {
     let octant = lattice.options.headings / 8;
     let (mut paths, mut lines) = (Vec::new(), Vec::new());
     for start in 0..lattice.options.headings {
@@ -96,8 +96,9 @@ fn figure(lattice: &Lattice) -> Result<Vec<u8>> {
                 .into(),
         paths,
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
+        comb: Vec::new(),
         level: Some(1.0 / lattice.options.turning_radius),
         backdrop: None,
     };
-    paths_png(&figure, SIZE)
+    draw_paths(&figure, SIZE)
 }

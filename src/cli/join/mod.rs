@@ -8,6 +8,7 @@ use super::{Outcome, numbers, output, points};
 use parse::{COLUMNS, states};
 use spiral_atlas::Result;
 use spiral_atlas::path::Course;
+use spiral_atlas::plot::Drawing;
 use spiral_atlas::transition::Station;
 use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
 use std::path::PathBuf;
@@ -96,7 +97,7 @@ pub(super) struct Args {
     #[arg(long, requires = "samples")]
     csv: bool,
     /// Draw the path and its curvature.
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png|svg")]
     figure: Option<PathBuf>,
 }
 
@@ -167,7 +168,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
     }
     let Ok(join) = &found else { return Ok(Outcome::Bad) };
     if let Some(path) = &args.figure {
-        spiral_atlas::files::write_file(path, &figure(join)?)?;
+        output::write_figure(path, &figure(join)?)?;
     }
     Ok(Outcome::Fine)
 }
@@ -199,7 +200,7 @@ impl Args {
 }
 
 /// The path, and its curvature over the length.
-fn figure(join: &Join) -> Result<Vec<u8>> {
+fn figure(join: &Join) -> Result<Drawing> {
     let all = Course::new(join.pieces.clone())?.outline(SAMPLES)?;
     let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
     let (lines, arcs) = (kinds("line"), kinds("arc"));
@@ -209,6 +210,6 @@ fn figure(join: &Join) -> Result<Vec<u8>> {
         vec![all.iter().map(|s| [s.station, s.curvature]).collect()],
         join.pieces.iter().skip(1).map(|piece| vec![piece.start()]).collect(),
         &format!("A join of length {:.6}", join.measures.length),
-        &format!("dots: where pieces start; spirals: {spirals}, arcs: {arcs}, lines: {lines}"),
+        &format!("dots: where pieces start; comb: curvature; spirals: {spirals}, arcs: {arcs}, lines: {lines}"),
     )
 }

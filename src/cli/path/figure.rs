@@ -4,7 +4,7 @@ use spiral_atlas::curve::Choice;
 use spiral_atlas::curve::PhQuintic;
 use spiral_atlas::path::{Course, Motion, Plan, Scene};
 use spiral_atlas::plain::count;
-use spiral_atlas::plot::{self, Backdrop, Lines, PathsFigure};
+use spiral_atlas::plot::{self, Backdrop, Drawing, Lines, PathsFigure};
 use spiral_atlas::tools::{Pair, PathReport, Separations};
 use spiral_atlas::transition::{Piece, Station};
 use spiral_atlas::{Error, Result};
@@ -53,13 +53,13 @@ fn along(spans: &[PhQuintic], f: impl Fn(&PhQuintic, f64) -> f64) -> Vec<[f64; 2
 }
 
 /// Paths and their curvatures.
-pub(crate) fn reported(paths: &[PathReport], title: &str) -> Result<Vec<u8>> {
+pub(crate) fn reported(paths: &[PathReport], title: &str) -> Result<Drawing> {
     let paths: Vec<_> = paths.iter().map(|path| path.pieces.clone()).collect();
     beside_others(&paths, vec![], title, "dots: starts")
 }
 
 /// Paths with their curvatures and offset curves.
-pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f64>) -> Result<Vec<u8>> {
+pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Option<f64>) -> Result<Drawing> {
     let courses: Vec<&Course> = courses.collect();
     let all = courses.iter().map(|course| course.outline(SAMPLES)).collect::<Result<Vec<_>>>()?;
     let each = |f: &dyn Fn(&Station) -> [f64; 2]| all.iter().map(|path| path.iter().map(f).collect()).collect();
@@ -75,7 +75,7 @@ pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Op
 }
 
 /// The curve taken, its curvature, and the others there are.
-pub(crate) fn choice(choice: &Choice) -> Result<Vec<u8>> {
+pub(crate) fn choice(choice: &Choice) -> Result<Drawing> {
     let others = choice.candidates.iter().enumerate().filter(|(i, _)| *i != choice.best);
     let others = others.map(|(_, c)| points(&[c.curve])).collect();
     let title = format!("{} curves between two ends", choice.candidates.len());
@@ -84,29 +84,37 @@ pub(crate) fn choice(choice: &Choice) -> Result<Vec<u8>> {
 }
 
 /// Paths and their curvatures, and points of other curves.
-fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &str, note: &str) -> Result<Vec<u8>> {
+fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &str, note: &str) -> Result<Drawing> {
     let lines = paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect();
     drawn(paths.iter().map(|spans| points(spans)).collect(), lines, others, title, note)
 }
 
-/// Points of paths, their curvatures over the length, and points of other curves.
-pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Vec<u8>> {
+/// Points of paths, their curvatures over the length, and points of other curves. A single path without other curves
+/// beside it (dots are none) has a comb, where its curvatures are those at its points.
+pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Drawing> {
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
         return Err(Error::invalid("a path stands still somewhere, where it has no curvature"));
     }
+    let comb = match (&paths[..], &lines[..]) {
+        ([path], [line]) if path.len() == line.len() && others.iter().all(|other| other.len() == 1) => {
+            line.iter().map(|[_, curvature]| *curvature).collect()
+        }
+        _ => Vec::new(),
+    };
     let figure = PathsFigure {
         title: title.into(),
         note: note.into(),
         paths: paths.into_iter().chain(others).collect(),
+        comb,
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
         level: None,
         backdrop: None,
     };
-    plot::paths_png(&figure, SIZE)
+    plot::draw_paths(&figure, SIZE)
 }
 
 /// A planned path among its obstacles, above its curvature.
-pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
+pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Drawing> {
     let (most, spans) = (scene.greatest_curvature, &plan.spans);
     let figure = PathsFigure {
         title: format!(
@@ -121,6 +129,7 @@ pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
         ),
         paths: vec![points(spans)],
         graph: Lines { across: "s".into(), up: "|κ|".into(), lines: vec![along(spans, |c, t| c.curvature(t).abs())] },
+        comb: Vec::new(),
         level: Some(most),
         backdrop: Some(Backdrop {
             obstacles: scene.obstacles.clone(),
@@ -128,7 +137,7 @@ pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Vec<u8>> {
             polyline: plan.polyline.clone(),
         }),
     };
-    plot::paths_png(&figure, TALL)
+    plot::draw_paths(&figure, TALL)
 }
 
 fn length(spans: &[PhQuintic]) -> f64 {
@@ -136,7 +145,7 @@ fn length(spans: &[PhQuintic]) -> f64 {
 }
 
 /// The paths of several motions and the separation of each pair over time.
-pub(crate) fn separations(motions: &[Motion], found: &Separations, title: String) -> Result<Vec<u8>> {
+pub(crate) fn separations(motions: &[Motion], found: &Separations, title: String) -> Result<Drawing> {
     let minimum = found.minimum;
     let line = |Pair { first, second, found }: &Pair| {
         let (a, b) = (&motions[*first], &motions[*second]);
@@ -157,8 +166,9 @@ pub(crate) fn separations(motions: &[Motion], found: &Separations, title: String
         note: format!("dots: starts; on the right a line for each pair; red: the minimum {minimum}"),
         paths: motions.iter().map(|m| pieces(m.course().pieces())).collect(),
         graph: Lines { across: "time".into(), up: "separation".into(), lines },
+        comb: Vec::new(),
         level: Some(minimum),
         backdrop: None,
     };
-    plot::paths_png(&figure, SIZE)
+    plot::draw_paths(&figure, SIZE)
 }

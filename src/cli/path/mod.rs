@@ -16,6 +16,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 pub(super) use source::Source;
 use spiral_atlas::path::Course;
+use spiral_atlas::plot::Drawing;
 use spiral_atlas::tools::{self, NoPath};
 use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
@@ -65,7 +66,7 @@ struct Files {
     #[command(flatten)]
     source: Source,
     /// Draw what was found.
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png|svg")]
     figure: Option<PathBuf>,
 }
 
@@ -94,16 +95,16 @@ impl Files {
     }
 
     /// Draws, if asked to, and prints.
-    fn finish(&self, found: &impl Serialize, figure: impl FnOnce() -> Result<Vec<u8>>) -> Result<Outcome> {
+    fn finish(&self, found: &impl Serialize, figure: impl FnOnce() -> Result<Drawing>) -> Result<Outcome> {
         output::print_json(found)?;
         self.draw(figure)
     }
 
     /// Draws, if asked to.
-    fn draw(&self, figure: impl FnOnce() -> Result<Vec<u8>>) -> Result<Outcome> {
+    fn draw(&self, figure: impl FnOnce() -> Result<Drawing>) -> Result<Outcome> {
         if let Some(path) = &self.figure {
-            let png = figure().map_err(|e| Error::invalid(format!("{} was not drawn: {e}", path.display())))?;
-            spiral_atlas::files::write_file(path, &png)?;
+            let drawing = figure().map_err(|e| Error::invalid(format!("{} was not drawn: {e}", path.display())))?;
+            output::write_figure(path, &drawing)?;
         }
         Ok(Outcome::Fine)
     }

@@ -1,7 +1,7 @@
 //! What lies beside what in a drawn slice: each line and edge has at least 3 times the contrast of the Web Content
 //! Accessibility Guidelines.
 
-use super::{axis, decode, spaced};
+use super::{axis, decode, slice_png, spaced};
 use spiral_atlas::plot::*;
 
 const LEAST: f64 = 3.0;
@@ -22,13 +22,13 @@ fn contrast(a: [u8; 3], b: [u8; 3]) -> f64 {
 /// across all.
 fn bands(regions: usize, outlines: usize) -> Slice {
     let (columns, rows) = (2 * (regions + 1), 24);
-    let region = |k: usize| Region {
-        label: format!("region {k}"),
-        mask: (0..columns * rows).map(|node| (node % columns) / 2 > k && (node / columns) % 4 > 0).collect(),
+    let region = |k: usize| {
+        let inside = |node: usize| (node % columns) / 2 > k && !(node / columns).is_multiple_of(4);
+        Region::of_nodes(format!("region {k}"), (0..columns * rows).map(inside).collect())
     };
-    let outline = |k: usize| Region {
-        label: format!("outline {k}"),
-        mask: (0..columns * rows).map(|node| (3 * k + 7..3 * k + 9).contains(&(node / columns))).collect(),
+    let outline = |k: usize| {
+        let inside = |node: usize| (3 * k + 7..3 * k + 9).contains(&(node / columns));
+        Region::of_nodes(format!("outline {k}"), (0..columns * rows).map(inside).collect())
     };
     Slice {
         title: "Bands".into(),

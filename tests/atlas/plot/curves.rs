@@ -2,8 +2,17 @@
 
 use super::super::crude::curve_figure;
 use super::{decode, save};
+use spiral_atlas::Result;
 use spiral_atlas::plot::*;
 use std::f64::consts::PI;
+
+fn curve_png(figure: &CurveFigure, size: (u32, u32)) -> Result<Vec<u8>> {
+    draw_curve(figure, size)?.png()
+}
+
+fn paths_png(figure: &PathsFigure, size: (u32, u32)) -> Result<Vec<u8>> {
+    draw_paths(figure, size)?.png()
+}
 
 #[test]
 fn curves_of_the_paper() {
@@ -72,6 +81,7 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         title: "two".into(),
         note: String::new(),
         paths: vec![straight(1.0), straight(1.5)],
+        comb: Vec::new(),
         graph: graph(0.0),
         level: None,
         backdrop: None,
@@ -87,6 +97,7 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         PathsFigure { level: Some(0.5), ..figure.clone() },
         PathsFigure { paths: vec![straight(1.0)], ..figure.clone() },
         PathsFigure { graph: graph(3.0), ..figure.clone() },
+        PathsFigure { comb: vec![0.1, 0.2], ..figure.clone() },
         PathsFigure { backdrop: behind(0.5), ..figure.clone() },
     ];
     assert!(others.iter().all(|other| picture(other).unwrap() != first));
