@@ -89,7 +89,7 @@ impl Datum {
     pub(crate) fn q_of_twins(&self) -> Option<Twin> {
         let number = |x: f64| Twin::of(x, TWIN_BITS);
         let (k1, k2) = (number(self.k1), number(self.k2));
-        let ((sin0, cos0), (sin1, cos1)) = (Twin::sine_cosine(self.alpha), Twin::sine_cosine(self.beta));
+        let ((sin0, cos0), (sin1, cos1)) = (Twin::sin_cos(self.alpha), Twin::sin_cos(self.beta));
         if self.alpha == self.beta {
             return Some(formula!(k1 * k2 + (k2 - k1) * sin0));
         }
@@ -97,7 +97,7 @@ impl Datum {
             (0.0, _) => number(0.0),
             // A small square would cancel.
             (sum, 0.0) if sum.abs() < 1e-3 && sum.abs() > 1e-300 => {
-                let sine = Twin::sine_cosine(0.5 * sum).0;
+                let sine = Twin::sin_cos(0.5 * sum).0;
                 sine.mul(&sine)
             }
             (sum, _) if sum.abs() < 1e-3 => return None,
