@@ -101,7 +101,7 @@ impl Numbers {
     /// In sums of two doubles, with how often the equation was evaluated; `None` where they leave a rounding open.
     pub(super) fn by_twins(datum: &Datum, half_turns: u32) -> Option<(Numbers, usize)> {
         let Wanted { q, room, rest, half_turns } = Wanted::twins(datum, half_turns)?;
-        let equation = Equation::new(q, rest.clone(), half_turns);
+        let equation = Equation::new(q, rest, half_turns);
         let numbers = Numbers::new(datum, &equation.solve()?, &room, &rest, half_turns)?;
         Some((numbers, equation.evaluations()))
     }
