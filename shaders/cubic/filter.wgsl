@@ -60,8 +60,7 @@ fn spiral(b: vec3<f32>, e0: vec3<f32>, c: vec3<f32>, e1: vec3<f32>, root: Root) 
     let error = max(half_error(b, e0, start, root.y, root.delta), half_error(c, e1, end, root.x, root.delta));
     let sizes = max(abs(start), abs(end));
     let largest = max(sizes.x, max(sizes.y, sizes.z));
-    let quintic = array<f32, 6>(start.x, start.y, start.z, end.z, end.y, end.x);
-    return positive(quintic, error, 5.0 * UNIT * (largest + error));
+    return positive(Quintic(start, end), error, 5.0 * UNIT * (largest + error));
 }
 
 // The code of a node.

@@ -55,14 +55,12 @@ fn spiral(curves: Curves, root: Root) -> u32 {
     let low_start = start - relative * start_size;
     let low_end = end - relative * end_size;
     let rounding = 8.0 * UNIT * largest;
-    let low = array<f32, 6>(low_start.x, low_start.y, low_start.z, low_end.z, low_end.y, low_end.x);
-    if positive(low, rounding, rounding) == YES {
+    if positive(Quintic(low_start, low_end), rounding, rounding) == YES {
         return YES;
     }
     let high_start = start + relative * start_size;
     let high_end = end + relative * end_size;
-    let high = array<f32, 6>(high_start.x, high_start.y, high_start.z, high_end.z, high_end.y, high_end.x);
-    if positive(high, rounding, rounding) == NO {
+    if positive(Quintic(high_start, high_end), rounding, rounding) == NO {
         return NO;
     }
     return OPEN;

@@ -1,9 +1,6 @@
 // Twin of family/ph_quintic/truth.rs in f32: the code of a node.
 
-const DEPTH: u32 = 20u;
-
-// Solutions and spirals packed as counts, and the flags that follow; UNDECIDED where f32 cannot tell. `any`: whether a
-// spiral is possible.
+// Solutions and spirals packed as counts, and the flags that follow; UNDECIDED where f32 cannot tell. `any`: whether a spiral is possible.
 fn count(curves: Curves, any: bool) -> u32 {
     // Knots before and behind which there is no solution.
     var a = knot(curves, 0.0625);
@@ -28,45 +25,50 @@ fn count(curves: Curves, any: bool) -> u32 {
         }
         b = knot(curves, b.t * 16.0);
     }
-    var waiting: array<Knot, DEPTH>;
-    waiting[0] = b;
-    var depth = 1u;
+    // From the first knot on, as far at a time as a certificate reaches: no knots wait in memory, which registers
+    // cannot index.
+    let last = b;
     var solutions = 0u;
     var spirals = 0u;
     for (var knots = 0u; knots < 96u; knots += 1u) {
-        b = waiting[depth - 1u];
         let met = meets(a, b);
+        var next = 0.0;
         if met == OPEN {
             let apart = b.t - a.t;
-            if depth == DEPTH || apart < a.t * 0.001 {
+            if apart < a.t * 0.001 {
                 return UNDECIDED;
             }
             // Not in the middle, where symmetric data have solutions.
-            let between = select(a.t + 0.469 * apart, sqrt(a.t) * sqrt(b.t) * 1.037, b.t > 1.2 * a.t);
-            waiting[depth] = knot(curves, between);
-            depth += 1u;
-            continue;
-        }
-        if met == YES {
-            solutions += 1u;
-            if any {
-                let root = enclose(curves, a, b);
-                if !root.proved {
-                    return UNDECIDED;
+            next = select(a.t + 0.469 * apart, sqrt(a.t) * sqrt(b.t) * 1.037, b.t > 1.2 * a.t);
+        } else {
+            if met == YES {
+                solutions += 1u;
+                if any {
+                    let root = enclose(curves, a, b);
+                    if !root.proved {
+                        return UNDECIDED;
+                    }
+                    let verdict = spiral(curves, root);
+                    if verdict == OPEN {
+                        return UNDECIDED;
+                    }
+                    spirals += u32(verdict == YES);
                 }
-                let verdict = spiral(curves, root);
-                if verdict == OPEN {
-                    return UNDECIDED;
-                }
-                spirals += u32(verdict == YES);
+            }
+            if b.t == last.t {
+                let flags = select(0u, SOLVABLE, solutions > 0u) | select(0u, SPIRAL, spirals > 0u);
+                return flags | (min(solutions, 7u) | (min(spirals, 7u) << 3u)) << 8u;
+            }
+            // Further than before.
+            let ratio = b.t / a.t;
+            next = b.t * ratio * ratio;
+            a = b;
+            if next * ratio > last.t {
+                b = last;
+                continue;
             }
         }
-        a = b;
-        depth -= 1u;
-        if depth == 0u {
-            let flags = select(0u, SOLVABLE, solutions > 0u) | select(0u, SPIRAL, spirals > 0u);
-            return flags | (min(solutions, 7u) | (min(spirals, 7u) << 3u)) << 8u;
-        }
+        b = knot(curves, next);
     }
     return UNDECIDED;
 }

@@ -64,38 +64,31 @@ fn levels(angle: Angle, shape: Shape) -> u32 {
         return UNDECIDED;
     }
     let relative = shape.m.error * inverse * 3.4 + shape.u.error * THROUGH_U + COEFFICIENT;
-    var error: array<f32, 6>;
-    for (var i = 0u; i < 6u; i += 1u) {
-        error[i] = size[i] * relative;
-    }
-    if value[0] < -error[0] {
+    let error = Quintic(size.start * relative, size.end * relative);
+    if value.start.x < -error.start.x {
         return EXISTS;
     }
-    let end = value[0] > error[0];
+    let end = value.start.x > error.start.x;
     if end && m - shape.m.error > DRAWN_ABOVE {
         return EXISTS | EXACT | THEOREM | PAPER;
     }
     let not_drawn = m + shape.m.error < DRAWN_BELOW;
-    let middle = value[1] > error[1] && value[2] > error[2] && value[3] > error[3];
+    let middle = value.start.y > error.start.y && value.start.z > error.start.z && value.end.z > error.end.z;
     if end && middle {
         return select(UNDECIDED, EXISTS | EXACT | THEOREM, not_drawn);
     }
     // The least and the greatest quintic: only one of them can answer.
-    var low: array<f32, 6>;
-    var high: array<f32, 6>;
-    var largest = 0.0;
-    for (var i = 0u; i < 6u; i += 1u) {
-        // The binomials of degree 5, divided into 10.
-        let factor = select(select(1.0, 2.0, i == 1u || i == 4u), 10.0, i == 0u || i == 5u);
-        low[i] = (value[i] - error[i]) * factor;
-        high[i] = (value[i] + error[i]) * factor;
-        largest = max(largest, max(abs(low[i]), abs(high[i])));
-    }
+    // The binomials of degree 5, divided into 10.
+    let factor = vec3<f32>(10.0, 2.0, 1.0);
+    let low = Quintic((value.start - error.start) * factor, (value.end - error.end) * factor);
+    let high = Quintic((value.start + error.start) * factor, (value.end + error.end) * factor);
+    let sizes = max(max(abs(low.start), abs(low.end)), max(abs(high.start), abs(high.end)));
+    let largest = max(sizes.x, max(sizes.y, sizes.z));
     let rounding = 5.0 * UNIT * largest;
     if positive(high, rounding, rounding) == NO {
         return EXISTS;
     }
-    let not_theorem = value[1] < -error[1] || value[2] < -error[2] || value[3] < -error[3];
+    let not_theorem = value.start.y < -error.start.y || value.start.z < -error.start.z || value.end.z < -error.end.z;
     // What the theorem does not accept is not drawn either.
     if not_theorem && positive(low, rounding, rounding) == YES {
         return EXISTS | EXACT;

@@ -10,15 +10,19 @@ fn invert(alpha: Near, beta: Near, g: f32) -> Shape {
 }
 
 // c0 .. c5; with sign 1 instead of -1 the sums of the absolute values of their terms.
-fn coefficients(m: f32, u: f32, g: f32, sign: f32) -> array<f32, 6> {
+fn coefficients(m: f32, u: f32, g: f32, sign: f32) -> Quintic {
     let gu = g * u;
     let m3 = m * m * m;
-    return array<f32, 6>(
-        4.0 * u * (3.0 * g + sign * ((m + 4.0) * u)),
-        4.0 * (gu * (4.0 * m + 5.0 * sign)) + 20.0 * sign * (m * u * u) + 12.0,
-        2.0 * (13.0 * m + 2.0 * sign + 4.0 * (gu * m) * (m + 4.0 * sign)),
-        2.0 * m * (10.0 * m + 3.0 * sign + 4.0 * sign * (gu * m)),
-        5.0 * m3,
-        m3,
+    return Quintic(
+        vec3<f32>(
+            4.0 * u * (3.0 * g + sign * ((m + 4.0) * u)),
+            4.0 * (gu * (4.0 * m + 5.0 * sign)) + 20.0 * sign * (m * u * u) + 12.0,
+            2.0 * (13.0 * m + 2.0 * sign + 4.0 * (gu * m) * (m + 4.0 * sign)),
+        ),
+        vec3<f32>(
+            m3,
+            5.0 * m3,
+            2.0 * m * (10.0 * m + 3.0 * sign + 4.0 * sign * (gu * m)),
+        ),
     );
 }

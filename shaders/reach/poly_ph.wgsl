@@ -66,15 +66,19 @@ fn invert(alpha: Near, beta: Near, g: f32) -> Shape {
 }
 
 // c0 .. c5; with sign 1 instead of -1 the sums of the absolute values of their terms.
-fn coefficients(m: f32, u: f32, g: f32, sign: f32) -> array<f32, 6> {
+fn coefficients(m: f32, u: f32, g: f32, sign: f32) -> Quintic {
     let gu = g * u;
     let m2 = m * m;
-    return array<f32, 6>(
-        16.0 * gu * (sign * ((m + 6.0) * u) + 2.0),
-        16.0 * (gu * (3.0 * m + 4.0 * sign) + 7.0 * sign * (m * u * gu) + 1.0),
-        4.0 * (9.0 * m + 2.0 * sign + 6.0 * (gu * m) * (m + 4.0 * sign)),
-        4.0 * m * (7.0 * m + 3.0 * sign + 6.0 * sign * (gu * m)),
-        m2 * (7.0 * m + 2.0 * sign),
-        m2 * m,
+    return Quintic(
+        vec3<f32>(
+            16.0 * gu * (sign * ((m + 6.0) * u) + 2.0),
+            16.0 * (gu * (3.0 * m + 4.0 * sign) + 7.0 * sign * (m * u * gu) + 1.0),
+            4.0 * (9.0 * m + 2.0 * sign + 6.0 * (gu * m) * (m + 4.0 * sign)),
+        ),
+        vec3<f32>(
+            m2 * m,
+            m2 * (7.0 * m + 2.0 * sign),
+            4.0 * m * (7.0 * m + 3.0 * sign + 6.0 * sign * (gu * m)),
+        ),
     );
 }

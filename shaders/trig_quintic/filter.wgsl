@@ -13,82 +13,99 @@ fn largest(c: Coefficients) -> f32 {
     return max(max(d.x, d.y), max(d.z, d.w));
 }
 
-// One step of de Casteljau's algorithm, from a list and the same without its first.
-fn mean(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
-    return 0.5 * (a + vec4<f32>(a.yzw, b.x));
+// One step of de Casteljau's algorithm on coefficients i to i + 3 of a list, where the next is `after`; those from
+// number `last` on stay.
+fn mean(a: vec4<f32>, after: f32, first: i32, last: i32) -> vec4<f32> {
+    return select(a, 0.5 * (a + vec4<f32>(a.yzw, after)), vec4<i32>(first) + vec4<i32>(0, 1, 2, 3) < vec4<i32>(last));
 }
 
-fn step(c: Coefficients) -> Coefficients {
+// The list from its other end.
+fn reversed(c: Coefficients) -> Coefficients {
     return Coefficients(
-        mean(c[0], c[1]),
-        mean(c[1], c[2]),
-        mean(c[2], c[3]),
-        mean(c[3], c[4]),
-        mean(c[4], c[5]),
-        mean(c[5], c[6]),
-        mean(c[6], c[7]),
-        mean(c[7], c[8]),
-        mean(c[8], c[9]),
-        mean(c[9], vec4<f32>()),
+        vec4<f32>(c[9].yx, c[8].wz),
+        vec4<f32>(c[8].yx, c[7].wz),
+        vec4<f32>(c[7].yx, c[6].wz),
+        vec4<f32>(c[6].yx, c[5].wz),
+        vec4<f32>(c[5].yx, c[4].wz),
+        vec4<f32>(c[4].yx, c[3].wz),
+        vec4<f32>(c[3].yx, c[2].wz),
+        vec4<f32>(c[2].yx, c[1].wz),
+        vec4<f32>(c[1].yx, c[0].wz),
+        vec4<f32>(c[0].yx, 0.0, 0.0),
     );
 }
 
-// Signs on [0, 1] as in num/bernstein.rs, for coefficients that are exact; each halving adds 37 roundings of the
-// piece's largest.
-//
-// It is written with few iterations of loops, 38 for a halving, because lavapipe leaves all loops of an invocation
-// after 65535 of them: some 4000 a node. There are 40 for a halving, and 700 before.
-fn positive(coefficients: Coefficients) -> u32 {
-    // Depth first with the right halves waiting: one a level, and the piece in hand.
-    var waiting: array<Coefficients, MOST_LEVELS>;
-    var levels: array<u32, MOST_LEVELS>;
-    var errors: array<f32, MOST_LEVELS>;
-    waiting[0] = coefficients;
-    levels[0] = 0u;
-    errors[0] = 0.0;
-    var count = 1u;
-    var halvings = 0u;
-    var answer = YES;
-    loop {
-        if count == 0u {
-            break;
-        }
-        count -= 1u;
-        var piece = waiting[count];
-        let level = levels[count];
-        let e = errors[count];
-        // The outer coefficients are values of the polynomial.
-        if piece[0].x < -e || piece[9].y < -e {
-            return NO;
-        }
-        if least(piece) > e {
-            continue;
-        }
-        let size = largest(piece);
-        if level + 2u >= MOST_LEVELS || halvings >= MOST_HALVINGS || size <= e {
-            answer = OPEN;
-            continue;
-        }
-        halvings += 1u;
-        var left = Coefficients();
-        var right = Coefficients();
-        for (var i = 0u; i < COEFFICIENTS; i += 1u) {
-            let j = COEFFICIENTS - 1u - i;
-            left[i / 4u][i % 4u] = piece[0].x;
-            right[j / 4u][j % 4u] = piece[j / 4u][j % 4u];
-            piece = step(piece);
-        }
-        // What steps took from beyond the last coefficient has reached none of these.
-        let after = e + COVER * f32(COEFFICIENTS - 1u) * UNIT * size;
-        waiting[count] = right;
-        levels[count] = level + 1u;
-        errors[count] = after;
-        waiting[count + 1u] = left;
-        levels[count + 1u] = level + 1u;
-        errors[count + 1u] = after;
-        count += 2u;
+// The right half of a piece. Its number i comes of 37 - i steps.
+fn right_half(whole: Coefficients) -> Coefficients {
+    var c = whole;
+    for (var last = i32(COEFFICIENTS) - 1; last > 0; last -= 1) {
+        c = Coefficients(
+            mean(c[0], c[1].x, 0, last),
+            mean(c[1], c[2].x, 4, last),
+            mean(c[2], c[3].x, 8, last),
+            mean(c[3], c[4].x, 12, last),
+            mean(c[4], c[5].x, 16, last),
+            mean(c[5], c[6].x, 20, last),
+            mean(c[6], c[7].x, 24, last),
+            mean(c[7], c[8].x, 28, last),
+            mean(c[8], c[9].x, 32, last),
+            mean(c[9], 0.0, 36, last),
+        );
     }
-    return answer;
+    return c;
+}
+
+// Signs on [0, 1] as in num/bernstein.rs, for coefficients that are exact; each halving adds 37 roundings of the whole's
+// largest.
+//
+// Pieces are looked at from left to right, as in lib/bernstein.wgsl. A halving takes 37 iterations of a loop: lavapipe leaves all
+// loops of an invocation after 65535 of them, some 4000 a node, and of these halvings there are 32 at most, twice.
+fn positive(whole: Coefficients) -> u32 {
+    let size = largest(whole);
+    var answer = YES;
+    var piece = whole;
+    var depth = 0u;
+    // The piece to be looked at: number `place` of 2^level.
+    var level = 0u;
+    var place = 0u;
+    for (var round = 0u; round < MOST_HALVINGS; round += 1u) {
+        if depth < level {
+            depth += 1u;
+            let right = ((place >> (level - depth)) & 1u) == 1u;
+            if !right {
+                piece = reversed(piece);
+            }
+            piece = right_half(piece);
+            if !right {
+                piece = reversed(piece);
+            }
+        }
+        if depth == level {
+            let e = COVER * f32((COEFFICIENTS - 1u) * level) * UNIT * size;
+            // The outer coefficients are values of the polynomial.
+            if piece[0].x < -e || piece[9].y < -e {
+                return NO;
+            }
+            let above = least(piece) > e;
+            if !above && level < MOST_LEVELS && largest(piece) > e {
+                level += 1u;
+                place *= 2u;
+                continue;
+            }
+            answer = select(OPEN, answer, above);
+            // On to the next piece, as large as it may be.
+            place += 1u;
+            let wider = firstTrailingBit(place);
+            place >>= wider;
+            level -= wider;
+            if level == 0u {
+                return answer;
+            }
+            piece = whole;
+            depth = 0u;
+        }
+    }
+    return OPEN;
 }
 
 // The polynomial plus or minus its error.
@@ -111,11 +128,15 @@ fn shifted(form: Form, sign: f32) -> Coefficients {
 
 // The greatest that the polynomial may be only can prove no, the least only yes.
 fn spiral(form: Form) -> u32 {
-    if positive(shifted(form, 1.0)) == NO {
+    if form.dips {
         return NO;
     }
-    if positive(shifted(form, -1.0)) == YES {
-        return YES;
+    // One call site: drivers inline `positive`, which is large.
+    for (var sign = -1.0; sign < 2.0; sign += 2.0) {
+        let found = positive(shifted(form, sign));
+        if found == select(NO, YES, sign < 0.0) {
+            return found;
+        }
     }
     return OPEN;
 }

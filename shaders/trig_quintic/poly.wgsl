@@ -110,12 +110,26 @@ alias Coefficients = array<vec4<f32>, 10>;
 struct Form {
     value: Coefficients,
     error: Coefficients,
+    // It is certainly negative somewhere.
+    dips: bool,
 }
+
+// Places where a numerator that is negative somewhere mostly is: at t/(1 - t) of these, and of one over these.
+const DIPS: vec4<f32> = vec4<f32>(1.0, 1.6666666, 3.0, 7.0);
+// One over these to the power 37, about: a common factor of values and sizes tells nothing.
+const LEAST_POWERS: vec4<f32> = vec4<f32>(1.0, 6.2e-9, 2.2e-18, 5.4e-32);
 
 fn numerator(h: Hodograph, square: f32) -> Form {
     var t = turning(h);
     var d = speed(h, square);
-    var form = Form(Coefficients(), Coefficients());
+    var form = Form(Coefficients(), Coefficients(), false);
+    // Sums of values and of sizes at DIPS, and at one over these; powers are kept within 1.
+    var above = vec4<f32>();
+    var above_size = vec4<f32>();
+    var below = vec4<f32>();
+    var below_size = vec4<f32>();
+    var rising = LEAST_POWERS;
+    var falling = vec4<f32>(1.0);
     // Sums of X D and (2i - 3j) X D, values and sizes, for this index, the one before and that before.
     var now = vec4<f32>();
     var before = vec4<f32>();
@@ -133,11 +147,21 @@ fn numerator(h: Hodograph, square: f32) -> Form {
         }
         let value = now.y + (2.0 * before.y + 24.0 * before.x) + (2.0 * earlier.y + 48.0 * earlier.x);
         let size = now.w + (2.0 * before.w + 24.0 * before.z) + (2.0 * earlier.w + 48.0 * earlier.z);
+        above += value * rising;
+        above_size += size * rising;
+        below += value * falling;
+        below_size += size * falling;
+        rising *= DIPS;
+        falling *= 1.0 / DIPS;
         let factor = inputs[s];
         form.value[s / 4u][s % 4u] = value * factor;
         form.error[s / 4u][s % 4u] = size * factor * ERROR + FLOOR;
         earlier = before;
         before = now;
     }
+    // A power has up to 37 roundings, its product one and the sum 37; flushed denormals are far below FLOOR.
+    let relative = COVER * (ERROR + 3.0 * f32(COEFFICIENTS) * UNIT);
+    let floor = 2.0 * f32(COEFFICIENTS) * FLOOR;
+    form.dips = any(above < -(above_size * relative + floor)) || any(below < -(below_size * relative + floor));
     return form;
 }

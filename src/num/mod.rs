@@ -17,7 +17,7 @@ pub(crate) use ball::Ball;
 pub(crate) use form::{Form, Quadratic};
 pub(crate) use formula::{Letter, formula};
 pub(crate) use interval::Interval;
-pub(crate) use number::{Lanes, Number, Real};
+pub(crate) use number::{Angle, Lanes, Number, Real};
 pub(crate) use twin::{TWIN_BITS, Twin};
 pub(crate) use verdict::Verdict;
 pub(crate) use ziv::climb;

@@ -133,6 +133,35 @@ pub(crate) trait Real: super::bernstein::Certain + Sized {
     }
 }
 
+/// Enclosed numbers that may be angles.
+pub(crate) trait Angle: Real {
+    /// Sine and cosine.
+    fn sine_cosine(&self) -> (Self, Self);
+    /// π.
+    fn pi(bits: usize) -> Self;
+    /// The least e with the double next to its middle below `2^e` in size; `None` for zero alone. Beyond the range of
+    /// normal doubles another number of its takes the place of that double.
+    fn magnitude(&self) -> Option<isize>;
+}
+
+/// The least e with `2^e` above the size of a normal double.
+pub(super) fn exponent(x: f64) -> isize {
+    (x.abs().to_bits() >> 52) as isize - 1022
+}
+
+impl Angle for Interval {
+    fn sine_cosine(&self) -> (Interval, Interval) {
+        Interval::sine_cosine(self)
+    }
+    fn pi(bits: usize) -> Interval {
+        Interval::pi(bits)
+    }
+    fn magnitude(&self) -> Option<isize> {
+        let about = self.approx();
+        if about.is_normal() { Some(exponent(about)) } else { Interval::magnitude(self) }
+    }
+}
+
 impl Real for Interval {
     fn of(x: f64, bits: usize) -> Interval {
         Interval::new(x, bits)

@@ -2,9 +2,11 @@
 
 use super::bernstein::Certain;
 use super::formula::formula;
+use super::number::exponent;
 use super::sines::two_sum;
-use super::{Ball, Interval, Number, Real};
+use super::{Angle, Ball, Interval, Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
+use std::f64::consts::FRAC_1_PI;
 use std::sync::{LazyLock, OnceLock};
 
 /// Unit roundoff of doubles.
@@ -63,7 +65,7 @@ impl Twin {
     /// As its error says, some 2^-104. With `x = k/16 + r`, `|r| <= 1/32` (exact: both are multiples of the last bit
     /// of x, and the difference is smaller than x), the series in r stop at `r^15/15! < 2^-115` and `r^16/16! <
     /// 2^-124`.
-    pub(crate) fn sine_cosine(x: f64) -> (Twin, Twin) {
+    pub(crate) fn sin_cos(x: f64) -> (Twin, Twin) {
         let size = x.abs();
         let k = (size * 16.0).round();
         let r = size - k / 16.0;
@@ -100,6 +102,33 @@ impl Twin {
         let ends = [self.high + (self.low - error), self.high + (self.low + error)];
         // Where subnormal numbers are involved, errors are no smaller than these.
         (ends[0] == ends[1] && ends[0].is_finite()).then(|| ends[0] + 0.0)
+    }
+}
+
+impl Angle for Twin {
+    /// Less the nearest multiple of π, which has no more digits than π itself, `sin(x + y)` and `cos(x + y)` for the
+    /// high part x, up to 1.6, and the low part y, up to 2^-53 x: `y²/2` and `y³/6` are rests.
+    fn sine_cosine(&self) -> (Twin, Twin) {
+        let turns = (self.high * FRAC_1_PI).round();
+        let rest = if turns == 0.0 { *self } else { self.sub(&Twin::pi(TWIN_BITS).times(turns)) };
+        let (sin, cos) = Twin::sin_cos(rest.high);
+        let y = Twin::of(rest.low, TWIN_BITS);
+        let [sine, cosine] = [formula!(sin + cos * y), formula!(cos - sin * y)];
+        // Neither is ever steeper than 1. The second term above is below `|y|`, whatever it multiplies.
+        let square = 0.5 * rest.low * rest.low;
+        let sign = if turns.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
+        let close = |x: Twin, around: Twin| {
+            let error = x.error + rest.error + square * (around.most() + rest.low.abs());
+            Twin { high: sign * x.high, low: sign * x.low, error: error * GROW }
+        };
+        (close(sine, sin), close(cosine, cos))
+    }
+    fn pi(_bits: usize) -> Twin {
+        static PI: LazyLock<Twin> = LazyLock::new(|| of_interval(&Interval::pi(160)));
+        *PI
+    }
+    fn magnitude(&self) -> Option<isize> {
+        (self.high != 0.0).then(|| exponent(self.high))
     }
 }
 
@@ -300,12 +329,42 @@ mod tests {
         let mut worst: f64 = 0.0;
         let edges = [0.0, 1e-300, 1e-9, 1.0 / 32.0, 0.09375, std::f64::consts::FRAC_PI_2, std::f64::consts::PI];
         for x in edges.into_iter().chain((0..3000).map(|_| noise.signed() * std::f64::consts::PI)) {
-            let ((sin, cos), (sine, cosine)) = (Twin::sine_cosine(x), Interval::sin_cos(x, BITS));
+            let ((sin, cos), (sine, cosine)) = (Twin::sin_cos(x), Interval::sin_cos(x, BITS));
             held(&sin, &sine);
             held(&cos, &cosine);
             worst = worst.max(sin.error).max(cos.error);
         }
         assert!(worst < 2f64.powi(-100), "{worst}");
+    }
+
+    /// Sums of two doubles as angles, also next to multiples of π, and the exponents of numbers.
+    #[test]
+    fn sines_of_sums_hold_the_truth() {
+        let mut noise = Noise(11);
+        let mut worst: f64 = 0.0;
+        for round in 0..4000 {
+            let size = [1e-200, 1e-9, 1.0, 10.0, 7000.0][round % 5];
+            let high = if round % 7 == 0 {
+                std::f64::consts::PI * (20.0 * noise.next()).round()
+            } else {
+                size * noise.signed()
+            };
+            let x = Twin::sum(high, high * noise.signed() * 2f64.powi(-54), 0.0);
+            let ((sin, cos), (sine, cosine)) = (x.sine_cosine(), exactly(&x).sine_cosine());
+            held(&sin, &sine);
+            held(&cos, &cosine);
+            worst = worst.max(sin.error.max(cos.error) / (1.0 + high.abs()));
+            assert_eq!(x.magnitude(), Angle::magnitude(&exactly(&x)));
+            // Of all angles around.
+            let wide = Twin { error: 1e-3, ..x };
+            let moved = exactly(&x).plus(9.9e-4).sine_cosine();
+            held(&wide.sine_cosine().0, &moved.0);
+            held(&wide.sine_cosine().1, &moved.1);
+        }
+        assert!(worst < 2f64.powi(-99), "{worst}");
+        let one = Twin::sum(1.0, -1e-30, 0.0);
+        assert_eq!((one.magnitude(), Angle::magnitude(&exactly(&one))), (Some(1), Some(1)));
+        held(&Twin::pi(TWIN_BITS), &Interval::pi(BITS));
     }
 
     #[test]
@@ -315,7 +374,7 @@ mod tests {
             huge.mul(&huge),
             huge.mul(&huge).sub(&huge.mul(&huge)),
             Twin::of(1e308, TWIN_BITS).times(2.0),
-            Twin::sine_cosine(9.0).0,
+            Twin::sin_cos(9.0).0,
         ] {
             assert_eq!(
                 (x.certain_sign(0.0), x.to_f64(), x.to_f32(), x.error),

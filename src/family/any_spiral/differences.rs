@@ -1,19 +1,17 @@
 //! Functions of an angle that cancel near 0, by their series there.
 
-/// `sin x - x cos x`, `x² - sin² x` and `x - sin x` for one x >= 0.
+/// `sin x - x cos x` and `x² - sin² x` for one x >= 0.
 ///
 /// # Accuracy
 /// Below 1 each within 8 units of 2^-53, relative: alternating series of decreasing terms, cut below 2^-58 of the
 /// first. From 1 on as good as the sine and cosine allow: with both within 10 units, 14 units of `|sin x| + x |cos x|`
-/// for the first and, as `sin x <= 0.842 x`, 80 and 70 units of themselves for the others.
+/// for the first and, as `sin x <= 0.842 x`, 80 units of itself for the second; 70 for `x - sin x`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Differences {
     /// `P = sin x - x cos x`.
     pub p: f64,
     /// `x² - sin² x`.
     pub w: f64,
-    /// `x - sin x`.
-    pub rest: f64,
 }
 
 /// Ratios of neighbouring terms but for x²: of P, of x² - sin² x, and of x - sin x.
@@ -27,30 +25,29 @@ fn series(x2: f64, ratios: &[f64]) -> f64 {
 }
 
 impl Differences {
-    /// All three divided by their first powers of x: `P/x³`, `(x² - sin² x)/x⁴` and `(x - sin x)/x³`. So nothing
-    /// underflows, however small x >= 0 is.
-    pub(super) fn by_powers(x: f64) -> Differences {
-        let (sin, cos) = x.sin_cos();
+    /// `P/x³`: so nothing underflows, however small x >= 0 is.
+    pub(super) fn p_by_powers(x: f64) -> f64 {
+        if x < 1.0 { series(x * x, &P) / 3.0 } else { (x.sin() - x * x.cos()) / (x * x * x) }
+    }
+
+    /// `(x² - sin² x)/x⁴` and `(x - sin x)/x³`, likewise.
+    pub(super) fn others_by_powers(x: f64) -> [f64; 2] {
         let x2 = x * x;
-        if x >= 1.0 {
-            let Differences { p, w, rest } = Differences::new(x, sin, cos);
-            return Differences { p: p / (x2 * x), w: w / (x2 * x2), rest: rest / (x2 * x) };
+        if x < 1.0 {
+            return [series(x2, &W) / 3.0, series(x2, &REST) / 6.0];
         }
-        Differences { p: series(x2, &P) / 3.0, w: series(x2, &W) / 3.0, rest: series(x2, &REST) / 6.0 }
+        let sin = x.sin();
+        [(x - sin) * (x + sin) / (x2 * x2), (x - sin) / (x2 * x)]
     }
 
     /// From x and its sine and cosine.
     pub(super) fn new(x: f64, sin: f64, cos: f64) -> Differences {
         if x >= 1.0 {
-            return Differences { p: sin - x * cos, w: (x - sin) * (x + sin), rest: x - sin };
+            return Differences { p: sin - x * cos, w: (x - sin) * (x + sin) };
         }
         let x2 = x * x;
         let cube = x2 * x;
-        Differences {
-            p: cube / 3.0 * series(x2, &P),
-            w: x2 * x2 / 3.0 * series(x2, &W),
-            rest: cube / 6.0 * series(x2, &REST),
-        }
+        Differences { p: cube / 3.0 * series(x2, &P), w: x2 * x2 / 3.0 * series(x2, &W) }
     }
 }
 
@@ -70,7 +67,9 @@ mod tests {
             let truths = [&sin - &(&n * &cos), &n.square() - &sin.square(), &n - &sin];
             let scale = if x < 1.0 { truths[0].approx() } else { sin.approx().abs() + x * cos.approx().abs() };
             let scales = [scale, truths[1].approx(), truths[2].approx()];
-            for (i, value) in [shape.p, shape.w, shape.rest].into_iter().enumerate() {
+            for (i, value) in
+                [shape.p, shape.w, Differences::others_by_powers(x)[1] * (x * x * x)].into_iter().enumerate()
+            {
                 let units = truths[i].plus(-value).approx().abs() / scales[i].abs() * 2f64.powi(53);
                 let bound = if x < 1.0 { 8.0 } else { [14.0, 80.0, 70.0][i] };
                 assert!(units <= bound, "function {i} of {x}: {units} units");

@@ -89,7 +89,7 @@ impl Datum {
     pub(crate) fn q_of_twins(&self) -> Option<Twin> {
         let number = |x: f64| Twin::of(x, TWIN_BITS);
         let (k1, k2) = (number(self.k1), number(self.k2));
-        let ((sin0, cos0), (sin1, cos1)) = (Twin::sine_cosine(self.alpha), Twin::sine_cosine(self.beta));
+        let ((sin0, cos0), (sin1, cos1)) = (Twin::sin_cos(self.alpha), Twin::sin_cos(self.beta));
         if self.alpha == self.beta {
             return Some(formula!(k1 * k2 + (k2 - k1) * sin0));
         }
@@ -97,7 +97,7 @@ impl Datum {
             (0.0, _) => number(0.0),
             // A small square would cancel.
             (sum, 0.0) if sum.abs() < 1e-3 && sum.abs() > 1e-300 => {
-                let sine = Twin::sine_cosine(0.5 * sum).0;
+                let sine = Twin::sin_cos(0.5 * sum).0;
                 sine.mul(&sine)
             }
             (sum, _) if sum.abs() < 1e-3 => return None,
@@ -147,10 +147,12 @@ impl Datum {
         Ok(())
     }
 
-    /// ω where the sum of the angles is a double: halving is exact, or the result underflows f32 anyway.
+    /// ω, which lies between the halves of both neighbours of the rounded sum of the angles, or is its half.
     fn rounded_omega(&self) -> Option<f32> {
         let (sum, low) = two_sum(self.alpha, self.beta);
-        (low == 0.0).then_some((0.5 * sum) as f32 + 0.0)
+        let ends = if low == 0.0 { [sum; 2] } else { [sum.next_down(), sum.next_up()] };
+        let [from, to] = ends.map(|x| (0.5 * x) as f32 + 0.0);
+        (from == to).then_some(from)
     }
 
     fn scalar(&self, which: usize, bits: usize) -> Option<f32> {
@@ -165,5 +167,34 @@ impl Datum {
         let omega = if omega.approx() < 0.0 { -&omega } else { omega };
         let arc = Equation::new(-&q, omega, 0).solve()?;
         if which == 2 { &arc.theta } else { &arc.t0 }.to_f32()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::Noise;
+
+    /// Random angles, those whose sum is far smaller, and sums beside the middle between two singles.
+    #[test]
+    fn omega_is_the_nearest_single() {
+        let mut noise = Noise(4);
+        let mut open = 0;
+        for round in 0..3000 {
+            let alpha = 3.0 * noise.signed();
+            // Exactly between two singles: the sign of the last summand decides.
+            let tie = 2.0 * (f64::from(alpha as f32) + f64::from((alpha as f32).next_up()));
+            let (alpha, beta) = match round % 3 {
+                0 => (alpha, 3.0 * noise.signed()),
+                1 => (alpha, -alpha * (1.0 + 1e-9 * noise.signed())),
+                _ => (0.25 * tie, [1e-30, -1e-30, 1e-10, 0.0][round % 4]),
+            };
+            let datum = Datum { alpha, beta, k1: 0.0, k2: 1.0 };
+            match datum.rounded_omega() {
+                Some(value) => assert_eq!(Some(value), datum.omega(2000).to_f32(), "{datum:?}"),
+                None => open += 1,
+            }
+        }
+        assert!(open > 100 && open < 1000, "{open}");
     }
 }

@@ -6,7 +6,8 @@
 //!   rises. `side` has the exact sign of the sum of two doubles. Signs of curvatures and their order are plain
 //!   comparisons.
 //! - θ is the root of `F = cos ω P - sin ω X` (`arc.rs`) with `P = sin θ - θ cos θ`, `X = t0 sin θ`: (5) without
-//!   arctangent or branches. The bracket follows from ω alone. Doubles guess it (`num/roots.rs`), intervals enclose it.
+//!   arctangent or branches. The bracket follows from ω alone. Doubles guess it (`num/roots.rs`), sums of two doubles
+//!   enclose it, or intervals where those leave a rounding open.
 //! - `sin x - x cos x`, `x² - sin² x`, `x - sin x` cancel near 0: series there (`differences.rs`).
 //! - Scalars are proved in doubles for most nodes (`fast.rs`) because intervals for each node would cost far more.
 //! - `involute/` evaluates each half of the curve in a form seen from its own end (`half.rs`), where all that cancels

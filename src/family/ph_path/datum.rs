@@ -89,7 +89,7 @@ impl Turned for Ball {
 impl Turned for Twin {
     fn half_turn(theta: f64, _bits: usize) -> [Twin; 2] {
         // Halving is exact: angles other than 0 are 1e-9 and more.
-        let (sin, cos) = Twin::sine_cosine(0.5 * theta);
+        let (sin, cos) = Twin::sin_cos(0.5 * theta);
         [cos, sin]
     }
 }

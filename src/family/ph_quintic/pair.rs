@@ -80,7 +80,7 @@ impl Pair<Twin> {
     /// The pair in two doubles each; `None` when they do not tell that cos Φ is positive, or where halving an angle may
     /// not be exact.
     pub(super) fn twins(phi0: f64, phi1: f64) -> Option<Pair<Twin>> {
-        let half = |phi: f64| (phi > 1e-300).then(|| Twin::sine_cosine(0.5 * phi));
+        let half = |phi: f64| (phi > 1e-300).then(|| Twin::sin_cos(0.5 * phi));
         Pair::of_halves([half(phi0)?, half(phi1)?], phi0 < phi1)
     }
 }

@@ -93,7 +93,7 @@ impl ExactAngle<Interval> {
 impl ExactAngle<Twin> {
     /// In two doubles each.
     pub(super) fn twins(kind: Kind, theta: f64) -> Option<ExactAngle<Twin>> {
-        ExactAngle::of(kind, Twin::sine_cosine(theta))
+        ExactAngle::of(kind, Twin::sin_cos(theta))
     }
 }
 

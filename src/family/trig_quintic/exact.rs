@@ -3,8 +3,8 @@
 use super::plain::{end_slope, flags};
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use super::{END_RISES, SPIRAL};
-use crate::num::Interval;
 use crate::num::bernstein::positive;
+use crate::num::{Interval, Number};
 use std::cmp::Ordering::Equal;
 
 /// The shape of a curve, taken as exact.
@@ -54,9 +54,9 @@ pub(super) fn judge(shape: &Shape, bits: usize) -> Option<u8> {
 }
 
 /// From a form's coefficients those of the same form in Bernstein's basis, up to a common factor.
-pub(super) fn bernstein(c: [Interval; K]) -> [Interval; K] {
+pub(super) fn bernstein<N: Number>(c: [N; K]) -> [N; K] {
     let mut factors = BERNSTEIN.into_iter();
-    c.map(|c| c.scale(factors.next().unwrap_or(1.0)))
+    c.map(|c| c.times(factors.next().unwrap_or(1.0)))
 }
 
 /// The form divided by `1 - τ`, its last coefficient being 0, times `(1 - τ) + τ`.

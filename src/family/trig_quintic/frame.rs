@@ -2,8 +2,8 @@
 
 use super::poly::Frame;
 use crate::error::{Error, Result, positive};
-use crate::num::Interval;
 use crate::num::sines::{cos, sin};
+use crate::num::{Interval, Real};
 use std::f64::consts::FRAC_PI_2;
 
 /// Names of the coordinates, in order.
@@ -49,9 +49,16 @@ impl Frame<f64> {
 impl Frame<Interval> {
     /// In intervals; `None` when the precision does not suffice.
     pub(super) fn exact(ratio: f64, theta: f64, bits: usize) -> Option<Frame<Interval>> {
-        let (sine, cosine) = Interval::sin_cos(theta, bits);
+        Frame::of(ratio, Interval::sin_cos(theta, bits))
+    }
+}
+
+impl<N: Real> Frame<N> {
+    /// From sine and cosine of the angle.
+    pub(super) fn of(ratio: f64, (sine, cosine): (N, N)) -> Option<Frame<N>> {
         let whole = cosine.plus(1.0);
-        let y = Interval::new(ratio, bits).over(&whole.scale(2.0))?;
-        Some(Frame { y, last: cosine.scale(6.0).over(&whole)?, square: sine.over(&whole)?.square() })
+        let tangent = sine.over(&whole)?;
+        let y = N::of(ratio, sine.bits()).over(&whole.times(2.0))?;
+        Some(Frame { y, last: cosine.times(6.0).over(&whole)?, square: tangent.mul(&tangent) })
     }
 }

@@ -10,9 +10,9 @@ use crate::family::{Shader, ShaderInputs};
 use crate::grid::Grid;
 use std::cmp::Ordering::Less;
 
-/// Pieces that wait: a piece of 2^-10 shows features that the error of f32 coefficients does not hide anyway.
-const MOST_LEVELS: usize = 12;
-/// Halvings of one polynomial; see `positive` in the shader.
+/// Halvings of a piece: one of 2^-10 shows features that the error of f32 coefficients does not hide anyway.
+const MOST_LEVELS: usize = 10;
+/// Halvings of one polynomial in all; see `positive` in the shader.
 const MOST_HALVINGS: usize = 32;
 /// 2^-24.
 const UNIT: f64 = 1.0 / (1u32 << 24) as f64;

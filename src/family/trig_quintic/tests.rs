@@ -1,7 +1,8 @@
 use super::exact::{Shape, judge};
 use super::plain::{PRINTED_Q, end_slope, flags, printed_ratio};
-use super::threshold::{exact_least_ratio, least_ratio};
+use super::threshold::{by_twins, exact_least_ratio, least_ratio};
 use super::*;
+use crate::noise::Noise;
 use crate::num::{Interval, climb, formula};
 use crate::steps::counted;
 use std::cmp::Ordering::{Equal, Greater, Less};
@@ -106,4 +107,24 @@ fn thresholds_of_any_shape_are_decided_in_few_halvings() {
         }
     }
     assert!(most < 1000 && found > 5, "{found} thresholds, most halvings {most}");
+}
+
+/// Shapes of any size, of most of which doubles tell no threshold.
+#[test]
+fn thresholds_of_two_doubles_are_those_of_intervals() {
+    let mut noise = Noise(8);
+    let (mut told, mut found) = (0, 0);
+    for _ in 0..40 {
+        let end = |noise: &mut Noise| -4.0 + 5.0 * 10f64.powf(-8.0 * noise.next());
+        let theta = 1.57 * 10f64.powf(-6.0 * noise.next());
+        let shape =
+            Shape { ratio: 1.0, theta, m: 10f64.powf(4.0 * noise.signed()), p: end(&mut noise), q: end(&mut noise) };
+        let Some(threshold) = by_twins(&shape) else { continue };
+        let truth = exact_least_ratio(&shape).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(threshold, truth, "{shape:?}");
+        assert_eq!(least_ratio(&shape).ok(), Some(truth), "{shape:?}");
+        told += 1;
+        found += usize::from(truth != crate::family::NO_VALUE);
+    }
+    assert!(told > 35 && found > 10, "{told} told, {found} of them thresholds");
 }

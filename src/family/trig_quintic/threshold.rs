@@ -15,7 +15,7 @@ use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
 use crate::num::bernstein::{Certain, positive};
-use crate::num::{Interval, Number, Verdict, climb, formula};
+use crate::num::{Interval, Number, Real, TWIN_BITS, Twin, Verdict, climb, formula};
 use std::array::from_fn;
 
 /// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute
@@ -34,10 +34,21 @@ const ROUNDS: u32 = 24;
 pub(super) fn least_ratio(shape: &Shape) -> Result<f32> {
     let found = fast(shape).and_then(|sweep| {
         let hint = guess(&sweep.c);
-        // The guess is nearly always right; else every ratio between may be tried.
-        hint.and_then(|hint| sweep.search(Some(hint))).or_else(|| sweep.search(None))
+        sweep.near(hint)
     });
-    found.map_or_else(|| exact_least_ratio(shape), Ok)
+    found.or_else(|| by_twins(shape)).map_or_else(|| exact_least_ratio(shape), Ok)
+}
+
+/// The same in sums of two doubles, where they prove it.
+pub(super) fn by_twins(shape: &Shape) -> Option<f32> {
+    let frame = Frame::of(1.0, Twin::sin_cos(shape.theta))?;
+    let c = in_ratio(&frame, [shape.m, shape.p, shape.q].map(|x| Twin::of(x, TWIN_BITS)), -1.0).map(bernstein);
+    Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0 }.near(hint(shape))
+}
+
+/// Where doubles say that it is; better numbers need not follow.
+fn hint(shape: &Shape) -> Option<u32> {
+    fast(shape).map(|sweep| sweep.bisect(LEAST.to_bits() - 1))
 }
 
 /// The same by intervals alone.
@@ -45,13 +56,11 @@ pub(super) fn least_ratio(shape: &Shape) -> Result<f32> {
 /// # Errors
 /// As there.
 pub(super) fn exact_least_ratio(shape: &Shape) -> Result<f32> {
-    // Where doubles say it is; intervals need not follow.
-    let hint = fast(shape).map(|sweep| sweep.bisect(LEAST.to_bits() - 1));
+    let hint = hint(shape);
     climb(shape, "a scalar", |bits| {
         let frame = Frame::exact(1.0, shape.theta, bits)?;
         let c = in_ratio(&frame, [shape.m, shape.p, shape.q].map(|x| Interval::new(x, bits)), -1.0).map(bernstein);
-        let sweep = Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0 };
-        hint.and_then(|hint| sweep.search(Some(hint))).or_else(|| sweep.search(None))
+        Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0 }.near(hint)
     })
     .map(|(value, _)| value)
 }
@@ -127,9 +136,9 @@ impl<N: Number> Number for Power<N> {
 /// f for all ratios, in Bernstein's basis along the curve.
 struct Sweep<N> {
     c: [[N; K]; DEGREE + 1],
-    /// Sums of the absolute values of terms.
+    /// Sums of the absolute values of terms, of doubles.
     size: [[f64; K]; DEGREE + 1],
-    /// Error relative to these; 0 for intervals.
+    /// Error relative to these; 0 for numbers that know their own.
     error: f64,
 }
 
@@ -152,6 +161,11 @@ fn upper(bits: u32) -> f64 {
 }
 
 impl<N: Certain> Sweep<N> {
+    /// [`Sweep::search`] from a hint, which is nearly always right; else every ratio between may be tried.
+    fn near(&self, hint: Option<u32>) -> Option<f32> {
+        hint.and_then(|hint| self.search(Some(hint))).or_else(|| self.search(None))
+    }
+
     /// Finds the single that the threshold rounds to, and proves it; `None` where something is not proved.
     fn search(&self, hint: Option<u32>) -> Option<f32> {
         if !self.spiral(f64::from(MOST))? {

@@ -86,7 +86,7 @@ impl Half {
         let ratio = |x: f64| if x == 0.0 { 1.0 } else { x.sin() / x };
         let (sinc, half) = (ratio(v), ratio(0.5 * v));
         let h = 0.5 * half * half;
-        let p = Differences::by_powers(v).p;
+        let p = Differences::p_by_powers(v);
         let shrink = 1.0 / (1.0 + far * w);
         let a = [side * far * w * (sinc - h) + near * sinc, -v * (p * far * w + side * near * h)]
             .map(|x| w / (1.0 + w) * shrink * x);
@@ -106,8 +106,9 @@ impl Half {
         let [x, y] = turn(turn([cos_angle, sin_angle], a), [divisor[0], -divisor[1]])
             .map(|x| 2.0 * side * self.scale * x / dot(divisor, divisor));
         // (v² - 2h)/v⁴ = (v² - 4 sin²(v/2))/v⁴.
-        let square = 0.25 * Differences::by_powers(0.5 * v).w;
-        let last = 0.25 * length(self.grow) * (square * far * w + 2.0 * side * near * Differences::by_powers(v).rest);
+        let square = 0.25 * Differences::others_by_powers(0.5 * v)[0];
+        let last =
+            0.25 * length(self.grow) * (square * far * w + 2.0 * side * near * Differences::others_by_powers(v)[1]);
         let bend = self.bend * u * u * (w * far * (last / t));
         let turning = side * self.swing * u * h - self.sway * sinc;
         Place {
@@ -118,12 +119,12 @@ impl Half {
     }
 
     /// Length for each unit of `y = ln(1 + w)`, and how far rounding may move it: about 8 units of the divisor's terms,
-    /// twice.
-    pub(super) fn speed(&self, u: f64) -> [f64; 2] {
+    /// twice. `grown` is the length of [`Half::grow`], for all.
+    pub(super) fn speed(&self, u: f64, grown: f64) -> [f64; 2] {
         let Seen { w, shrink, t, divisor, .. } = self.seen(u);
         let size = length(divisor);
         let speed = 4.0 * self.scale * t * (shrink / size).powi(2) / (1.0 + w);
-        let terms = (2.0 / (1.0 + w) + 2.0 * length(self.grow) * t * w / (1.0 + w)) * shrink;
+        let terms = (2.0 / (1.0 + w) + 2.0 * grown * t * w / (1.0 + w)) * shrink;
         [speed, speed * 16.0 * f64::EPSILON * terms / size]
     }
 

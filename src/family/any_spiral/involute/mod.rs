@@ -15,6 +15,7 @@
 //! ```
 
 mod half;
+mod numbers;
 mod solve;
 #[cfg(test)]
 mod steps;
@@ -105,7 +106,7 @@ impl Spiral {
 /// it decreases, as (1) in the paper has it.
 ///
 /// # Accuracy
-/// Existence is proved for the doubles given. θ, t0 and the factors of the map are correctly rounded from intervals;
+/// Existence is proved for the doubles given. θ, t0 and the factors of the map are correctly rounded;
 /// see [`Involute::at`] for points.
 ///
 /// # Errors

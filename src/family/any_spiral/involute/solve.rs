@@ -1,14 +1,13 @@
 //! From two ends to the curve.
 
 use super::super::Datum;
-use super::super::arc::{Arc, Equation};
-use super::half::Half;
+use super::numbers::Numbers;
 use super::track::Track;
 use super::turns::{Split, range};
 use super::{Image, Spiral, WhyNone};
 use crate::error::{Result, samples};
 use crate::num::bernstein::Certain;
-use crate::num::{Interval, climb, formula};
+use crate::num::{Interval, TWIN_BITS, climb, formula};
 use serde::Serialize;
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::f64::consts::{PI, TAU};
@@ -39,24 +38,6 @@ pub struct InvolutePoint {
     pub direction: f64,
     /// Signed curvature.
     pub curvature: f64,
-}
-
-/// All numbers that the curve is made of, rounded from intervals.
-struct Numbers {
-    theta: f64,
-    beyond: f64,
-    t0: f64,
-    rho: f64,
-    lambda: f64,
-    halves: [Half; 2],
-}
-
-/// What is asked of the arc: -Q, `-(k1 + sin α)` and ω, without its half turns in `rest`.
-struct Wanted {
-    q: Interval,
-    room: Interval,
-    rest: Interval,
-    half_turns: u32,
 }
 
 /// How much a curve took to find.
@@ -127,12 +108,10 @@ fn split(datum: &Datum, turns: [u32; 2], curve: &Involute) -> Split {
 
 /// The curve of rising curvature with `turns` in all, to be mirrored or not.
 fn found(datum: &Datum, half_turns: u32, turns: u32, mirrored: bool) -> Result<(Involute, Work)> {
-    let ((numbers, evaluations), bits) = climb(datum, "the arc of the involute", |bits| {
-        // Differences of the data may take far more bits than the arc does, but sines of two angles only.
-        let wanted =
-            climb(datum, "Q", |b| if b < bits { None } else { Wanted::new(datum, half_turns, b, bits) }).ok()?.0;
-        Numbers::new(datum, &wanted, bits)
-    })?;
+    let ((numbers, evaluations), bits) = match Numbers::by_twins(datum, half_turns) {
+        Some(found) => (found, TWIN_BITS),
+        None => Numbers::by_intervals(datum, half_turns)?,
+    };
     let curve = Involute::new(datum, numbers, turns, mirrored);
     let pieces = curve.tracks.iter().map(Track::pieces).sum();
     Ok((curve, Work { bits, evaluations, pieces }))
@@ -141,118 +120,6 @@ fn found(datum: &Datum, half_turns: u32, turns: u32, mirrored: bool) -> Result<(
 /// ω with the half turns that are added to it.
 fn total(datum: &Datum, half_turns: u32, bits: usize) -> Interval {
     formula!(datum.omega(bits) + Interval::pi(bits) * { f64::from(half_turns) })
-}
-
-/// Whether a number is known to so many bits.
-fn thin(x: &Interval, bits: usize) -> bool {
-    let width = &x.upper() - &x.lower();
-    let allowed = &x.size().upper() * &Interval::power_of_two(-(bits as isize), x.bits());
-    width.compare(&allowed) == Some(Less)
-}
-
-/// `r e^(ix)`.
-fn polar(r: &Interval, x: &Interval) -> [Interval; 2] {
-    let (sin, cos) = x.sine_cosine();
-    [r * &cos, r * &sin]
-}
-
-impl Wanted {
-    /// At a precision that leaves three quarters of `wanted` bits.
-    fn new(datum: &Datum, half_turns: u32, bits: usize, wanted: usize) -> Option<Wanted> {
-        let q = -&datum.q(bits);
-        let room = -&(&Interval::new(datum.k1, bits) + &Interval::sin_cos(datum.alpha, bits).0);
-        let known = [&q, &room].into_iter().all(|x| thin(x, wanted - wanted / 4));
-        // The sum of two doubles comes out to all bits, or to 0.
-        known.then(|| Wanted {
-            q: q.rounded(wanted),
-            room: room.rounded(wanted),
-            rest: datum.omega(bits).rounded(wanted),
-            half_turns,
-        })
-    }
-}
-
-impl Numbers {
-    fn new(datum: &Datum, wanted: &Wanted, bits: usize) -> Option<(Numbers, usize)> {
-        let Wanted { q, room, rest, half_turns } = wanted;
-        let equation = Equation::new(q.clone(), rest.clone(), *half_turns);
-        let Arc { theta, sin, cos: _, p, a, t0, t1 } = equation.solve()?;
-        let half_chord = (&(&t0 * &sin).square() + &p.square()).sqrt()?;
-        // ρ = (k1* + sin α*)/(k1 + sin α), both negative.
-        let rho = formula!(t0 * a + p * sin).over(&formula!(half_chord * t1 * room))?;
-        if ![&theta, &t1, &rho, &half_chord].into_iter().all(|x| thin(x, 80)) {
-            return None;
-        }
-        // λ = α - α*, α* = ω + θ; any full turns do.
-        let [alpha, beta] = [datum.alpha, datum.beta].map(|x| Interval::new(x, bits));
-        let omega = formula!(rest + Interval::pi(bits) * { f64::from(*half_turns) });
-        let ahead = &omega + &theta;
-        let lambda = &alpha - &ahead;
-        let inverse = Interval::new(1.0, bits).over(&rho)?;
-        // q = (1 - 1/m) e^(iα) at the start, and (1 - m) e^(iβ) at the end, where λ + β = ω - θ up to full turns.
-        let factor = |angle: &Interval, by: &Interval, other: &Interval| {
-            let ([x, y], [u, v]) = (polar(&Interval::new(1.0, bits), angle), polar(by, other));
-            [&x - &u, &y - &v]
-        };
-        let start = End { side: 1.0, t: &t1, scale: rho.over(&half_chord)?, q: factor(&alpha, &inverse, &ahead) };
-        let end = End {
-            side: -1.0,
-            t: &(&t0 + &theta),
-            scale: inverse.over(&half_chord)?,
-            q: factor(&beta, &rho, &(&omega - &theta)),
-        };
-        let halves = [start.half(&theta, datum.alpha, datum.k1)?, end.half(&theta, datum.beta, datum.k2)?];
-        // θ from the nearest multiple of π.
-        let turns = (theta.approx() / PI).round();
-        let beyond = formula!(theta - Interval::pi(bits) * { turns });
-        let numbers = Numbers {
-            theta: theta.approx(),
-            beyond: beyond.approx(),
-            t0: t0.approx(),
-            rho: rho.approx().clamp(f64::MIN_POSITIVE, f64::MAX),
-            lambda: lambda.approx(),
-            halves,
-        };
-        Some((numbers, equation.evaluations()))
-    }
-}
-
-/// What a [`Half`] is made of: σ, T, r and q.
-struct End<'i> {
-    side: f64,
-    t: &'i Interval,
-    scale: Interval,
-    q: [Interval; 2],
-}
-
-impl End<'_> {
-    fn half(&self, theta: &Interval, angle: f64, curvature: f64) -> Option<Half> {
-        let End { side, t, scale, q } = self;
-        let bits = theta.bits();
-        // s, a power of two, from the exponents of r max(1, |q|) and T.
-        let exponent = |x: &Interval| x.magnitude().unwrap_or(isize::MIN / 4);
-        let steep = exponent(scale) + exponent(&q[0]).max(exponent(&q[1])).max(0);
-        let s = (-steep).div_euclid(2).min(-steep - exponent(t)).min(exponent(theta) - 1).min(0);
-        let s = Interval::power_of_two(s, bits);
-        let whole = &s + t;
-        let unit = formula!(scale * s * whole);
-        let size = (&q[0].square() + &q[1].square()).sqrt()?;
-        Some(Half {
-            side: *side,
-            t: t.approx(),
-            theta: theta.approx(),
-            reach: theta.over(&s)?.approx(),
-            near: t.over(&whole)?.approx(),
-            far: s.over(&whole)?.approx(),
-            scale: unit.approx(),
-            grow: [(&unit * &q[0]).approx(), (&unit * &q[1]).approx()],
-            angle,
-            bend: (&(&size * theta) * &theta.over(&s)?).approx(),
-            swing: (&q[0] * theta).approx(),
-            sway: q[1].approx(),
-            curvature,
-        })
-    }
 }
 
 impl Involute {

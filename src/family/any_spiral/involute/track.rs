@@ -1,6 +1,7 @@
 //! The length along a half of the curve, tabulated once.
 
 use super::half::Half;
+use crate::curve::vector::length;
 use crate::curve::{gauss, parameter_of};
 
 /// A half in pieces on each of which one Gauss-Legendre rule gives the length.
@@ -13,6 +14,8 @@ use crate::curve::{gauss, parameter_of};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Track {
     pub half: Half,
+    /// The length of its `grow`.
+    grown: f64,
     /// y and the length from the half's end, from [0, 0] on.
     knots: Vec<[f64; 2]>,
 }
@@ -39,7 +42,7 @@ impl Track {
             here = (here + PIECE.min((PIECE / v).ln_1p())).min(last);
             ends.push(here);
         }
-        let mut track = Track { half, knots: vec![[0.0, 0.0]] };
+        let mut track = Track { half, grown: length(half.grow), knots: vec![[0.0, 0.0]] };
         let wholes: Vec<_> = ends.windows(2).map(|w| track.between(w[0], w[1])).collect();
         let tolerance = TOLERANCE * wholes.iter().map(|x| x[0]).sum::<f64>();
         for (ends, whole) in ends.windows(2).zip(wholes) {
@@ -64,9 +67,13 @@ impl Track {
         }
     }
 
+    fn speed(&self, y: f64) -> [f64; 2] {
+        self.half.speed(self.half.share(y), self.grown)
+    }
+
     /// Length from y to y, and its rounding.
     fn between(&self, from: f64, to: f64) -> [f64; 2] {
-        gauss(|y| self.half.speed(self.half.share(y)), from, to)
+        gauss(|y| self.speed(y), from, to)
     }
 
     /// The whole half's length.
@@ -94,7 +101,7 @@ impl Track {
         let next = self.knots.partition_point(|k| k[1] < length).clamp(1, self.pieces());
         let ([start, before], [end, after]) = (self.knots[next - 1], self.knots[next]);
         let guess = start + (end - start) * ((length - before) / (after - before)).clamp(0.0, 1.0);
-        let at = |y: f64| [before + self.between(start, y)[0] - length, self.half.speed(self.half.share(y))[0]];
+        let at = |y: f64| [before + self.between(start, y)[0] - length, self.speed(y)[0]];
         self.half.share(parameter_of(at, [start, end], guess, 0.0))
     }
 }
