@@ -42,6 +42,7 @@
 //! interval around a root decides how much the rest can prove.
 
 mod angles;
+mod blocks;
 mod exact;
 mod filter;
 mod pair;
