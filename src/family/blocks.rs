@@ -126,7 +126,11 @@ fn blocks<S: Simd, R: Blocks>(
                     bounds[1][lane] = axis[to - 1];
                 }
             }
-            let [third, fourth] = bounds.map(|ends| ends.map(|ends| S::f64s::from_slice(simd, &ends[..vector])));
+            let [third, fourth] = &bounds;
+            let third =
+                [S::f64s::from_slice(simd, &third[0][..vector]), S::f64s::from_slice(simd, &third[1][..vector])];
+            let fourth =
+                [S::f64s::from_slice(simd, &fourth[0][..vector]), S::f64s::from_slice(simd, &fourth[1][..vector])];
             rows.codes_on(simd, plane, third, fourth, codes);
             for (block, code) in some.iter().zip(codes) {
                 let [[top, bottom], [left, right]] = block.0;

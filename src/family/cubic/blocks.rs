@@ -136,9 +136,9 @@ struct Which {
 }
 
 impl Blocks for CubicTable<'_> {
-    const LEAST: usize = 64;
+    const LEAST: usize = 24;
     const FIRST: usize = 32;
-    const LEAF: usize = 8;
+    const LEAF: usize = 32;
     type Plane = Plane;
 
     fn plane(&self, prepared: &Prepared) -> Option<Plane> {
