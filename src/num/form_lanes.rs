@@ -160,3 +160,78 @@ impl<S: Simd> Number for FormLanes<S> {
         FormLanes { value, error: (self.error + value.abs() * UNIT) * GROW, ..*self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::Noise;
+    use crate::num::{Interval, Quadratic};
+    use fearless_simd::{Level, dispatch};
+
+    /// The first lane of a form, with what it holds at least and at most.
+    fn first<S: Simd>(form: &FormLanes<S>) -> (Quadratic, [f64; 2]) {
+        let lane = |x: S::f64s| x.as_slice()[0];
+        let plain = Quadratic {
+            value: lane(form.value),
+            slope: form.slope.map(lane),
+            bend: form.bend.map(lane),
+            error: lane(form.error),
+        };
+        (plain, [lane(form.low()), lane(form.high())])
+    }
+
+    /// `((p q + c)² - 0.3 p) s + q`, and its least half in Bernstein's form with p and q.
+    fn expressions<S: Simd>(simd: S, [p, q]: [[f64; 2]; 2], c: f64, s: f64) -> [(Quadratic, [f64; 2]); 2] {
+        let along = |[low, high]: [f64; 2], symbol: usize| {
+            let mut form = FormLanes::exact(simd, S::f64s::splat(simd, 0.5 * (low + high)));
+            form.slope[symbol] = S::f64s::splat(simd, 0.5 * (high - low));
+            form.off(S::f64s::splat(simd, 2.0 * f64::EPSILON * (low.abs() + high.abs())))
+        };
+        let (p, q) = (along(p, 0), along(q, 1));
+        let sum = p.mul(&q).plus(c);
+        let long = sum.mul(&sum).sub(&p.times(0.3)).scaled(S::f64s::splat(simd, s)).add(&q);
+        let [half, _] = halve_forms(&[p, long, q]);
+        [first(&long), first(&half[2])]
+    }
+
+    /// Of random expressions over ranges of any width: the truth is held, and not by being far too large.
+    #[test]
+    fn lanes_hold_the_truth() {
+        let mut noise = Noise(8);
+        let (mut worst, mut tight) = (0.0f64, 0);
+        for _ in 0..3000 {
+            let width = 2f64.powi((40.0 * (noise.signed() - 1.0)) as i32);
+            let ranges = [0, 1].map(|_| {
+                let (middle, half) = (4.0 * noise.signed(), width * noise.next());
+                [middle - half * middle.abs(), middle + half * middle.abs()]
+            });
+            let (c, s) = (noise.signed(), noise.next());
+            let found = dispatch!(Level::new(), simd => expressions(simd, ranges, c, s));
+            for _ in 0..4 {
+                let place = [0, 1].map(|_| (2.0 * noise.signed()).clamp(-1.0, 1.0));
+                let [p, q] = [0, 1].map(|i| {
+                    let [low, high] = ranges[i].map(|x| Interval::new(x, 300));
+                    &low.scale(0.5 - 0.5 * place[i]) + &high.scale(0.5 + 0.5 * place[i])
+                });
+                let long = &(&(&p * &q).plus(c).square() - &p.scale(0.3)).scale(s) + &q;
+                let half = &(&p + &q).scale(0.25) + &long.scale(0.5);
+                for ((form, [low, high]), truth) in found.iter().zip([long, half]) {
+                    let symbols = place.map(|x| Interval::new(x, 300));
+                    let [x, y] = &symbols;
+                    let terms = [(form.slope[0], x.clone()), (form.slope[1], y.clone())];
+                    let squares = [(form.bend[0], x.square()), (form.bend[1], x * y), (form.bend[2], y.square())];
+                    let held = terms
+                        .iter()
+                        .chain(&squares)
+                        .fold(Interval::new(form.value, 300), |sum, (k, term)| &sum + &term.scale(*k));
+                    let (off, truth) = ((&truth - &held).approx().abs(), truth.approx());
+                    assert!(off <= form.error, "{ranges:?} at {place:?}: {form:?} is off by {off}");
+                    assert!(*low <= truth && truth <= *high, "{ranges:?} at {place:?}: {form:?} {low} {high}");
+                    worst = worst.max(off / form.error);
+                    tight += usize::from(high - low < 4.0 * form.range().error + 1e-12);
+                }
+            }
+        }
+        assert!(worst > 0.1 && tight > 20_000, "{worst} {tight}");
+    }
+}
