@@ -435,7 +435,7 @@ fn unit_signs<S: Simd>(simd: S, c: &[FormLanes<S>; 6], wanted: u64) -> (u64, u64
         for i in (0..6).rev() {
             value = value * place + c[i].value * BINOMIALS[i];
         }
-        value = value * (1.0 + place).powi(-5);
+        value *= (1.0 + place).powi(-5);
         let lower = value.simd_lt(least);
         least = lower.select(value, least);
         s = lower.select(S::f64s::splat(simd, place), s);
