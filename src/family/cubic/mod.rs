@@ -52,6 +52,7 @@ mod region;
 mod root;
 mod shader;
 mod solve;
+mod surface;
 mod table;
 
 pub use solve::{Datum, Root, Solutions, solve};
