@@ -1,9 +1,9 @@
-//! Cells of the cubic, by hand: `cargo bench --bench cells -- [resolution] [MiB]`. What is MIXED, and what a lookup
-//! and a verdict cost.
+//! Cells of the cubic, then of `ph-quintic`, by hand: `cargo bench --bench cells -- [resolution] [MiB] [resolution of
+//! ph-quintic] [its MiB]`. What is MIXED, and what a lookup, a verdict and a solution cost.
 
 use spiral_atlas::cells::{Cells, Spec, build, write};
-use spiral_atlas::family::cubic::{ANY_SPIRAL, Datum, SPIRAL, solve};
-use spiral_atlas::family::{Family, by_name};
+use spiral_atlas::family::cubic::Datum;
+use spiral_atlas::family::{Family, by_name, cubic, ph_quintic};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
@@ -15,7 +15,18 @@ const FEW: usize = 1_000;
 
 fn main() -> spiral_atlas::Result<()> {
     let numbers: Vec<usize> = std::env::args().filter_map(|a| a.parse().ok()).collect();
-    let (resolution, mib) = (numbers.first().copied().unwrap_or(64), numbers.get(1).copied().unwrap_or(32));
+    let number = |at: usize, usual: usize| numbers.get(at).copied().unwrap_or(usual);
+    let solve = |p: &[f64; 4]| drop(black_box(cubic::solve(&datum(p))));
+    measure("cubic", number(0, 64), number(1, 32), &solve)?;
+    let solve = |p: &[f64; 4]| drop(black_box(ph_quintic::solve(&datum(p))));
+    measure("ph-quintic", number(2, 16), number(3, 8), &solve)
+}
+
+fn datum(&[phi0, phi1, kappa0, kappa1]: &[f64; 4]) -> Datum {
+    Datum { phi0, phi1, kappa0, kappa1 }
+}
+
+fn measure(name: &str, resolution: usize, mib: usize, solve: &dyn Fn(&[f64; 4])) -> spiral_atlas::Result<()> {
     let count = resolution + 1;
     let axis = |name, spacing| Axis::new(name, spacing);
     let grid = Grid::new(vec![
@@ -24,13 +35,15 @@ fn main() -> spiral_atlas::Result<()> {
         axis("kappa0", Spacing::Linear { lo: 0.01, hi: 1.0, count })?,
         axis("kappa1", Spacing::Log { lo: 0.1, hi: 100.0, count })?,
     ])?;
-    let family: &'static dyn Family = by_name("cubic")?;
+    let family: &'static dyn Family = by_name(name)?;
+    let flag = |name: &str| family.about().bit(name).map_or(0, |bit| 1 << bit);
+    let (spiral_flag, any_spiral) = (flag("SPIRAL"), flag("ANY_SPIRAL"));
     let spec = Spec { name: "bench", family, grid: &grid, budget: (mib as u64) << 20, recipe: "" };
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
     let started = Instant::now();
     let built = build(&spec, threads, &AtomicBool::new(false), &|_| ())?;
     println!(
-        "resolution {resolution}, {mib} MiB: made in {:.1} s with {threads} threads",
+        "{name}, resolution {resolution}, {mib} MiB: made in {:.1} s with {threads} threads",
         started.elapsed().as_secs_f64()
     );
     let path = std::env::temp_dir().join("spiral-atlas-bench-cells.safetensors");
@@ -45,12 +58,12 @@ fn main() -> spiral_atlas::Result<()> {
     let mut within: Vec<[f64; 4]> = Vec::new();
     while within.len() < POINTS {
         let point = random.point();
-        if cells.verdict(&point, ANY_SPIRAL)? != 0 {
+        if cells.verdict(&point, any_spiral)? != 0 {
             within.push(point);
         }
     }
     for (what, points) in [("whole box", &points), ("inside the outer bound", &within)] {
-        let mut mixed = [0; 5];
+        let mut mixed = [0; 8];
         for known in points.iter().filter_map(|p| cells.lookup(p)) {
             mixed
                 .iter_mut()
@@ -71,7 +84,9 @@ fn main() -> spiral_atlas::Result<()> {
             }
             started.elapsed().as_secs_f64() * 1e9 / (rounds * points.len()) as f64
         });
-        println!("{what}: {:.1} ns", best.fold(f64::INFINITY, f64::min));
+        let best = best.fold(f64::INFINITY, f64::min);
+        println!("{what}: {best:.1} ns");
+        best
     };
     let lookup = |p: &[f64; 4]| {
         black_box(cells.lookup(black_box(p)));
@@ -84,17 +99,16 @@ fn main() -> spiral_atlas::Result<()> {
         let _ = black_box(cells.verdict(black_box(p), u8::MAX));
     };
     let spiral = |p: &[f64; 4]| {
-        let _ = black_box(cells.verdict(black_box(p), SPIRAL));
+        let _ = black_box(cells.verdict(black_box(p), spiral_flag));
     };
     time("verdict of all flags, inside the outer bound", &within, 1, &all);
-    time("verdict of SPIRAL, inside the outer bound", &within, 1, &spiral);
-    time("verdict of SPIRAL, whole box", &points, 1, &spiral);
-    let solved = |p: &[f64; 4]| {
-        let [phi0, phi1, kappa0, kappa1] = *p;
-        let _ = black_box(solve(&Datum { phi0, phi1, kappa0, kappa1 }));
+    let ratio = |what: &str, points: &[[f64; 4]]| {
+        let verdict = time(&format!("verdict of SPIRAL, {what}"), points, 1, &spiral);
+        let solved = time(&format!("solve, {what}"), &points[..points.len() / 50], 1, solve);
+        println!("solve over verdict, {what}: {:.1}", solved / verdict);
     };
-    time("solve, inside the outer bound", &within[..100_000], 1, &solved);
-    time("solve, whole box", &points[..100_000], 1, &solved);
+    ratio("inside the outer bound", &within);
+    ratio("whole box", &points);
     std::fs::remove_file(&path).map_err(|source| spiral_atlas::Error::Io { path, source })
 }
 

@@ -1,4 +1,4 @@
-"""Roads made by `export opendrive`, and drawings by `export dxf`: each file is read back, and judged by others' programs.
+"""Roads made by `export opendrive`, and drawings by `export dxf`: each is read back, and judged by others' programs.
 
     python tests/opendrive.py PROGRAM FOLDER
 """
@@ -177,7 +177,8 @@ def drawing(name, text):
                 found = found[::-1]
             heading = piece.get("start_direction", piece.get("direction"))
             normal = np.array([-math.sin(heading), math.cos(heading)])
-            end = np.array(piece["start"]) + (math.sin(turn) * np.array([normal[1], -normal[0]]) + (1 - math.cos(turn)) * normal) / k
+            along = np.array([normal[1], -normal[0]])
+            end = np.array(piece["start"]) + (math.sin(turn) * along + (1 - math.cos(turn)) * normal) / k
             true = np.array([piece["start"], end])
         worst = max(worst, np.abs(found - true).max() / max(1, np.abs(true).max()))
     assert worst < 2e-12, (name, worst)

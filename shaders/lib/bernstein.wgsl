@@ -30,8 +30,8 @@ fn half_of(c: Quintic, right: bool) -> Quintic {
     );
 }
 
-// YES, NO (negative somewhere), or OPEN, for coefficients that may each be off by `error`; each halving adds `rounding`:
-// five steps of one addition, exactly halved.
+// YES, NO (negative somewhere), or OPEN, for coefficients that may each be off by `error`; each halving adds
+// `rounding`: five steps of one addition, exactly halved.
 //
 // Pieces are looked at from left to right. None waits in memory, which registers cannot index: the next one is made
 // anew from the whole, a halving a round, as the digits of its place say.

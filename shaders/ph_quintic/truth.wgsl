@@ -1,6 +1,7 @@
 // Twin of family/ph_quintic/truth.rs in f32: the code of a node.
 
-// Solutions and spirals packed as counts, and the flags that follow; UNDECIDED where f32 cannot tell. `any`: whether a spiral is possible.
+// Solutions and spirals packed as counts, and the flags that follow; UNDECIDED where f32 cannot tell. `any`: whether a
+// spiral is possible.
 fn count(curves: Curves, any: bool) -> u32 {
     // Knots before and behind which there is no solution.
     var a = knot(curves, 0.0625);

@@ -55,11 +55,12 @@ fn right_half(whole: Coefficients) -> Coefficients {
     return c;
 }
 
-// Signs on [0, 1] as in num/bernstein.rs, for coefficients that are exact; each halving adds 37 roundings of the whole's
-// largest.
+// Signs on [0, 1] as in num/bernstein.rs, for coefficients that are exact; each halving adds 37 roundings of the
+// whole's largest.
 //
-// Pieces are looked at from left to right, as in lib/bernstein.wgsl. A halving takes 37 iterations of a loop: lavapipe leaves all
-// loops of an invocation after 65535 of them, some 4000 a node, and of these halvings there are 32 at most, twice.
+// Pieces are looked at from left to right, as in lib/bernstein.wgsl. A halving takes 37 iterations of a loop:
+// lavapipe leaves all loops of an invocation after 65535 of them, some 4000 a node, and of these halvings there are
+// 32 at most, twice.
 fn positive(whole: Coefficients) -> u32 {
     let size = largest(whole);
     var answer = YES;

@@ -219,17 +219,17 @@ fn finish(job: &Job, table: &dyn Table, task: Task, halt: &Halt) -> Result<(Chun
         tally.most_bits = tally.most_bits.max(bits);
         *code = exact;
     }
-    for code in &codes {
-        for (bit, count) in tally.flags.iter_mut().enumerate() {
-            *count += u64::from(code.flags() >> bit & 1);
-        }
-    }
     let mut chunk = Chunk {
         start: task.start,
         flags: codes.iter().map(|c| c.flags()).collect(),
         solutions: codes.iter().map(|c| c.counts()).collect(),
         scalars: vec![Vec::with_capacity(if job.scalars.is_empty() { 0 } else { codes.len() }); job.scalars.len()],
     };
+    for (bit, count) in tally.flags.iter_mut().enumerate() {
+        // Sums of bytes that cannot overflow, so that many are taken at a time.
+        let ones = |some: &[u8]| some.iter().fold(0u8, |sum, flags| sum + (flags >> bit & 1));
+        *count = chunk.flags.chunks(u8::MAX.into()).map(|some| u64::from(ones(some))).sum();
+    }
     if !job.scalars.is_empty() {
         let mut values = vec![0.0; job.scalars.len()];
         for (i, code) in codes.iter().enumerate() {

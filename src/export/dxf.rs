@@ -1,7 +1,7 @@
 //! DXF, which programs for technical drawing read: each piece as an entity of the kind that it is.
 //!
-//! A cubic Bézier curve is a spline of degree 3 with its control points, and a PH quintic one of degree 5, both exactly:
-//! their knots are 0 and 1, degree + 1 times each. Numbers have 12 decimals there.
+//! A cubic Bézier curve is a spline of degree 3 with its control points, and a PH quintic one of degree 5, both
+//! exactly: their knots are 0 and 1, degree + 1 times each. Numbers have 12 decimals there.
 
 use crate::curve::vector::{Vector, add, length, scale};
 use crate::error::{Error, Result};
@@ -19,8 +19,8 @@ const RANGE: [f64; 2] = [1e-3, 1e9];
 
 /// One drawing of all paths, a layer `PATH_1`, `PATH_2`, .. for each, as a DXF file of the version R2000.
 ///
-/// Lines and arcs are `LINE` and `ARC`; cubic curves and PH quintics are `SPLINE`. An arc's ends are met to 1e-14 of its
-/// radius, everything else to 1e-12. The bytes depend on the paths alone.
+/// Lines and arcs are `LINE` and `ARC`; cubic curves and PH quintics are `SPLINE`. An arc's ends are met to 1e-14 of
+/// its radius, everything else to 1e-12. The bytes depend on the paths alone.
 ///
 /// # Errors
 /// [`Error::Domain`] for no path, pieces shorter than 1e-3, coordinates or radii beyond 1e9, and pieces that DXF does

@@ -5,6 +5,7 @@
 mod answer;
 pub mod any_spiral;
 mod batch;
+mod blocks;
 pub mod cubic;
 mod hermite;
 mod kernel;

@@ -60,7 +60,7 @@ pub(super) fn fill<S: Simd, R: Rows>(simd: S, rows: &R, grid: &Grid, start: u64,
 
 /// Nodes that share all but the last coordinate, which runs over `last`.
 #[inline(always)]
-fn row<S: Simd, R: Rows>(
+pub(super) fn row<S: Simd, R: Rows>(
     simd: S,
     rows: &R,
     constants: &R::Constants,

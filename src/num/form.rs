@@ -14,14 +14,14 @@ use super::formula::formula;
 use super::{Ball, Number, Real};
 
 /// Unit roundoff.
-const UNIT: f64 = 0.5 * f64::EPSILON;
+pub(super) const UNIT: f64 = 0.5 * f64::EPSILON;
 /// Covers the roundings of an error's own computation: fewer than 28 additions and products of numbers that are not
 /// negative. With four symbols the longest chain is that of a product: nine additions for a size, and eleven more
 /// operations.
-const GROW: f64 = 1.0 + 32.0 * UNIT;
+pub(super) const GROW: f64 = 1.0 + 32.0 * UNIT;
 /// More than underflow can do to a result and to the terms of its error: at most forty products round below the
 /// normal range, each by less than 2^-1074.
-const TINY: f64 = f64::MIN_POSITIVE;
+pub(super) const TINY: f64 = f64::MIN_POSITIVE;
 
 /// All functions of `K` symbols from -1 to 1 within `error` of `value + slope · symbols + bend · products of two
 /// symbols`.

@@ -4,6 +4,7 @@ mod ball;
 pub(crate) mod bernstein;
 pub(crate) mod bernstein_lanes;
 mod form;
+mod form_lanes;
 mod formula;
 mod interval;
 mod number;
@@ -15,6 +16,7 @@ mod ziv;
 
 pub(crate) use ball::Ball;
 pub(crate) use form::{Form, Quadratic};
+pub(crate) use form_lanes::{FormLanes, halve_forms};
 pub(crate) use formula::{Letter, formula};
 pub(crate) use interval::Interval;
 pub(crate) use number::{Angle, Lanes, Number, Real};

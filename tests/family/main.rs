@@ -2,6 +2,7 @@
 //! user's plane.
 
 mod any_spiral;
+mod blocks;
 mod boxes;
 mod cubic_oracle;
 mod cubic_properties;

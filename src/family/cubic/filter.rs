@@ -27,7 +27,7 @@ pub(super) struct Planes {
 }
 
 /// The place of a flag.
-const fn bit(flag: u8) -> usize {
+pub(super) const fn bit(flag: u8) -> usize {
     flag.trailing_zeros() as usize
 }
 
@@ -62,25 +62,27 @@ impl Planes {
 }
 
 /// How many roots the box (0, 3)² holds, from the signs of 3k - 1, 3a - 1 and the discriminant alone.
-struct Cases {
+pub(super) struct Cases {
     /// k > 1/3 and a > 1/3: one root, the smaller positive one.
-    one: u64,
+    pub one: u64,
     /// k > 1/3, a < 1/3, positive discriminant: two.
-    smaller_two: u64,
+    pub smaller_two: u64,
     /// k < 1/3, a > 1/3, positive discriminant: two.
-    larger_two: u64,
+    pub larger_two: u64,
     /// k < 1/3, a < 1/3, negative discriminant: one.
-    lone: u64,
+    pub lone: u64,
     /// k < 1/3, a < 1/3, positive discriminant: three.
-    three: u64,
-    /// Decided, whatever the case.
-    known: u64,
+    pub three: u64,
+    /// One of k and a above 1/3, the other below, negative discriminant: none.
+    pub none: u64,
+    /// A curvature is not positive: none either.
+    pub rootless: u64,
 }
 
 /// Descartes' rule and the signs of F at 0 and √(3/a) give the count; see the documentation of the module, "Counting
 /// roots".
 #[inline(always)]
-fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
+pub(super) fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
     let (a, k) = (d.a, d.k);
     let precision = d.precision;
     let one = S::f64s::splat(simd, 1.0);
@@ -100,17 +102,33 @@ fn cases<S: Simd>(simd: S, d: &Data<S>) -> Cases {
     let discriminant = ak * (square - sum + 96.0) - one;
     let error = (ak * (square + sum + 96.0) + one) * precision.discriminant();
     let (real, complex) = (bits::<S>(discriminant.simd_gt(error)), bits::<S>(discriminant.simd_lt(-error)));
-    let case = Cases {
+    Cases {
         one: k_above & a_above,
         smaller_two: k_above & a_below & real,
         larger_two: k_below & a_above & real,
         lone: k_below & a_below & complex,
         three: k_below & a_below & real,
-        known: 0,
-    };
-    let none = complex & ((k_above & a_below) | (k_below & a_above)) | rootless;
-    let known = case.one | case.smaller_two | case.larger_two | case.lone | case.three | none;
-    Cases { known, ..case }
+        none: complex & ((k_above & a_below) | (k_below & a_above)),
+        rootless,
+    }
+}
+
+impl Cases {
+    /// Lanes that are decided, whatever the case.
+    #[inline(always)]
+    pub(super) fn known(&self) -> u64 {
+        self.one | self.smaller_two | self.larger_two | self.lone | self.three | self.none | self.rootless
+    }
+
+    /// What the case alone tells: SOLVABLE and the number of roots.
+    #[inline(always)]
+    pub(super) fn planes(&self) -> Planes {
+        let mut planes = Planes::default();
+        let two = self.smaller_two | self.larger_two;
+        planes.flags[bit(SOLVABLE)] = self.one | self.smaller_two;
+        planes.roots = [self.one | self.lone | self.three, two | self.three];
+        planes
+    }
 }
 
 /// Three-valued conditions at a vector of roots.
@@ -197,7 +215,7 @@ pub(super) fn spiral(c: &Quintic<f64>, error: f64) -> Verdict {
 ///
 /// F is convex before 1/√a and concave after, so from these starts Newton's method is monotone.
 #[inline(always)]
-fn starts<S: Simd>(simd: S, d: &Data<S>, case: &Cases) -> [(S::f64s, u64); 3] {
+pub(super) fn starts<S: Simd>(simd: S, d: &Data<S>, case: &Cases) -> [(S::f64s, u64); 3] {
     let (left, right) = (S::f64s::splat(simd, 0.0), S::f64s::splat(simd, 3.0));
     let middle = S::f64s::splat(simd, 1.0) / d.a.sqrt();
     let lone_right = {
@@ -214,7 +232,7 @@ fn starts<S: Simd>(simd: S, d: &Data<S>, case: &Cases) -> [(S::f64s, u64); 3] {
 
 /// Adds one bit a lane to a two-bit counter.
 #[inline(always)]
-fn count(counter: &mut [u64; 2], bit: u64) {
+pub(super) fn count(counter: &mut [u64; 2], bit: u64) {
     counter[1] |= counter[0] & bit;
     counter[0] ^= bit;
 }
@@ -255,16 +273,9 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
         true => outer::lanes(simd, &[pair.sin0, pair.sin1, pair.sin2_half], d.kappa0, d.kappa1, d.precision.outer()),
         false => (0, all),
     };
-    let two = case.smaller_two | case.larger_two;
-    let mut flags = [0; FLAGS.len()];
-    flags[bit(SOLVABLE)] = case.one | case.smaller_two;
-    flags[bit(ANY_SPIRAL)] = any;
-    let mut planes = Planes {
-        flags,
-        roots: [case.one | case.lone | case.three, two | case.three],
-        spirals: [0, 0],
-        undecided: all & !(case.known & (any | no)),
-    };
+    let mut planes = case.planes();
+    planes.flags[bit(ANY_SPIRAL)] = any;
+    planes.undecided = all & !(case.known() & (any | no));
     let open = if ALL { all } else { any } & !planes.undecided;
     let mut below = S::f64s::splat(simd, 0.0);
     for (slot, (start, lanes)) in starts(simd, d, &case).into_iter().enumerate() {

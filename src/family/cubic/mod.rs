@@ -42,6 +42,7 @@
 //! interval around a root decides how much the rest can prove.
 
 mod angles;
+mod blocks;
 mod exact;
 mod filter;
 mod pair;
@@ -51,6 +52,7 @@ mod region;
 mod root;
 mod shader;
 mod solve;
+mod surface;
 mod table;
 
 pub use solve::{Datum, Root, Solutions, solve};

@@ -49,9 +49,9 @@ pub(super) fn residual<S: Simd>(simd: S, d: &Data<S>, x: S::f64s) -> (S::f64s, S
     ((three - x) - d.k * (y * y), error, y, slope)
 }
 
-/// Newton from `start`, then a proof: F has opposite certain signs at `x - δ` and `x + δ`, both inside the box.
+/// Newton from `start`: a guess of a root.
 #[inline(always)]
-pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -> Root<S> {
+pub(super) fn settle<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -> S::f64s {
     const MOST_STEPS: u32 = 24;
     let mut x = start;
     for _ in 0..MOST_STEPS {
@@ -64,6 +64,13 @@ pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -
             break;
         }
     }
+    x
+}
+
+/// Newton from `start`, then a proof: F has opposite certain signs at `x - δ` and `x + δ`, both inside the box.
+#[inline(always)]
+pub(super) fn root<S: Simd>(simd: S, d: &Data<S>, start: S::f64s, wanted: u64) -> Root<S> {
+    let x = settle(simd, d, start, wanted);
     let (_, error, y, slope) = residual(simd, d, x);
     // Any δ would do that the proof accepts; this one it usually does.
     let delta = error * TRIED / slope.abs() + x * 2f64.powi(-50);

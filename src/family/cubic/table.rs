@@ -2,12 +2,14 @@
 
 use super::exact::{Ends, ExactDatum, truth};
 use super::filter::classify;
+use super::pair::Pair;
 use super::precision::{Precision, Prepared};
 use super::root::Data;
 use super::{Code, Cubic};
 use crate::error::Result;
+use crate::family::blocks::fill_by_blocks;
 use crate::family::hermite::check_grid;
-use crate::family::rows::{Rows, fill};
+use crate::family::rows::Rows;
 use crate::family::{Kernel, NO_VALUE, Shader, ShaderInputs, Table, chart_of};
 use crate::grid::{Grid, MAX_AXES};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
@@ -31,6 +33,19 @@ impl<'g> CubicTable<'g> {
         let [phi0, phi1, u, v, _] = self.grid.node(node);
         let ends = if self.normalised { Ends::Normalised(u, v) } else { Ends::Curvature(u, v) };
         ExactDatum { phi0, phi1, ends }
+    }
+
+    /// Vectors of the last two coordinates, for one pair of angles.
+    #[inline(always)]
+    pub(super) fn data<S: Simd>(&self, simd: S, pair: &Pair, third: S::f64s, fourth: S::f64s) -> Data<S> {
+        let (curve0, curve1) = (S::f64s::splat(simd, pair.curve0), S::f64s::splat(simd, pair.curve1));
+        // A constant here, so that every bound folds into one.
+        let precision = Precision::F64;
+        if self.normalised {
+            Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1, precision }
+        } else {
+            Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth, precision }
+        }
     }
 
     /// The scalars of a node, or none where there is no spiral.
@@ -59,22 +74,14 @@ impl Rows for CubicTable<'_> {
 
     #[inline(always)]
     fn codes<S: Simd>(&self, simd: S, prepared: &Prepared, node: &[f64; MAX_AXES], fourth: S::f64s, out: &mut [Code]) {
-        let third = S::f64s::splat(simd, node[2]);
-        let (curve0, curve1) = (S::f64s::splat(simd, prepared.pair.curve0), S::f64s::splat(simd, prepared.pair.curve1));
-        // A constant here, so that every bound folds into one.
-        let precision = Precision::F64;
-        let data = if self.normalised {
-            Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1, precision }
-        } else {
-            Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth, precision }
-        };
+        let data = self.data(simd, &prepared.pair, S::f64s::splat(simd, node[2]), fourth);
         classify(simd, prepared, &data).store(out);
     }
 }
 
 impl Table for CubicTable<'_> {
     fn filter(&self, start: u64, out: &mut [Code]) {
-        dispatch!(self.level, simd => fill(simd, self, self.grid, start, out));
+        dispatch!(self.level, simd => fill_by_blocks(simd, self, self.grid, start, out));
     }
 
     fn exact(&self, node: u64) -> Result<(Code, usize)> {

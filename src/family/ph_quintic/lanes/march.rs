@@ -154,11 +154,14 @@ fn between<S: Simd>(equations: &Equations<S>, a: &Knot<S>, b: &Knot<S>, open: u6
     let t = if b.t > 1.2 * a.t { (a.t * b.t).sqrt() * 1.037 } else { a.t + 0.469 * (b.t - a.t) };
     // The middle of a cubic with these heights and slopes, in logarithms.
     let eighth = 0.125 * (b.t / a.t - 1.0).min(4.0);
-    let guess = |i: usize| {
-        let bend = (b.s[i] - a.s[i]) * eighth;
-        (a.z[i] * b.z[i]).sqrt() * (bend * (bend * 0.5 + 1.0) + 1.0)
-    };
-    equations.knot(t, Some([guess(0), guess(1)]), open)
+    equations.knot(t, Some([height::<S>(a, b, 0, eighth), height::<S>(a, b, 1, eighth)]), open)
+}
+
+/// A height between two knots, about.
+#[inline(always)]
+fn height<S: Simd>(a: &Knot<S>, b: &Knot<S>, i: usize, eighth: f64) -> S::f64s {
+    let bend = (b.s[i] - a.s[i]) * eighth;
+    (a.z[i] * b.z[i]).sqrt() * (bend * (bend * 0.5 + 1.0) + 1.0)
 }
 
 /// The certificates of the march, for each lane.
