@@ -1,7 +1,7 @@
 //! Pictures: slices of an atlas, small multiples of slices, curves with their curvature, paths with graphs.
 //!
-//! Everything here is plain data in, a [`Drawing`] out, and from that the bytes of a PNG or SVG file; the same data give
-//! the same bytes. [`crate::files::write_file`] puts them on disk.
+//! Everything here is plain data in, a [`Drawing`] out, and from that the bytes of a PNG or SVG file; the same data
+//! give the same bytes. [`crate::files::write_file`] puts them on disk.
 
 mod axes;
 mod comb;

@@ -31,7 +31,8 @@ impl Pixels {
         }
     }
 
-    /// Copies a sheet of pixels that are so many times as small, its corner at a place that leaves all of it on this one.
+    /// Copies a sheet of pixels that are so many times as small, its corner at a place that leaves all of it
+    /// on this one.
     pub(super) fn reduce(&mut self, fine: &Pixels, times: i32, (left, top): (i32, i32)) {
         let (times, count) = (times as usize, (times * times) as u32);
         let (width, height) = (fine.size.0 as usize / times, fine.size.1 as usize / times);
