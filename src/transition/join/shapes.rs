@@ -61,8 +61,7 @@ pub(super) fn shapes(request: &Request, best: &mut Best) -> Result<String> {
         }
     }
     Ok(format!(
-        "no spirals, arcs and lines of those tried lead from the {from} to the {to}; a greater limit of curvature \
-         gives them room"
+        "nothing that was tried leads from the {from} to the {to}; a greater limit of curvature gives room"
     ))
 }
 
