@@ -60,9 +60,7 @@ pub(super) fn shapes(request: &Request, best: &mut Best) -> Result<String> {
             break;
         }
     }
-    Ok(format!(
-        "nothing that was tried leads from the {from} to the {to}; a greater limit of curvature gives room"
-    ))
+    Ok(format!("nothing that was tried leads from the {from} to the {to}; a greater limit of curvature gives room"))
 }
 
 /// The same end. A line whose point is far from the other end has its nearest point there: coordinates from a far one
