@@ -105,16 +105,16 @@
 //! The folder `examples/` has these as programs, such as `cargo run --release --example two_ends`.
 //!
 //! # Features
-//! Both are on by default. Without them the library builds in seconds, and still solves, evaluates on the processor,
-//! plans, and reads and writes atlases.
+//! All of them are on by default. Without them the library builds in seconds, and still solves, evaluates on the
+//! processor, plans, and reads and writes atlases.
 //!
 //! | feature | adds |
 //! | --- | --- |
 //! | `gpu` | the evaluator on GPUs, by wgpu |
-//! | `cli` | the program, with `picture` and `export` |
+//! | `cli` | the program, with `dxf`, `export` and `picture` |
 //! | `dxf` | drawings in DXF, with `export` |
 //! | `export` | paths as files of other programs: OpenDRIVE, motion primitives for nav2 |
-//! | `picture` | pictures as PNG files, with `recipe` |
+//! | `picture` | pictures as PNG and SVG files, with `recipe` |
 //! | `recipe` | the reader of recipes alone |
 
 pub mod atlas;

@@ -14,7 +14,7 @@ struct Params {
     offsets: vec4<u32>,
     // Number of nodes in the chunk, less than 2^26.
     count: u32,
-    // 2, unknown to compilers.
+    // The number 2. It comes from outside, so that compilers do not know it and cannot unroll a loop of two rounds.
     two: u32,
 }
 

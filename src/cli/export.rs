@@ -32,11 +32,11 @@ enum Format {
 /// ASAM OpenDRIVE 1.7: a road for each path, whose reference line the path is, with one driving lane to the right.
 ///
 /// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve NAME --json`, `join` and the tools of `path`
-/// print it, or a line of JSON for each of several, as with --points; lines without a path are told on standard error.
+/// print it, or a line of JSON for each of several, as with --points; lines without a path are named on standard error.
 ///
 /// Lines, arcs and cubic curves are exact. PH quintics are fitted by cubics, no further away than the tolerance; how
-/// many, how well, and how much the curvature differs at joints is told on standard error. Involutes and trigonometric
-/// curves are refused.
+/// many, how well, and how much the curvature differs at joints is reported on standard error. Involutes and
+/// trigonometric curves are refused.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas export opendrive path.json --lane-width 3.75 --out road.xodr")]
 struct RoadArgs {
@@ -56,7 +56,7 @@ struct RoadArgs {
 /// DXF: a drawing of all paths for CAD programs, with a layer PATH_1, PATH_2, .. for each.
 ///
 /// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in any unit, as `curve --json`, `join` and the tools of `path` print
-/// it, or a line of JSON for each of several, as with --points; lines without a path are told on standard error.
+/// it, or a line of JSON for each of several, as with --points; lines without a path are named on standard error.
 ///
 /// Lines, arcs, cubic curves and PH quintics are exact: LINE, ARC, and SPLINE of degree 3 and 5, with 12 decimals.
 /// Involutes and trigonometric curves are refused.

@@ -9,11 +9,10 @@ use spiral_atlas::atlas::{About, Atlas};
 use spiral_atlas::grid::Axis;
 use std::path::PathBuf;
 
-/// Tell what an atlas holds: grid, fields, legend, hashes, recipe.
+/// Show what an atlas holds: grid, fields, legend, hashes, recipe.
 ///
-/// The hashes are checked first, as in `render` and `query --atlas`: a file with a damaged bit is refused. Whether what
-/// it says is true,
-/// `verify` tells.
+/// The hashes are checked first, as in `render` and `query --atlas`: a file with a damaged bit is refused. `verify`
+/// shows whether its verdicts are true.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas info out/quickstart.atlas.safetensors")]
 pub(super) struct Args {

@@ -44,7 +44,7 @@ pub(super) struct Args {
     /// not looked at); - is standard input.
     #[arg(long, value_name = "FILE")]
     points: Option<PathBuf>,
-    /// Tell also what this atlas says: at the node nearest to the datum, or of the cell that holds it (`cell`, null
+    /// Print also what this atlas says: at the node nearest to the datum, or of the cell that holds it (`cell`, null
     /// outside the cells).
     #[arg(long, value_name = "FILE")]
     atlas: Option<PathBuf>,

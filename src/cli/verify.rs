@@ -14,7 +14,7 @@ use std::sync::atomic::AtomicBool;
 
 /// Recompute an atlas and compare every byte.
 ///
-/// Cells are made anew by the CPU, and attacked with points, of which the family itself tells the truth.
+/// Cells are made anew by the CPU. They are also compared with the family's exact verdicts at a million points.
 ///
 /// By default with the CPU and with every GPU adapter there is, hardware and software. Where there is no adapter, the
 /// CPU alone recomputes it, and the output says so. The exit status is 1 when anything differs: a hash, the legend, the

@@ -107,7 +107,7 @@ pub(crate) trait Real: super::bernstein::Certain + Sized {
     fn union(&self, other: &Self) -> Self;
     /// From -m to m, where m is the largest absolute value of its numbers.
     fn size(&self) -> Self;
-    /// That m, about.
+    /// An approximation of that m.
     fn most(&self) -> f64;
     /// A number in its middle, exactly: a good guess.
     fn middle(&self) -> Self;

@@ -45,7 +45,7 @@ pub(crate) fn find(f: impl Fn(f64) -> f64, low: f64, high: f64, tolerance: f64) 
 pub(crate) trait Curve {
     /// Value and slope; `None` where the precision does not suffice.
     fn at(&self, x: &Interval) -> Option<(Interval, Interval)>;
-    /// The value, about.
+    /// An approximation of the value.
     fn guess(&self, x: f64) -> f64;
     /// The root, about, where a formula tells it; else it is looked for with the guessed values.
     fn start(&self) -> Option<Interval> {

@@ -134,12 +134,14 @@ fn plot_paths(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Re
         draw_backdrop(canvas, backdrop, style, rect, (pixels, &place));
     }
     comb.draw(canvas, style, rect, place);
-    for (path, color) in figure.paths.iter().zip(LINES.into_iter().cycle()) {
-        let places: Vec<Point> = path.iter().map(place).collect();
-        canvas.cased(&places, style.em * 0.18, color, rect);
-        if let Some(first) = places.first() {
-            canvas.cased(&[*first, *first], style.em * 0.6, color, rect);
-        }
+    // The first is on top, and starts are above all lines.
+    let mut colored: Vec<_> = figure.paths.iter().zip(LINES.into_iter().cycle()).collect();
+    colored.reverse();
+    for (path, color) in &colored {
+        canvas.cased(&path.iter().map(place).collect::<Vec<_>>(), style.em * 0.18, *color, rect);
+    }
+    for (first, color) in colored.iter().filter_map(|(path, color)| Some((place(path.first()?), color))) {
+        canvas.cased(&[first, first], style.em * 0.6, *color, rect);
     }
     finish(canvas, [&x, &y], ["x", "y"], style, rect);
     Ok(())

@@ -82,7 +82,8 @@ pub(super) fn modern(mut words: Vec<OsString>) -> Vec<OsString> {
         family = match word.to_str().and_then(|word| word.strip_prefix("--family=")) {
             Some(name) => name.into(),
             None if place < words.len() => words.remove(place),
-            None => word,
+            // A missing name is refused as an unknown one, with those that there are.
+            None => OsString::new(),
         };
     }
     words.insert(2, family);

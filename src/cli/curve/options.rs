@@ -117,7 +117,7 @@ pub(super) struct Output {
     longest: Option<f64>,
     /// Print so many points at equal lengths along the curve too, both ends included: station (length from the start),
     /// x, y, heading (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = numbers::samples)]
+    #[arg(long, value_name = "N", value_parser = numbers::samples, allow_hyphen_values = true)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else; of a table each after the number of its row of data, from 1.
     #[arg(long, requires = "samples", conflicts_with = "json")]

@@ -2,6 +2,7 @@
 
 use super::{Files, Outcome, figure};
 use spiral_atlas::Result;
+use spiral_atlas::plain::count;
 use spiral_atlas::tools::{EqualLengths, Tool};
 
 /// Join points and directions by paths of one given length, so that vehicles of one speed arrive at the same time.
@@ -23,7 +24,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<Outcome> {
     let asked: EqualLengths = args.files.read()?;
-    let title = format!("Paths of length {}", asked.length);
+    let title = format!("{} of length {}", count(asked.paths.len(), "path"), asked.length);
     let asked = EqualLengths { paper: asked.paper || args.paper, ..asked };
     let found = asked.answer().map_err(|e| args.files.blame(e))?;
     args.files.finish(&found, || figure::reported(&found.paths, &title))

@@ -30,7 +30,7 @@ fn places(curve: &PhQuintic, spans: usize) -> Vec<f64> {
 }
 
 fn points(spans: &[PhQuintic]) -> Vec<[f64; 2]> {
-    spans.iter().flat_map(|c| steps(spans.len()).map(|t| c.point(t))).collect()
+    spans.iter().flat_map(|c| places(c, spans.len()).into_iter().map(|t| c.point(t))).collect()
 }
 
 fn pieces(all: &[Piece]) -> Line {

@@ -14,7 +14,7 @@ use spiral_atlas::tools::LeastBend;
 /// bends less than `at_least`: that is proved.
 ///
 /// The exit status is 0 with a path. It is 1 when no searched path is short enough: then `paths` is empty, and `reason`
-/// tells why.
+/// says why.
 #[derive(clap::Args)]
 #[command(
     after_help = "Example:\n  spiral-atlas path least-curvature examples/least-curvature.json --figure least.png"

@@ -7,11 +7,11 @@ use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::Write;
 
-/// Tell of paths: points at equal steps of arc length, where the curvature is extreme and where it changes its sign,
+/// Measure paths: points at equal steps of arc length, where the curvature is extreme and where it changes its sign,
 /// and offset curves.
 ///
 /// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools, `join` and `curve NAME --json` print it, or a
-/// line of JSON for each of several, as with --points; lines without a path are told on standard error, and not
+/// line of JSON for each of several, as with --points; lines without a path are named on standard error, and not
 /// counted. Other fields are left out of account. Pieces of all kinds are read. A `station` is the length from the
 /// start of the path, a `parameter` that of the piece.
 ///
@@ -25,8 +25,8 @@ use std::io::Write;
 pub(super) struct Args {
     #[command(flatten)]
     files: Files,
-    /// Tell so many points at equal steps of length, both ends included: station (length from the start), x, y, heading
-    /// (radians), curvature.
+    /// Print so many points at equal steps of length, both ends included: station (length from the start), x, y,
+    /// heading (radians), curvature.
     #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else.

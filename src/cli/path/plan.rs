@@ -13,7 +13,7 @@ use spiral_atlas::path::Scene;
 /// `clearance` and `curvature_at_most` are proved for the path printed.
 ///
 /// The exit status is 0 with a path. It is 1 when every way is blocked or no path was found: then `paths` is empty, and
-/// `reason` tells why.
+/// `reason` says why.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas path plan examples/obstacles.json --figure plan.png")]
 pub(super) struct Args {

@@ -7,7 +7,7 @@ use spiral_atlas::path::Verdict;
 use spiral_atlas::plain::count;
 use spiral_atlas::tools::{Separations, Vehicle};
 
-/// Prove whether vehicles keep a minimum distance at all times, and tell how near they come.
+/// Prove whether vehicles keep a minimum distance at all times, and how near they come.
 ///
 /// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools, `join` and `curve
 /// --json` print it, or a line of JSON for each of several, as with --points; pieces are of all kinds but `involute`,

@@ -154,7 +154,7 @@ impl<N: Real> Given<N> {
         let root = match self.symmetry {
             Symmetry::Arch => on_axis(re)?,
             Symmetry::Line => {
-                // From the speeds, whose product may be a square: then 0 is known as 0.
+                // From the speeds: where their product is a square, the root is exact, and a zero is recognised.
                 let across = l0.mul(l1).sqrt()?.times(if paper { 10.0 } else { -10.0 });
                 on_axis(formula!(across - 15.0 * (l0 + l1) + 120.0))?
             }

@@ -3,7 +3,7 @@
 //! Let `a = √l0`, `b = √l1`, `m = √(ab)`. With w2 = -b, w changes its sign. With w2 = b it stays positive exactly if
 //! `w1 > -m`, which only the larger w1 can do: `√Z > 3(a + b) - 4m`, or `5 > l0 + l1 + ab - (a + b)m`. Squared twice
 //! that is a question about the sign of `x + y ab` for polynomials x, y in l0, l1, and so of `x² - y² l0 l1`: in
-//! doubles' intervals that is exact at some precision, and 0 is known as 0.
+//! doubles' intervals that is exact at some precision, so that a zero is recognised.
 
 use crate::num::{Interval, Verdict, formula};
 use std::cmp::Ordering::{self, Equal, Greater};

@@ -191,7 +191,7 @@ pub(super) fn answer(point: &[f64; 4]) -> Result<Answer> {
 }
 
 /// The scalars A, B, energy, length, margin (0 to 4) of the chosen spiral of a datum that has one, each rounded to
-/// nearest f32 with proof; beyond the largest single, that.
+/// nearest f32 with proof; what is beyond the largest f32 becomes the largest f32.
 pub(super) fn scalars(datum: &Datum, which: &[usize], out: &mut [f32]) -> Result<()> {
     let by_doubles = Pair::<Ball>::new(datum.phi0, datum.phi1).and_then(|pair| rounded(datum, &pair, which));
     match by_doubles.or_else(|| rounded(datum, &Pair::twins(datum.phi0, datum.phi1)?, which)) {

@@ -166,7 +166,8 @@ fn level(flags: u8) -> Level {
         .map_or(Level::Exists, |(_, level)| level)
 }
 
-/// The scalars m1, q1, m2, q2 (0 to 3), each rounded to nearest f32 with proof; beyond the largest single, that.
+/// The scalars m1, q1, m2, q2 (0 to 3), each rounded to nearest f32 with proof; what
+/// is beyond the largest f32 becomes the largest f32.
 pub(super) fn scalars(kind: Kind, datum: [f64; 3], code: Code, which: &[usize], out: &mut [f32]) -> Result<()> {
     let any = which.iter().any(|i| exists(code, i / 2));
     from_intervals(kind, datum, code, which, out, if any { fast(kind, datum) } else { [None; 4] })
