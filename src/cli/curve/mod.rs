@@ -159,7 +159,7 @@ mod tests {
             ("atlas curve --from 0,0", "atlas curve cubic --from 0,0"),
             ("atlas curve --json --family involute --m 1", "atlas curve involute --json --m 1"),
             ("atlas curve --family=reach-ph --help", "atlas curve reach-ph --help"),
-            ("atlas curve --m 1 --family", "atlas curve --family --m 1"),
+            ("atlas curve --m 1 --family", "atlas curve  --m 1"),
         ] {
             assert_eq!(modern(words(older)), words(new));
         }
