@@ -224,7 +224,7 @@ def main():
         text = json.dumps({"paths": [{"pieces": [piece]}]})
         _, wrong = run("export", "dxf", "-", "--out", str(folder / "none.dxf"), stdin=text, status=2)
         assert words in wrong and "paths[0].pieces[0]" in wrong and not (folder / "none.dxf").exists(), wrong
-    involute = curve(ENDS + " --family involute")
+    involute = curve("involute", ENDS)
     assert "involute" in run("export", "dxf", "-", "--out", str(folder / "none.dxf"), stdin=involute, status=2)[1]
 
 
