@@ -2,6 +2,7 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::de::DeserializeOwned;
+use spiral_atlas::tools::MOST_SAMPLES;
 
 type Parsed<T> = std::result::Result<T, String>;
 
@@ -18,7 +19,7 @@ pub(super) fn count<const LEAST: u32, const MOST: u32>(text: &str) -> Parsed<u32
 
 /// How many samples of a curve.
 pub(super) fn samples(text: &str) -> Parsed<u32> {
-    count::<2, 1_000_000>(text)
+    count::<2, MOST_SAMPLES>(text)
 }
 
 /// One of the names that a type is read from.

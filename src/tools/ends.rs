@@ -116,9 +116,6 @@ pub struct LeastBendPath {
     pub derivatives: [f64; 2],
     /// Range of each derivative's length.
     pub searched: [f64; 2],
-    /// All that is known of it.
-    #[serde(skip)]
-    pub found: LeastCurvature,
 }
 
 /// No searched path bends less than `at_least`: that is proved.
@@ -137,14 +134,8 @@ impl Tool for LeastBend {
         }
         let greatest_length = greatest_length.unwrap_or(2.0 * distance);
         let ends = Directions { start, end, start_direction, end_direction, greatest_length, free };
-        let found = least_curvature(&ends)?;
-        Ok(LeastBendPath {
-            paths: [PathReport::new(&[found.curve])],
-            at_least: found.at_least,
-            derivatives: found.derivatives,
-            searched: found.searched,
-            found,
-        })
+        let LeastCurvature { curve, at_least, derivatives, searched, .. } = least_curvature(&ends)?;
+        Ok(LeastBendPath { paths: [PathReport::new(&[curve])], at_least, derivatives, searched })
     }
 }
 

@@ -37,14 +37,18 @@ fn one() -> f64 {
     1.0
 }
 
-impl Vehicle {
-    /// Its motion.
-    ///
-    /// # Errors
-    /// Those of [`Motion::new`].
-    pub fn motion(self) -> Result<Motion> {
-        Motion::new(self.pieces, self.speed, self.start_time)
+/// The motions of vehicles, each of which stands at a place of the request that errors name.
+///
+/// # Errors
+/// [`Error::Domain`] for fewer than two; those of [`Motion::new`].
+pub fn motions(vehicles: Vec<(String, Vehicle)>) -> Result<Vec<Motion>> {
+    if vehicles.len() < 2 {
+        let paths = count(vehicles.len(), "path");
+        return Err(Error::invalid(format!("`paths` has {paths}; it takes two to be apart")));
     }
+    let motion =
+        |(place, of): (String, Vehicle)| Motion::new(of.pieces, of.speed, of.start_time).map_err(|e| e.at(place));
+    vehicles.into_iter().map(motion).collect()
 }
 
 /// Whether vehicles keep a distance.
@@ -85,14 +89,8 @@ impl Separations {
     /// Of the motions of vehicles.
     ///
     /// # Errors
-    /// [`Error::Domain`] for fewer than two, or a minimum that is negative or not finite.
+    /// [`Error::Domain`] for a minimum that is negative or not finite.
     pub fn new(motions: &[Motion], minimum: f64) -> Result<Separations> {
-        if motions.len() < 2 {
-            return Err(Error::invalid(format!(
-                "`paths` has {}; it takes two to be apart",
-                count(motions.len(), "path")
-            )));
-        }
         let found = separations(motions, minimum)?;
         let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);
         let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);
@@ -111,9 +109,8 @@ impl Tool for Apart {
     type Answer = Separations;
 
     fn answer(self) -> Result<Separations> {
-        let motion = |(i, vehicle): (usize, Vehicle)| vehicle.motion().map_err(|e| e.at(format!("paths[{i}]")));
-        let motions = self.paths.into_iter().enumerate().map(motion).collect::<Result<Vec<_>>>()?;
-        Separations::new(&motions, self.minimum)
+        let placed = (0..).zip(self.paths).map(|(i, vehicle)| (format!("paths[{i}]"), vehicle));
+        Separations::new(&motions(placed.collect())?, self.minimum)
     }
 }
 
@@ -160,7 +157,7 @@ impl Measured {
     /// # Errors
     /// [`Error::Domain`] for numbers of samples outside 2 to [`MOST_SAMPLES`], and for an offset that is not finite.
     pub fn new(course: &Course, samples: Option<u32>, offset: Option<f64>) -> Result<Measured> {
-        if let Some(n) = samples.filter(|n| !(2..=MOST_SAMPLES).contains(n)) {
+        if let Some(n) = samples.filter(|n| *n > MOST_SAMPLES) {
             return Err(Error::domain("`samples`", f64::from(n), format!("from 2 to {MOST_SAMPLES}")));
         }
         Ok(Measured {

@@ -50,7 +50,6 @@ pub(super) struct Between {
 
 impl Between {
     /// Reports what `find` finds for the ends, or for each row of the table.
-    ///
     pub(super) fn answer<F: Reportable>(&self, find: impl Fn(&Ends, Wish) -> Result<F>) -> Result<Outcome> {
         let Some(path) = &self.points else {
             // clap has asked for them.

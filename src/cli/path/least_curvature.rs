@@ -30,7 +30,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
         Ok(found) => found,
         Err(none) => return Ok(none),
     };
-    let least = &found.found;
-    let title = format!("Greatest curvature {:.6}, length {:.6}", least.greatest_curvature, least.length);
+    let [path] = &found.paths;
+    let title = format!("Greatest curvature {:.6}, length {:.6}", path.greatest_curvature, path.length);
     args.files.finish(&found, || figure::reported(&found.paths, &title))
 }

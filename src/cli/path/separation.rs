@@ -5,7 +5,7 @@ use crate::cli::numbers;
 use spiral_atlas::Result;
 use spiral_atlas::path::Verdict;
 use spiral_atlas::plain::count;
-use spiral_atlas::tools::{Separations, Vehicle};
+use spiral_atlas::tools::{Separations, motions};
 
 /// Prove whether vehicles keep a minimum distance at all times, and how near they come.
 ///
@@ -28,11 +28,8 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<Outcome> {
-    let paths: Vec<(String, Vehicle)> = args.files.paths()?;
-    let blame = |e| args.files.blame(e);
-    let named = |(place, path): (String, Vehicle)| path.motion().map_err(|e| blame(e.at(place)));
-    let motions = paths.into_iter().map(named).collect::<Result<Vec<_>>>()?;
-    let found = Separations::new(&motions, args.minimum).map_err(blame)?;
+    let motions = motions(args.files.paths()?).map_err(|e| args.files.blame(e))?;
+    let found = Separations::new(&motions, args.minimum)?;
     let pairs = count(found.pairs.len(), "pair");
     let title = format!("{} vehicles, {pairs}, least separation {:.6}", motions.len(), found.least());
     let done = args.files.finish(&found, || figure::separations(&motions, &found, title))?;
