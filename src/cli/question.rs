@@ -67,13 +67,12 @@ impl QuestionArgs {
                 let within = [self.within(0, first)?, self.within(1, second)?];
                 let found = boundary(&property, &point, [place(first), place(second)], within, self.cells)?;
                 print(&found, json, |found| boundary_text([first, second], found))?;
-                !(found.outlines.is_empty() && found.open.is_empty())
+                !found.outlines.is_empty()
             }
             (None, Some(name)) => {
                 let found = ranges(&property, &point, place(name), self.within(0, name)?)?;
                 print(&found, json, |found| ranges_text(&property, name, found))?;
-                // A no is said only where nothing is left open.
-                !(found.ranges.is_empty() && found.open.is_empty())
+                !found.ranges.is_empty()
             }
             (None, None) => {
                 let ones = vec![1.0; axes.len()];

@@ -24,7 +24,7 @@ const RANGE: [f64; 2] = [1e-3, 1e9];
 ///
 /// # Errors
 /// [`Error::Domain`] for no path, pieces shorter than 1e-3, coordinates or radii beyond 1e9, and pieces that DXF does
-/// not have: involutes and trigonometric curves.
+/// not have: involutes, trigonometric curves and clothoids.
 pub fn dxf(paths: &[Course]) -> Result<Vec<u8>> {
     if paths.is_empty() {
         return Err(Error::invalid("there is no path; a drawing has one at least"));
@@ -69,7 +69,7 @@ fn entity(piece: &Piece) -> Result<EntityType> {
         }
         Piece::Arc(arc) => round(arc),
         Piece::Cubic(_) | Piece::PhQuintic(_) => spline(&piece.control_points().unwrap_or_default()),
-        Piece::Involute(_) | Piece::TrigQuintic(_) => Err(Error::invalid(format!(
+        Piece::Involute(_) | Piece::TrigQuintic(_) | Piece::Clothoid(_) => Err(Error::invalid(format!(
             "it is of the kind `{}`, which DXF does not have; ask for a curve of the family cubic or ph-quintic",
             piece.kind().name()
         ))),

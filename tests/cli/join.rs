@@ -112,7 +112,7 @@ fn a_request_stands_in_a_file() {
         (
             "family",
             json!(3),
-            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3` (li",
+            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\", \"clothoid\"; it is `3` (li",
         ),
         ("longset", json!(3), "there is no field `longset`; known are `from`, `to`"),
         ("from", json!({ "state": { "point": [0, 0] } }), "from.state lacks the field `direction`"),
@@ -154,7 +154,7 @@ fn a_request_stands_in_a_file() {
         (
             "longest",
             "family = 3\nlongest",
-            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3`",
+            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\", \"clothoid\"; it is `3`",
         ),
         ("direction = 0 ", "direction = 40deg ", "a text stands in quotation marks: \"40deg\""),
         ("direction = 0 ", "direction = 40 ", "from.state.direction: 40 is more than a full turn in radians"),

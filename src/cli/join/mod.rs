@@ -96,6 +96,9 @@ pub(super) struct Args {
     /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
     #[arg(long, requires = "samples")]
     csv: bool,
+    /// As the other commands have it; here it is always JSON, but for CSV.
+    #[arg(long, hide = true, conflicts_with = "csv")]
+    json: bool,
     /// Draw the path and its curvature.
     #[arg(long, value_name = "FILE.png|svg")]
     figure: Option<PathBuf>,
@@ -103,7 +106,7 @@ pub(super) struct Args {
 
 const ENDS: &str = "What is joined";
 /// The kinds of spirals that joins are made of.
-pub(super) const FAMILIES: [&str; 4] = ["cubic", "ph-quintic", "involute", "trig-quintic"];
+pub(super) const FAMILIES: [&str; 5] = ["cubic", "ph-quintic", "involute", "trig-quintic", "clothoid"];
 const OBJECTIVES: [&str; 4] = ["length", "greatest-curvature", "greatest-rate", "bending-energy"];
 
 /// What is printed of a single join.
