@@ -1,4 +1,4 @@
-// Compares joins with the paths of Banzhaf's steering_functions (CC-Dubins: arcs, lines and clothoids of one sharpness).
+// Compares joins with the paths of Banzhaf's steering_functions: CC-Dubins, arcs, lines and clothoids of one sharpness.
 //
 //     cargo bench --bench joins -- clothoid > joins.csv
 //     g++ -O3 -std=c++17 -ISTEERING/include -I/usr/include/eigen3 benches/peers/cc_dubins.cpp \
@@ -47,7 +47,8 @@ int main(int, char **arguments) {
         for (int i = 0; i < 3; i++) {
             const auto start = std::chrono::steady_clock::now();
             controls = cc.get_controls(from, to);
-            seconds = std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+            seconds = std::min(seconds, took.count());
         }
         const auto end = cc.integrate(from, controls).back();
         off.push_back(std::hypot(end.x - to.x, end.y - to.y));
@@ -57,8 +58,8 @@ int main(int, char **arguments) {
         ratios.push_back(row[8] / theirs), ours_above.push_back(row[8] / least), ours_times.push_back(row[11]);
         shorter += row[8] < theirs * (1 - 1e-9);
     }
-    std::printf("%d pairs, %zu joined, %d of them shorter than CC-Dubins of sharpness %g\n", rows, ratios.size(), shorter,
-                sharpness);
+    std::printf("%d pairs, %zu joined, %d of them shorter than CC-Dubins of sharpness %g\n", rows, ratios.size(),
+                shorter, sharpness);
     told("join / CC-Dubins", ratios);
     told("join / Dubins", ours_above);
     told("CC-Dubins / Dubins", above);

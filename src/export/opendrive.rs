@@ -1,9 +1,9 @@
 //! ASAM OpenDRIVE: a path as a road whose reference line it is.
 //!
-//! Lines, arcs and clothoids are themselves there. A cubic Bézier curve is a `paramPoly3` in the parameter from 0 to 1, exactly. A
-//! PH quintic has degree 5, and `paramPoly3` has 3: it is divided into n equal parts of its parameter, and each becomes
-//! the cubic with the same ends and the same derivatives there. For p from [0, 1] to the plane, in any direction u,
-//! Hermite's remainder on a part of width h = 1/n is
+//! Lines, arcs and clothoids are themselves there. A cubic Bézier curve is a `paramPoly3` in the parameter from 0 to 1,
+//! exactly. A PH quintic has degree 5, and `paramPoly3` has 3: it is divided into n equal parts of its parameter, and
+//! each becomes the cubic with the same ends and the same derivatives there. For p from [0, 1] to the plane, in any
+//! direction u, Hermite's remainder on a part of width h = 1/n is
 //!
 //! ```text
 //! |u (p - q)(t)| <= max |u p''''| h⁴ / 384

@@ -1,14 +1,14 @@
 //! Where a vehicle is on a piece of its path once it has covered a length, with bounds of the errors.
 //!
 //! Quintics with a Pythagorean hodograph, lines and arcs have formulas. Clothoids have as parameter their length, and
-//! their points are known to far less than roundings (`transition/clothoid.rs`). The length of a cubic or a trigonometric
-//! quintic is integrated by the 16-point Gauss-Legendre rule on cells where its error is proved. Let `x' ± iy'` differ
-//! by at most a quarter of `|r'|` from their values at the middle of a cell of half-width h, in the complex disc of
-//! radius `17/8 h`. They are the factors of `|r'|²` and have no root there. So the speed is analytic in the ellipse of
-//! the foci -h, h and the sum 4h of its half-axes, which lies in the disc, and at most 5/4 of that in the middle. The
-//! rule then errs by less than `h 64/15 5/4 |r'| 4^-32 / (1 - 1/16)`, and the cell is at least `2h 3/4 |r'|` long. So
-//! the error is below 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3. The same holds for a
-//! part of a cell, whose disc lies in that of the cell.
+//! their points are known to far less than roundings (`transition/clothoid.rs`). The length of a cubic or a
+//! trigonometric quintic is integrated by the 16-point Gauss-Legendre rule on cells where its error is proved. Let `x'
+//! ± iy'` differ by at most a quarter of `|r'|` from their values at the middle of a cell of half-width h, in the
+//! complex disc of radius `17/8 h`. They are the factors of `|r'|²` and have no root there. So the speed is analytic in
+//! the ellipse of the foci -h, h and the sum 4h of its half-axes, which lies in the disc, and at most 5/4 of that in
+//! the middle. The rule then errs by less than `h 64/15 5/4 |r'| 4^-32 / (1 - 1/16)`, and the cell is at least `2h 3/4
+//! |r'|` long. So the error is below 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3. The
+//! same holds for a part of a cell, whose disc lies in that of the cell.
 //!
 //! Roundings: r' has at most 30 of them (of 2^-53, in units of the bound [`Bezier::size`]) for a cubic and 70 for a
 //! trigonometric quintic, whose basis is a product of up to six factors, sines and cosines among them. A parameter is

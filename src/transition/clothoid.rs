@@ -6,7 +6,6 @@
 //! the rule errs by less than `64/15 e^12.5 5^-32 / (1 - 1/25) h < 6e-17 h`: Trefethen, Approximation Theory, theorem
 //! 19.3. Fresnel's integrals are not used: nearly circular clothoids are small differences of them.
 
-use super::piece::principal;
 use super::placement::Ends;
 use crate::curve::gauss;
 use crate::curve::vector::{Vector, add, length as norm, scale, sub};
@@ -82,7 +81,8 @@ impl Clothoid {
     /// there is none unless the end happens to lie right, to 1e-13 of the size of the coordinates.
     pub(super) fn between(ends: &Ends) -> Option<Clothoid> {
         let Ends { start, end, start_direction, end_direction, start_curvature, end_curvature } = *ends;
-        let length = 2.0 * principal(end_direction - start_direction) / (start_curvature + end_curvature);
+        let (sin, cos) = (end_direction - start_direction).sin_cos();
+        let length = 2.0 * sin.atan2(cos) / (start_curvature + end_curvature);
         let found = Clothoid { start, start_direction, curvature: start_curvature, end_curvature, length };
         if !length.is_finite() || length <= 0.0 || found.angle_bound() > Clothoid::MOST_ANGLE {
             return None;

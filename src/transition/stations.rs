@@ -41,8 +41,8 @@ impl Station {
 ///
 /// # Accuracy
 /// A point's arc length is its `station` to 1e-13 of the path's length; PH quintics, lines, arcs and clothoids have
-/// formulas, and the others are integrated to 1e-14 by [`arc_length`]. Both ends are exact. Headings and curvatures are those of
-/// [`Piece::at`].
+/// formulas, and the others are integrated to 1e-14 by [`arc_length`]. Both ends are exact. Headings and curvatures are
+/// those of [`Piece::at`].
 ///
 /// # Errors
 /// [`Error::Domain`] for fewer than two points, or where a number leaves the range of doubles.

@@ -65,7 +65,8 @@ fn what_is_wrong_with_a_piece_is_told() {
             "a piece of the kind `clothoid` needs `end_curvature`",
         ),
         (
-            r#"{"kind": "clothoid", "start": [0, 0], "direction": 0, "curvature": 1, "end_curvature": -3e9, "length": 2}"#,
+            r#"{"kind": "clothoid", "start": [0, 0], "direction": 0, "curvature": 1, "length": 2,
+                "end_curvature": -3e9}"#,
             "the length of a clothoid times its greater curvature is 6000000000; ",
         ),
         (r#"{"kind": "ph-quintic", "start": [0, 0]}"#, "a piece of the kind `ph-quintic` needs `preimage`"),

@@ -16,15 +16,13 @@ use super::super::placement::Ends;
 use super::super::segment::{Base, Request, Target, add_segment};
 use super::super::turn::Turn;
 use super::request::Family;
-use super::trig::TrigWay;
+use super::trig::{STRAIGHT, TrigWay};
 use crate::curve::vector::{Vector, add, length, scale, sub, turn, unit};
 use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::Result;
 use crate::family::reach::{Kind, Level};
 use std::f64::consts::PI;
 
-/// The most that a spiral with a straight end turns that is no clothoid, radians.
-pub(super) const STRAIGHT: f64 = 1.3;
 /// A spiral leads at least this factor from one curvature to the other.
 const APART: f64 = 0.55;
 
@@ -149,7 +147,7 @@ impl Spiral {
                 PhQuintic::new([0.0, 0.0], [[a, 0.0], add([x, 0.0], tilted(y)), tilted(b)]).end
             }
             Family::Clothoid => clothoid_step(0.0, [k0, k1], self.length),
-            Family::TrigQuintic => TrigWay::of(self).map_or([f64::NAN; 2], |way| way.step()),
+            Family::TrigQuintic => TrigWay::of(angle, k0, k1).map_or([f64::NAN; 2], |way| way.step()),
         };
         [x, side * y]
     }
@@ -166,8 +164,8 @@ impl Spiral {
                 end_curvature: self.to * scale_by,
                 length: self.length / scale_by,
             })),
-            Family::TrigQuintic => match TrigWay::of(self) {
-                Some(way) => way.piece(at, scale_by, self.angle())?,
+            Family::TrigQuintic => match TrigWay::of(self.angle().abs(), self.from, self.to) {
+                Some(way) => way.piece(at.at, at.direction, scale_by, self.angle())?,
                 None => None,
             },
             Family::Cubic | Family::PhQuintic if self.from == 0.0 || self.to == 0.0 => {
@@ -280,7 +278,8 @@ pub(super) fn pinned(piece: Piece, to: Vector) -> Result<Piece> {
             let ends = Ends { end: to, ..*between.ends() };
             Piece::Involute(InvoluteBetween::new(&ends, [0, 0])?)
         }
-        Piece::TrigQuintic(part) => {
+        // The end of a part is no point of the polygon.
+        Piece::TrigQuintic(part) if part.to == 1.0 => {
             let mut curve = part.curve;
             curve.sides[2] = add(curve.sides[2], sub(to, curve.points()[5]));
             Piece::TrigQuintic(TrigPart { curve, ..part })

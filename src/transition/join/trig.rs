@@ -2,7 +2,6 @@
 //! circle within a circle.
 
 use super::super::piece::{Piece, TrigPart};
-use super::spiral::{Pose, STRAIGHT, Spiral};
 use crate::curve::TrigBezier;
 use crate::curve::vector::{Vector, sub, turn, unit};
 use crate::error::Result;
@@ -10,6 +9,8 @@ use crate::family::trig_quintic::{SPIRAL, Scaling, Shape, flags};
 use crate::num::roots::find;
 use std::f64::consts::PI;
 
+/// The most that a spiral with a straight end turns that is no clothoid, radians.
+pub(super) const STRAIGHT: f64 = 1.3;
 /// Angles, radians, that are the same to roundings.
 const ROUNDING: f64 = 1e-15;
 
@@ -38,10 +39,8 @@ impl TrigWay {
         TrigWay { shape, round, rising: from.abs() < to.abs(), curve, from: begins }
     }
 
-    /// Of one that turns as far as a spiral is to turn, if there is one.
-    pub(super) fn of(spiral: &Spiral) -> Option<TrigWay> {
-        let Spiral { from, to, .. } = *spiral;
-        let angle = spiral.angle().abs();
+    /// Of one whose part turns by an angle, if there is one.
+    pub(super) fn of(angle: f64, from: f64, to: f64) -> Option<TrigWay> {
         if from == 0.0 || to == 0.0 {
             return Some(TrigWay::whole(angle, from, to));
         }
@@ -71,9 +70,9 @@ impl TrigWay {
         if self.rising { [x, y] } else { turn(unit(self.angle()), [x, -y]) }
     }
 
-    /// In units of `1 / scale`, from a pose of the user's frame, turning by an angle with its sign; `None` where it is
-    /// not proved.
-    pub(super) fn piece(&self, at: Pose, scale_by: f64, angle: f64) -> Result<Option<Piece>> {
+    /// In units of `1 / scale`, from a point and a direction of the user's frame, turning by an angle with its sign;
+    /// `None` where it is not proved.
+    pub(super) fn piece(&self, at: Vector, direction: f64, scale_by: f64, angle: f64) -> Result<Option<Piece>> {
         if flags(&self.shape)? & SPIRAL == 0 {
             return Ok(None);
         }
@@ -86,9 +85,9 @@ impl TrigWay {
             (mirrored(&curve).reversed(), PI - self.shape.theta, [0.0, 1.0 - self.from])
         };
         let curve = if angle > 0.0 { curve } else { mirrored(&curve) };
-        let along = unit(at.direction - begins.copysign(angle));
+        let along = unit(direction - begins.copysign(angle));
         let before = turn(along, sub(curve.jet(from).point, curve.start));
-        let curve = curve.mapped(sub(at.at, before), |z| turn(along, z));
+        let curve = curve.mapped(sub(at, before), |z| turn(along, z));
         Ok(Some(Piece::TrigQuintic(TrigPart { curve, from, to })))
     }
 }
