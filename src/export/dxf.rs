@@ -40,9 +40,8 @@ pub fn dxf(paths: &[Course]) -> Result<Vec<u8>> {
             entity.common.layer = format!("PATH_{}", i + 1);
             drawing.add_entity(entity);
             for at in extent(piece) {
-                for k in 0..2 {
-                    (least[k], most[k]) = (least[k].min(at[k]), most[k].max(at[k]));
-                }
+                least = [0, 1].map(|k| least[k].min(at[k]));
+                most = [0, 1].map(|k| most[k].max(at[k]));
             }
         }
     }
