@@ -5,9 +5,9 @@
 //
 //     spiral-atlas generate RECIPE                       # of cells of the cubic, as in docs/cells.md
 //     crates/capi/install PREFIX
-//     PKG_CONFIG_PATH=PREFIX/lib/pkgconfig g++ -std=c++17 -O2 -Icpp benches/ompl_atlas.cpp -o ompl_atlas \
-//         $(pkg-config --cflags --libs spiral_atlas ompl)
-//     LD_LIBRARY_PATH=PREFIX/lib ./ompl_atlas CELLS fit|signs|cells [RUNS]
+//     export PKG_CONFIG_PATH=PREFIX/lib/pkgconfig
+//     g++ -std=c++17 -O2 -Icpp benches/ompl_atlas.cpp -o ompl_atlas $(pkg-config --cflags --libs spiral_atlas ompl)
+//     LD_LIBRARY_PATH=PREFIX/lib ./ompl_atlas CELLS fit|signs|cells [CANDIDATES]
 
 #include "spiral_atlas_cells.hpp"
 #include "spiral_atlas_ompl.hpp"
@@ -97,13 +97,15 @@ int main(int count, char **arguments) {
     const sa::CellsFile cells(arguments[1]);
     const std::string name = arguments[2];
     const Test test = name == "fit" ? Test::fit : name == "signs" ? Test::signs : Test::cells;
-    const int runs = count > 3 ? std::atoi(arguments[3]) : 20;
+    const std::size_t candidates = count > 3 ? std::strtoul(arguments[3], nullptr, 10) : 100000;
     ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
     ompl::RNG::setSeed(1);
     Counts counts;
     double whole = 0;
-    int solved = 0;
-    for (int run = 0; run < runs; run++) {
+    int solved = 0, runs = 0;
+    // Each run is stopped after a tenth of the candidates, or at a path.
+    while (counts.candidates < candidates) {
+        const std::size_t most = counts.candidates + candidates / 10;
         auto space = std::make_shared<sa::JoinStateSpace>(1.0);
         ob::RealVectorBounds bounds(2);
         bounds.setLow(-2), bounds.setHigh(14);
@@ -124,7 +126,9 @@ int main(int count, char **arguments) {
         setup.setPlanner(planner);
         setup.setup();
         const auto began = Clock::now();
-        solved += setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION;
+        const ob::PlannerTerminationCondition enough([&] { return counts.candidates >= most; });
+        solved += setup.solve(enough) == ob::PlannerStatus::EXACT_SOLUTION;
+        runs++;
         whole += std::chrono::duration<double>(Clock::now() - began).count();
     }
     std::printf("%s: %d of %d solved in %.3f s, %.3f s of them to decide %zu candidates: ", name.c_str(), solved, runs,

@@ -101,7 +101,7 @@ fn parts(body: Rect, style: Style, below: bool) -> [Rect; 2] {
 }
 
 /// Room for the numbers and the name on the left.
-fn narrowed(canvas: &mut Drawing, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
+pub(super) fn narrowed(canvas: &mut Drawing, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
     let left = rect.left + width_left(canvas, y, style, rect.height()) + style.px(1.6);
     let rect = Rect { left, ..rect };
     check_room(canvas, rect)?;
@@ -109,7 +109,7 @@ fn narrowed(canvas: &mut Drawing, y: &Scale, style: Style, rect: Rect) -> Result
 }
 
 /// Axes and frame with their names.
-fn finish(canvas: &mut Drawing, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
+pub(super) fn finish(canvas: &mut Drawing, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
     draw_below(canvas, x, style, rect, true);
     draw_left(canvas, y, style, rect, true);
     label_below(canvas, style, rect, style.below(), names[0]);
