@@ -47,6 +47,8 @@ CASES = {
     "ph-quintic": curve("ph-quintic", ENDS),
     "ph-quintic-far": curve("ph-quintic", FAR),
     "spline": run("path", "spline", "examples/lap.json")[0],
+    "clothoid": run("join", *"--from 0,0,0 --to 180,150,100deg,0.01 --greatest-curvature 0.0166 --family clothoid "
+                            "--objective greatest-rate --longest 400".split())[0],
 }
 
 
@@ -71,6 +73,13 @@ class Geometry:
             local, d = (self.u @ powers, self.v @ powers), (self.u @ first, self.v @ first)
             dd = (self.u @ second, self.v @ second)
             turn, kappa = math.atan2(d[1], d[0]), (d[0] * dd[1] - d[1] * dd[0]) / math.hypot(*d) ** 3
+        elif self.shape.tag == "spiral":
+            first, last = (float(self.shape.get(name)) for name in ("curvStart", "curvEnd"))
+            kappa = first + p * (last - first)
+            s = p * self.length
+            turn = lambda x: x * (first + 0.5 * x * (last - first) / self.length)
+            local = [quad(lambda x, f=f: f(turn(x)), 0, s, epsabs=1e-12, epsrel=1e-12)[0] for f in (math.cos, math.sin)]
+            turn = turn(s)
         else:
             kappa = float(self.shape.get("curvature", 0))
             s = p * self.length
@@ -115,9 +124,13 @@ def check(name, text, path, tolerance):
         assert abs(station - float(road.get("length"))) <= 1e-9 * station
         rest = iter(geometries)
         for piece in asked["pieces"]:
-            if piece["kind"] in ("line", "arc"):
-                whole = piece["length"] if piece["kind"] == "arc" else math.dist(piece["start"], piece["end"])
-                assert abs(next(rest).length - whole) < 1e-9
+            if piece["kind"] in ("line", "arc", "clothoid"):
+                whole = math.dist(piece["start"], piece["end"]) if piece["kind"] == "line" else piece["length"]
+                found = next(rest)
+                assert abs(found.length - whole) < 1e-9
+                assert (found.shape.tag == "spiral") == (piece["kind"] == "clothoid")
+                worst_distance = max(worst_distance, *(
+                    np.hypot(*(found.at(p)[0] - piece[end])) for p, end in ((0, "start"), (1, "end")) if end in piece))
                 continue
             # A cubic is one geometry; the parts of a quintic are equally long in its parameter.
             parts = [next(rest)]
@@ -207,7 +220,10 @@ def main():
         print(f"{name:16} joints {joint:.1e} m, {heading:.1e} rad, {curvature:.1e} / m; "
               f"distance {distance:.1e} m; {checks} checks")
     for name, text in CASES.items():
-        drawing(name, text)
+        if name != "clothoid":
+            drawing(name, text)
+    refused = run("export", "dxf", "-", "--out", str(folder / "none.dxf"), stdin=CASES["clothoid"], status=2)[1]
+    assert "clothoid" in refused, refused
     tight = run("export", "opendrive", "-", "--tolerance", "1e-9", stdin=CASES["ph-quintic"])[1]
     assert float(tight.rsplit("at most ", 1)[1].split()[0]) < 1e-6, tight
     broken = (folder / "cubic.xodr").read_text().replace('length="229', 'length="228')

@@ -18,7 +18,7 @@ const FAMILIES: [&str; 8] = [
     "ph-equal-length",
     "ph-hermite",
 ];
-const KINDS: [&str; 4] = ["cubic", "ph-quintic", "involute", "trig-quintic"];
+const KINDS: [&str; 5] = ["cubic", "ph-quintic", "involute", "trig-quintic", "clothoid"];
 const TOOLS: [&str; 7] = ["hermite", "equal-length", "least-curvature", "spline", "plan", "separation", "measure"];
 /// No family has more axes.
 const AXES: usize = 8;

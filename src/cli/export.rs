@@ -5,11 +5,11 @@ mod lattice;
 use super::path::Source;
 use super::{Outcome, numbers, output};
 use lattice::LatticeArgs;
-use spiral_atlas::Result;
 use spiral_atlas::export::{OpenDrive, dxf, opendrive};
 use spiral_atlas::files::write_file;
 use spiral_atlas::path::Course;
 use spiral_atlas::plain::count;
+use spiral_atlas::{Error, Result};
 use std::path::PathBuf;
 
 /// Write paths as files that other programs read.
@@ -34,9 +34,9 @@ enum Format {
 /// Input: {"paths": [{"pieces": [piece, ..]}, ..]} in metres, as `curve NAME --json`, `join` and the tools of `path`
 /// print it, or a line of JSON for each of several, as with --points; lines without a path are named on standard error.
 ///
-/// Lines, arcs and cubic curves are exact. PH quintics are fitted by cubics, no further away than the tolerance; how
-/// many, how well, and how much the curvature differs at joints is reported on standard error. Involutes and
-/// trigonometric curves are refused.
+/// Lines, arcs, cubic curves and clothoids are exact. PH quintics are fitted by cubics, no further away than the
+/// tolerance; how many, how well, and how much the curvature differs at joints is reported on standard error. Involutes
+/// and trigonometric curves are refused.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas export opendrive path.json --lane-width 3.75 --out road.xodr")]
 struct RoadArgs {
@@ -59,7 +59,7 @@ struct RoadArgs {
 /// it, or a line of JSON for each of several, as with --points; lines without a path are named on standard error.
 ///
 /// Lines, arcs, cubic curves and PH quintics are exact: LINE, ARC, and SPLINE of degree 3 and 5, with 12 decimals.
-/// Involutes and trigonometric curves are refused.
+/// Involutes, trigonometric curves and clothoids are refused.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  spiral-atlas export dxf path.json --out path.dxf")]
 struct DrawingArgs {
@@ -80,6 +80,10 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
 }
 
 fn drawing(args: &DrawingArgs) -> Result<Outcome> {
+    if !output::has_extension(&args.out, "dxf") {
+        let path = args.out.display();
+        return Err(Error::invalid(format!("the drawing `{path}` is to be DXF; end its name with .dxf")));
+    }
     let paths: Vec<Course> = args.source.courses()?.into_iter().map(|(_, course)| course).collect();
     write_file(&args.out, &dxf(&paths).map_err(|e| args.source.blame(e))?)?;
     Ok(Outcome::Fine)

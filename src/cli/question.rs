@@ -6,9 +6,11 @@ use super::output;
 use clap::ArgGroup;
 use spiral_atlas::family::Family;
 use spiral_atlas::plain::count;
-use spiral_atlas::question::{Boundary, Nearest, Property, Ranges, boundary, nearest, ranges};
+use spiral_atlas::plot::{Drawing, OutlinesFigure, draw_outlines, symbol};
+use spiral_atlas::question::{Boundary, Nearest, Outline, Property, Ranges, boundary, nearest, ranges};
 use spiral_atlas::recipe::parse_coordinate;
 use spiral_atlas::{Error, Result};
+use std::path::PathBuf;
 
 /// What to find instead of the answer for the datum.
 #[derive(clap::Args)]
@@ -37,7 +39,14 @@ pub(super) struct QuestionArgs {
     /// With --boundary: cells along each side, a power of two.
     #[arg(long, value_name = "N", default_value_t = 256, requires = "boundary")]
     cells: usize,
+    /// With --boundary: draw the outline.
+    #[arg(long, value_name = "FILE.png|svg", requires = "boundary")]
+    figure: Option<PathBuf>,
 }
+
+/// Dots along each side of a picture, where the property holds.
+const DOTS: usize = 40;
+const SIZE: (u32, u32) = (1000, 800);
 
 impl QuestionArgs {
     /// Whether anything is asked.
@@ -47,6 +56,7 @@ impl QuestionArgs {
 
     /// The answer, printed.
     pub(super) fn run(&self, family: &'static dyn Family, coordinates: &Coordinates, json: bool) -> Result<Outcome> {
+        output::check_figure(self.figure.as_deref())?;
         let pair = match self.boundary.as_deref() {
             None => None,
             Some([first, second]) if first != second => Some([&first[..], &second[..]]),
@@ -65,15 +75,18 @@ impl QuestionArgs {
         let yes = match (pair, &self.ranges) {
             (Some([first, second]), _) => {
                 let within = [self.within(0, first)?, self.within(1, second)?];
-                let found = boundary(&property, &point, [place(first), place(second)], within, self.cells)?;
+                let sides = [place(first), place(second)];
+                let found = boundary(&property, &point, sides, within, self.cells)?;
+                if let Some(path) = &self.figure {
+                    output::write_figure(path, &picture(&property, &point, sides, within, &found)?)?;
+                }
                 print(&found, json, |found| boundary_text([first, second], found))?;
-                !(found.outlines.is_empty() && found.open.is_empty())
+                !found.outlines.is_empty()
             }
             (None, Some(name)) => {
                 let found = ranges(&property, &point, place(name), self.within(0, name)?)?;
                 print(&found, json, |found| ranges_text(&property, name, found))?;
-                // A no is said only where nothing is left open.
-                !(found.ranges.is_empty() && found.open.is_empty())
+                !found.ranges.is_empty()
             }
             (None, None) => {
                 let ones = vec![1.0; axes.len()];
@@ -97,6 +110,43 @@ impl QuestionArgs {
         })?;
         Ok([parse_coordinate(name, ends.0)?, parse_coordinate(name, ends.1)?])
     }
+}
+
+/// The outline, and dots where the property holds.
+fn picture(
+    property: &Property,
+    point: &[f64],
+    sides: [usize; 2],
+    within: [[f64; 2]; 2],
+    found: &Boundary,
+) -> Result<Drawing> {
+    let axes = property.axes();
+    let given = axes.iter().zip(point).enumerate().filter(|(i, _)| !sides.contains(i));
+    let given: Vec<String> = given.map(|(_, (name, x))| format!("{} = {x:.6}", symbol(name))).collect();
+    let mut inside = Vec::new();
+    for i in 0..DOTS * DOTS {
+        let share = [i % DOTS, i / DOTS].map(|k| (k as f64 + 0.5) / DOTS as f64);
+        let at = [0, 1].map(|k| within[k][0] + (within[k][1] - within[k][0]) * share[k]);
+        let mut all = point.to_vec();
+        (all[sides[0]], all[sides[1]]) = (at[0], at[1]);
+        if property.at(&all)? == Some(true) {
+            inside.push(at);
+        }
+    }
+    let ring = |outline: &Outline| -> Vec<[f64; 2]> {
+        let first = outline.points.first().filter(|_| outline.closed);
+        outline.points.iter().chain(first).copied().collect()
+    };
+    let figure = OutlinesFigure {
+        title: format!("{}: {}", property.name(), given.join(", ")),
+        note: "dots: it holds; grey: cells that are open".into(),
+        names: sides.map(|side| symbol(axes[side])),
+        within,
+        inside,
+        lines: found.outlines.iter().map(ring).collect(),
+        open: found.open.clone(),
+    };
+    draw_outlines(&figure, SIZE)
 }
 
 fn print<T: serde::Serialize>(found: &T, json: bool, text: impl Fn(&T) -> String) -> Result<()> {

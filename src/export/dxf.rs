@@ -20,25 +20,33 @@ const RANGE: [f64; 2] = [1e-3, 1e9];
 /// One drawing of all paths, a layer `PATH_1`, `PATH_2`, .. for each, as a DXF file of the version R2000.
 ///
 /// Lines and arcs are `LINE` and `ARC`; cubic curves and PH quintics are `SPLINE`. An arc's ends are met to 1e-14 of
-/// its radius, everything else to 1e-12. The bytes depend on the paths alone.
+/// its radius, everything else to 1e-12. The drawing's extents hold all of it, control points included. The bytes
+/// depend on the paths alone.
 ///
 /// # Errors
 /// [`Error::Domain`] for no path, pieces shorter than 1e-3, coordinates or radii beyond 1e9, and pieces that DXF does
-/// not have: involutes and trigonometric curves.
+/// not have: involutes, trigonometric curves and clothoids.
 pub fn dxf(paths: &[Course]) -> Result<Vec<u8>> {
     if paths.is_empty() {
         return Err(Error::invalid("there is no path; a drawing has one at least"));
     }
     let mut drawing = Drawing::new();
     timeless(&mut drawing);
+    let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for (i, path) in paths.iter().enumerate() {
         for (j, piece) in path.pieces().iter().enumerate() {
             let specific = entity(piece).map_err(|e| e.at(format!("paths[{i}].pieces[{j}]")))?;
             let mut entity = Entity::new(specific);
             entity.common.layer = format!("PATH_{}", i + 1);
             drawing.add_entity(entity);
+            for at in extent(piece) {
+                least = [0, 1].map(|k| least[k].min(at[k]));
+                most = [0, 1].map(|k| most[k].max(at[k]));
+            }
         }
     }
+    drawing.header.minimum_drawing_extents = Point::new(least[0], least[1], 0.0);
+    drawing.header.maximum_drawing_extents = Point::new(most[0], most[1], 0.0);
     let mut bytes = Vec::new();
     drawing.save(&mut bytes).map_err(|e| Error::invalid(format!("DXF: {e}")))?;
     Ok(bytes)
@@ -56,6 +64,20 @@ fn timeless(drawing: &mut Drawing) {
     header.version_guid = Default::default();
 }
 
+/// Points whose box holds a piece: control points, ends, and where an arc runs along an axis.
+fn extent(piece: &Piece) -> Vec<Vector> {
+    let mut all = piece.control_points().unwrap_or_else(|| vec![piece.start(), piece.end()]);
+    if let Piece::Arc(transition::Arc { start_direction: from, curvature, length, .. }) = piece {
+        let turned = curvature * length;
+        let quarters = [*from, from + turned].map(|direction| direction / FRAC_PI_2);
+        let [first, last] = [quarters[0].min(quarters[1]).ceil(), quarters[0].max(quarters[1]).floor()];
+        // Four of them are all that differ.
+        let along = (0..4).map(|n| first + f64::from(n)).filter(|quarter| *quarter <= last);
+        all.extend(along.map(|quarter| piece.at((quarter * FRAC_PI_2 - from) / turned).point));
+    }
+    all
+}
+
 fn entity(piece: &Piece) -> Result<EntityType> {
     let long = piece.length();
     if long < RANGE[0] {
@@ -69,7 +91,7 @@ fn entity(piece: &Piece) -> Result<EntityType> {
         }
         Piece::Arc(arc) => round(arc),
         Piece::Cubic(_) | Piece::PhQuintic(_) => spline(&piece.control_points().unwrap_or_default()),
-        Piece::Involute(_) | Piece::TrigQuintic(_) => Err(Error::invalid(format!(
+        Piece::Involute(_) | Piece::TrigQuintic(_) | Piece::Clothoid(_) => Err(Error::invalid(format!(
             "it is of the kind `{}`, which DXF does not have; ask for a curve of the family cubic or ph-quintic",
             piece.kind().name()
         ))),

@@ -1,9 +1,9 @@
 //! ASAM OpenDRIVE: a path as a road whose reference line it is.
 //!
-//! Lines and arcs are themselves there. A cubic Bézier curve is a `paramPoly3` in the parameter from 0 to 1, exactly. A
-//! PH quintic has degree 5, and `paramPoly3` has 3: it is divided into n equal parts of its parameter, and each becomes
-//! the cubic with the same ends and the same derivatives there. For p from [0, 1] to the plane, in any direction u,
-//! Hermite's remainder on a part of width h = 1/n is
+//! Lines, arcs and clothoids are themselves there. A cubic Bézier curve is a `paramPoly3` in the parameter from 0 to 1,
+//! exactly. A PH quintic has degree 5, and `paramPoly3` has 3: it is divided into n equal parts of its parameter, and
+//! each becomes the cubic with the same ends and the same derivatives there. For p from [0, 1] to the plane, in any
+//! direction u, Hermite's remainder on a part of width h = 1/n is
 //!
 //! ```text
 //! |u (p - q)(t)| <= max |u p''''| h⁴ / 384
@@ -17,7 +17,7 @@ use crate::curve::vector::{Vector, add, cross, length, scale, sub};
 use crate::curve::{PhQuintic, arc_length, casteljau};
 use crate::error::{Error, Result, positive};
 use crate::path::Course;
-use crate::transition::{Arc, Cubic, Line, Piece};
+use crate::transition::{Arc, Clothoid, Cubic, Line, Piece};
 use quick_xml::Writer;
 use std::io;
 
@@ -85,6 +85,8 @@ enum Primitive {
     Arc {
         curvature: f64,
     },
+    /// A clothoid, with the curvatures at its ends.
+    Spiral([f64; 2]),
     /// The powers 1 to 3 of u and v; those of 0 are 0.
     Cubic {
         u: [f64; 3],
@@ -103,6 +105,10 @@ fn geometries(path: &Course, tolerance: f64, fit: &mut Fit) -> Result<Vec<Geomet
             }
             Piece::Arc(Arc { start, start_direction, curvature, length }) => {
                 let shape = if *curvature == 0.0 { Primitive::Line } else { Primitive::Arc { curvature: *curvature } };
+                all.push(Geometry { start: *start, heading: *start_direction, length: *length, shape });
+            }
+            Piece::Clothoid(Clothoid { start, start_direction, curvature, end_curvature, length }) => {
+                let shape = Primitive::Spiral([*curvature, *end_curvature]);
                 all.push(Geometry { start: *start, heading: *start_direction, length: *length, shape });
             }
             Piece::Cubic(Cubic { points, legs }) => all.push(cubic(points.p[0], *legs).map_err(blame)?),
@@ -222,6 +228,11 @@ fn plan_view(out: &mut Writer<Vec<u8>>, road: &[Geometry]) -> io::Result<()> {
                     Primitive::Arc { curvature } => out
                         .create_element("arc")
                         .with_attribute(("curvature", &*format!("{curvature:?}")))
+                        .write_empty()?,
+                    Primitive::Spiral([first, last]) => out
+                        .create_element("spiral")
+                        .with_attribute(("curvStart", &*format!("{first:?}")))
+                        .with_attribute(("curvEnd", &*format!("{last:?}")))
                         .write_empty()?,
                     Primitive::Cubic { u, v } => {
                         let names = ["aU", "bU", "cU", "dU", "aV", "bV", "cV", "dV"];

@@ -1,13 +1,14 @@
 //! Where a vehicle is on a piece of its path once it has covered a length, with bounds of the errors.
 //!
-//! Quintics with a Pythagorean hodograph, lines and arcs have formulas. The length of a cubic or a trigonometric
-//! quintic is integrated by the 16-point Gauss-Legendre rule on cells where its error is proved. Let `x' ± iy'` differ
-//! by at most a quarter of `|r'|` from their values at the middle of a cell of half-width h, in the complex disc of
-//! radius `17/8 h`. They are the factors of `|r'|²` and have no root there. So the speed is analytic in the ellipse of
-//! the foci -h, h and the sum 4h of its half-axes, which lies in the disc, and at most 5/4 of that in the middle. The
-//! rule then errs by less than `h 64/15 5/4 |r'| 4^-32 / (1 - 1/16)`, and the cell is at least `2h 3/4 |r'|` long. So
-//! the error is below 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3. The same holds for a
-//! part of a cell, whose disc lies in that of the cell.
+//! Quintics with a Pythagorean hodograph, lines and arcs have formulas. Clothoids have as parameter their length, and
+//! their points are known to far less than roundings (`transition/clothoid.rs`). The length of a cubic or a
+//! trigonometric quintic is integrated by the 16-point Gauss-Legendre rule on cells where its error is proved. Let `x'
+//! ± iy'` differ by at most a quarter of `|r'|` from their values at the middle of a cell of half-width h, in the
+//! complex disc of radius `17/8 h`. They are the factors of `|r'|²` and have no root there. So the speed is analytic in
+//! the ellipse of the foci -h, h and the sum 4h of its half-axes, which lies in the disc, and at most 5/4 of that in
+//! the middle. The rule then errs by less than `h 64/15 5/4 |r'| 4^-32 / (1 - 1/16)`, and the cell is at least `2h 3/4
+//! |r'|` long. So the error is below 4e-19 of the cell's length: Trefethen, Approximation Theory, theorem 19.3. The
+//! same holds for a part of a cell, whose disc lies in that of the cell.
 //!
 //! Roundings: r' has at most 30 of them (of 2^-53, in units of the bound [`Bezier::size`]) for a cubic and 70 for a
 //! trigonometric quintic, whose basis is a product of up to six factors, sines and cosines among them. A parameter is
@@ -21,7 +22,7 @@ use crate::curve::vector::{cross, length, sub};
 use crate::curve::{Jet, PhQuintic, gauss};
 use crate::error::{Error, Result};
 use crate::steps::step;
-use crate::transition::{Arc, Cubic, Piece, TrigPart};
+use crate::transition::{Arc, Clothoid, Cubic, Piece, TrigPart};
 use std::f64::consts::FRAC_PI_2;
 
 /// The greatest half-axis of the ellipse in half-widths.
@@ -58,6 +59,7 @@ pub(super) struct Way {
 enum Curve {
     Quintic(PhQuintic),
     Arc(Arc),
+    Clothoid(Clothoid),
     Integrated(Bezier, Vec<Cell>),
 }
 
@@ -96,7 +98,11 @@ impl Way {
         let way = match piece {
             Piece::PhQuintic(curve) => Way::quintic(*curve),
             Piece::Line(line) => Way::quintic(PhQuintic::straight(line.start, line.end)),
-            Piece::Arc(arc) => Way::arc(arc),
+            Piece::Arc(arc) => Way::round(Curve::Arc(*arc), arc.start, arc.start_direction, arc.curvature, arc.length),
+            Piece::Clothoid(c) => {
+                let most = c.curvature.abs().max(c.end_curvature.abs());
+                Way::round(Curve::Clothoid(*c), c.start, c.start_direction, most, c.length)
+            }
             Piece::Cubic(cubic) => Way::integrated(Bezier::Cubic(*cubic)),
             Piece::TrigQuintic(part) => Way::integrated(Bezier::Trig(*part)),
             Piece::Involute(_) => {
@@ -140,17 +146,17 @@ impl Way {
         }
     }
 
-    /// Its angles, and with them its points, err by roundings of the largest angle.
-    fn arc(arc: &Arc) -> Way {
-        let direction_off = ROUNDINGS * (1.0 + arc.start_direction.abs() + (arc.curvature * arc.length).abs());
+    /// An arc or a clothoid. Its angles, and with them its points, err by roundings of the largest angle.
+    fn round(curve: Curve, start: [f64; 2], direction: f64, curvature: f64, length: f64) -> Way {
+        let direction_off = ROUNDINGS * (1.0 + direction.abs() + (curvature * length).abs());
         Way {
-            curve: Curve::Arc(*arc),
-            length: arc.length,
+            curve,
+            length,
             length_off: 0.0,
-            mismatch: direction_off * arc.length,
+            mismatch: direction_off * length,
             direction_off,
-            curvature: arc.curvature.abs() * (1.0 + ROUNDINGS),
-            sizes: [largest(&[arc.start]) + arc.length, arc.length],
+            curvature: curvature.abs() * (1.0 + ROUNDINGS),
+            sizes: [largest(&[start]) + length, length],
         }
     }
 
@@ -215,6 +221,7 @@ impl Way {
                 apart(&a.preimage, &b.preimage) * (most(&a.preimage) + most(&b.preimage))
             }
             (Curve::Arc(a), Curve::Arc(b)) => equal(Arc { start: b.start, ..*a } == *b),
+            (Curve::Clothoid(a), Curve::Clothoid(b)) => equal(Clothoid { start: b.start, ..*a } == *b),
             (Curve::Integrated(Bezier::Cubic(a), _), Curve::Integrated(Bezier::Cubic(b), _)) => {
                 3.0 * apart(&a.legs, &b.legs)
             }
@@ -235,14 +242,18 @@ impl Way {
                 let missed = (curve.length_to(t) - local.min(self.length)).abs();
                 Reached { point: curve.point(t), tangent: curve.tangent(t), missed }
             }
-            Curve::Arc(arc) => {
-                let at = Piece::Arc(*arc).at((local / arc.length).clamp(0.0, 1.0));
-                let (sine, cosine) = at.heading.sin_cos();
-                Reached { point: at.point, tangent: [cosine, sine], missed: 0.0 }
-            }
+            Curve::Arc(arc) => at_share(&Piece::Arc(*arc), local / arc.length),
+            Curve::Clothoid(clothoid) => at_share(&Piece::Clothoid(*clothoid), local / clothoid.length),
             Curve::Integrated(curve, cells) => integrated_to(curve, cells, self.length, local.clamp(0.0, self.length)),
         }
     }
+}
+
+/// After a share of the length that is the parameter.
+fn at_share(piece: &Piece, share: f64) -> Reached {
+    let at = piece.at(share.clamp(0.0, 1.0));
+    let (sine, cosine) = at.heading.sin_cos();
+    Reached { point: at.point, tangent: [cosine, sine], missed: 0.0 }
 }
 
 fn integrated_to(curve: &Bezier, cells: &[Cell], whole: f64, local: f64) -> Reached {

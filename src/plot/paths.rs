@@ -45,6 +45,8 @@ pub struct PathsFigure {
     pub paths: Vec<Vec<[f64; 2]>>,
     /// Signed curvature at each point of the first path, positive to the left, for a comb; may be empty.
     pub comb: Vec<f64>,
+    /// Thin lines below the paths: what they lead from and to.
+    pub given: Vec<Vec<[f64; 2]>>,
     /// Graphs; where there is one for each path, in its colour.
     pub graph: Lines,
     /// A value of the graphs to mark with a line.
@@ -62,9 +64,9 @@ pub struct PathsFigure {
 pub fn draw_paths(figure: &PathsFigure, size: (u32, u32)) -> Result<Drawing> {
     let mut canvas = Drawing::new(size)?;
     let finite = |lines: &[Vec<Point>]| lines.iter().flatten().flatten().all(|v| v.is_finite());
-    let behind = figure.backdrop.iter().flat_map(|b| b.obstacles.iter().chain([&b.polyline]));
+    let behind = figure.backdrop.iter().flat_map(|b| b.obstacles.iter().chain([&b.polyline])).chain(&figure.given);
     if !behind.flatten().flatten().all(|v| v.is_finite()) {
-        return Err(Error::invalid("paths figure: the backdrop must have points that are finite"));
+        return Err(Error::invalid("paths figure: what is behind must have points that are finite"));
     }
     if !figure.comb.iter().all(|k| k.is_finite()) {
         return Err(Error::invalid("paths figure: the curvatures of the comb must be finite"));
@@ -99,7 +101,7 @@ fn parts(body: Rect, style: Style, below: bool) -> [Rect; 2] {
 }
 
 /// Room for the numbers and the name on the left.
-fn narrowed(canvas: &mut Drawing, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
+pub(super) fn narrowed(canvas: &mut Drawing, y: &Scale, style: Style, rect: Rect) -> Result<Rect> {
     let left = rect.left + width_left(canvas, y, style, rect.height()) + style.px(1.6);
     let rect = Rect { left, ..rect };
     check_room(canvas, rect)?;
@@ -107,7 +109,7 @@ fn narrowed(canvas: &mut Drawing, y: &Scale, style: Style, rect: Rect) -> Result
 }
 
 /// Axes and frame with their names.
-fn finish(canvas: &mut Drawing, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
+pub(super) fn finish(canvas: &mut Drawing, [x, y]: [&Scale; 2], names: [&str; 2], style: Style, rect: Rect) {
     draw_below(canvas, x, style, rect, true);
     draw_left(canvas, y, style, rect, true);
     label_below(canvas, style, rect, style.below(), names[0]);
@@ -122,7 +124,8 @@ fn plot_paths(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Re
         b.obstacles.iter().flatten().flat_map(move |p| sides.map(|by| [p[0] + by, p[1] + by]))
     });
     let comb = Comb::new(figure.paths.first().map_or(&[], |path| path), figure.comb.iter().copied());
-    let all: Vec<Point> = figure.paths.iter().flatten().chain(comb.tips()).copied().chain(grown).collect();
+    let all: Vec<Point> =
+        figure.paths.iter().chain(&figure.given).flatten().chain(comb.tips()).copied().chain(grown).collect();
     let values = |i: usize| bounds(all.iter().map(|p| p[i]));
     let [_, y] = same_scales(values(0), values(1), area)?;
     let rect = narrowed(canvas, &y, style, area)?;
@@ -132,6 +135,9 @@ fn plot_paths(canvas: &mut Drawing, figure: &PathsFigure, style: Style, area: Re
     if let Some(backdrop) = &figure.backdrop {
         let pixels = (place(&[backdrop.grown, 0.0])[0] - place(&[0.0, 0.0])[0]).abs();
         draw_backdrop(canvas, backdrop, style, rect, (pixels, &place));
+    }
+    for line in &figure.given {
+        canvas.cased(&line.iter().map(place).collect::<Vec<_>>(), style.em * 0.06, GREY, rect);
     }
     comb.draw(canvas, style, rect, place);
     // The first is on top, and starts are above all lines.

@@ -21,6 +21,7 @@
 //! # Ok::<(), spiral_atlas::Error>(())
 //! ```
 
+mod clothoid;
 mod cubic;
 mod figure;
 mod fit;
@@ -39,6 +40,7 @@ mod turn;
 mod why;
 mod words;
 
+pub use clothoid::Clothoid;
 pub use cubic::{Answer, Solution, spiral};
 pub use figure::{EndCircle, Figure, Sample};
 pub use fit::{Fit, fit};

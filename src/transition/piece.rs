@@ -16,7 +16,7 @@
 
 mod raw;
 
-use super::{Ends, Frame, involute_between};
+use super::{Clothoid, Ends, Frame, involute_between};
 use crate::curve::vector::{Vector, add, length, lerp, scale, sub};
 use crate::curve::{CubicBezier, Jet, PhQuintic, TrigBezier, arc_length, casteljau};
 use crate::error::{Error, Result};
@@ -47,6 +47,8 @@ pub enum Piece {
     Line(Line),
     /// An arc of a circle.
     Arc(Arc),
+    /// A clothoid.
+    Clothoid(Clothoid),
 }
 
 /// What kinds of pieces there are.
@@ -65,13 +67,15 @@ pub enum Kind {
     Line,
     /// [`Piece::Arc`].
     Arc,
+    /// [`Piece::Clothoid`].
+    Clothoid,
 }
 
 impl Kind {
     /// The kind of a name.
     pub fn by_name(name: &str) -> Option<Kind> {
         use Kind::*;
-        [Cubic, PhQuintic, TrigQuintic, Involute, Line, Arc].into_iter().find(|kind| kind.name() == name)
+        [Cubic, PhQuintic, TrigQuintic, Involute, Line, Arc, Clothoid].into_iter().find(|kind| kind.name() == name)
     }
 
     /// Its name, as in JSON.
@@ -83,6 +87,7 @@ impl Kind {
             Kind::Involute => "involute",
             Kind::Line => "line",
             Kind::Arc => "arc",
+            Kind::Clothoid => "clothoid",
         }
     }
 }
@@ -225,6 +230,7 @@ impl Piece {
             Piece::Involute(_) => Kind::Involute,
             Piece::Line(_) => Kind::Line,
             Piece::Arc(_) => Kind::Arc,
+            Piece::Clothoid(_) => Kind::Clothoid,
         }
     }
 
@@ -249,7 +255,7 @@ impl Piece {
     /// Arc length.
     ///
     /// # Accuracy
-    /// A few roundings where there is a formula (`ph-quintic`, `line`, `arc`), else 1e-13 relative.
+    /// A few roundings where there is a formula (`ph-quintic`, `line`, `arc`, `clothoid`), else 1e-13 relative.
     pub fn length(&self) -> f64 {
         match self {
             Piece::Cubic(_) | Piece::TrigQuintic(_) => self.length_to(self.range()[1]),
@@ -257,6 +263,7 @@ impl Piece {
             Piece::Involute(between) => between.curve.length() * between.unit(),
             Piece::Line(Line { start, end }) => length(sub(*end, *start)),
             Piece::Arc(arc) => arc.length,
+            Piece::Clothoid(clothoid) => clothoid.length,
         }
     }
 
@@ -270,7 +277,7 @@ impl Piece {
             Piece::TrigQuintic(part) => arc_length(|t| part.curve.jet(t).speed(), part.from, t),
             Piece::PhQuintic(curve) => curve.length_to(t),
             Piece::Involute(between) => between.curve.length_to(t) * between.unit(),
-            Piece::Line(_) | Piece::Arc(_) => self.length() * t,
+            Piece::Line(_) | Piece::Arc(_) | Piece::Clothoid(_) => self.length() * t,
         }
     }
 
@@ -304,6 +311,15 @@ impl Piece {
                     heading: principal(direction),
                     curvature: arc.curvature,
                     speed: arc.length,
+                }
+            }
+            Piece::Clothoid(clothoid) => {
+                let (step, direction) = clothoid.after(t);
+                At {
+                    point: add(clothoid.start, step),
+                    heading: principal(direction),
+                    curvature: clothoid.curvature_at(t),
+                    speed: clothoid.length,
                 }
             }
         }

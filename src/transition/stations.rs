@@ -40,9 +40,9 @@ impl Station {
 /// `count` points at equal arc lengths, both ends included.
 ///
 /// # Accuracy
-/// A point's arc length is its `station` to 1e-13 of the path's length; PH quintics, lines and arcs have formulas, and
-/// the others are integrated to 1e-14 by [`arc_length`]. Both ends are exact. Headings and curvatures are those of
-/// [`Piece::at`].
+/// A point's arc length is its `station` to 1e-13 of the path's length; PH quintics, lines, arcs and clothoids have
+/// formulas, and the others are integrated to 1e-14 by [`arc_length`]. Both ends are exact. Headings and curvatures are
+/// those of [`Piece::at`].
 ///
 /// # Errors
 /// [`Error::Domain`] for fewer than two points, or where a number leaves the range of doubles.
@@ -89,7 +89,7 @@ fn parameters(piece: &Piece, length: f64, wanted: &[f64]) -> Vec<f64> {
         }
         match piece {
             Piece::PhQuintic(curve) => curve.parameter_at(wanted),
-            Piece::Line(_) | Piece::Arc(_) => wanted / length,
+            Piece::Line(_) | Piece::Arc(_) | Piece::Clothoid(_) => wanted / length,
             Piece::Involute(between) => between.parameter_at(wanted / length),
             Piece::Cubic(_) | Piece::TrigQuintic(_) => {
                 let (from, known, speed) = (t, s, |t: f64| piece.at(t).speed);

@@ -208,7 +208,7 @@ fn options_of_other_families_are_refused() {
     );
     let added = "--base line --from 0,0 --start-direction 0 --turn left --radius 1 --angle 1";
     let segment: Vec<&str> = ["curve", "reach-ph"].into_iter().chain(added.split(' ')).collect();
-    refused(&segment, &["not provided", "--to <X,Y>"]);
+    refused(&segment, &["where it ends is needed: `--to X,Y`, or its shape `--m M --q Q`"]);
     let both: Vec<&str> = segment.iter().copied().chain("--to 1,1 --m 1 --q 1".split(' ')).collect();
     refused(&both, &["'--to <X,Y>' cannot be used with"]);
     let template = "--from 0,0 --start-direction 0 --turn left --radius 1 --angle 1 --m 1 --template";

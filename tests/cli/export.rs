@@ -23,6 +23,46 @@ fn a_road_goes_to_a_file_or_to_standard_output() {
     assert!(silent.out.is_empty() && std::fs::read_to_string(out).unwrap() == printed.out);
 }
 
+/// The extents hold all of the drawing, an arc's sides too; the file's name says what it is.
+#[test]
+fn a_drawing_tells_its_extents() {
+    let folder = Folder::new("");
+    std::fs::write(folder.at("road.json"), ROAD.replace("\"length\": 40", "\"length\": 100")).unwrap();
+    let (input, out) = (folder.text("road.json"), folder.text("road.dxf"));
+    fine(["export", "dxf", &input, "--out", &out]);
+    let text = std::fs::read_to_string(out).unwrap();
+    let corner = |name: &str| -> Vec<f64> {
+        let lines: Vec<&str> = text.split(name).nth(1).unwrap().lines().map(str::trim).collect();
+        [2, 4].map(|i| lines[i].parse().unwrap()).to_vec()
+    };
+    // A circle of radius 50 about (30, 50), left along its bottom; two radians are more than a quarter.
+    let top = 50.0 * (1.0 - 2f64.cos());
+    for (name, want) in [("$EXTMIN", [0.0, 0.0]), ("$EXTMAX", [80.0, top])] {
+        let found = corner(name);
+        assert!(found.iter().zip(want).all(|(x, y)| (x - y).abs() < 1e-9), "{name}: {found:?}");
+    }
+    let other = run(["export", "dxf", &input, "--out", &folder.text("road.svg")]);
+    assert!(other.code == Some(2) && other.err.contains("end its name with .dxf"), "{}", other.err);
+    assert!(!folder.at("road.svg").exists());
+}
+
+#[test]
+fn clothoids_are_spirals_of_a_road_and_nothing_in_a_drawing() {
+    let folder = Folder::new("");
+    let options = ["join", "--from", "0,0,0", "--to", "80,60,90deg", "--greatest-curvature", "0.05"];
+    let join = fine(options.iter().chain(&["--family", "clothoid", "--objective", "greatest-rate"]));
+    std::fs::write(folder.at("join.json"), &join.out).unwrap();
+    let (input, out) = (folder.text("join.json"), folder.text("join.dxf"));
+    let road = fine(["export", "opendrive", &input]).out;
+    let piece = &join.json()["paths"][0]["pieces"][0];
+    assert_eq!((&piece["kind"], &piece["curvature"]), (&"clothoid".into(), &0.0.into()));
+    let spiral = format!("<spiral curvStart=\"0.0\" curvEnd=\"{:?}\"/>", piece["end_curvature"].as_f64().unwrap());
+    assert!(road.contains(&spiral), "{spiral}: {road}");
+    let refused = run(["export", "dxf", &input, "--out", &out]);
+    assert!(refused.code == Some(2) && refused.err.contains("of the kind `clothoid`"), "{}", refused.err);
+    assert!(!folder.at("join.dxf").exists());
+}
+
 #[test]
 fn what_no_road_can_be_is_refused_and_leaves_no_file() {
     let folder = Folder::new("");

@@ -112,7 +112,7 @@ fn a_request_stands_in_a_file() {
         (
             "family",
             json!(3),
-            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3` (li",
+            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\", \"clothoid\"; it is",
         ),
         ("longset", json!(3), "there is no field `longset`; known are `from`, `to`"),
         ("from", json!({ "state": { "point": [0, 0] } }), "from.state lacks the field `direction`"),
@@ -154,7 +154,7 @@ fn a_request_stands_in_a_file() {
         (
             "longest",
             "family = 3\nlongest",
-            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\"; it is `3`",
+            "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\", \"clothoid\"; it is `3`",
         ),
         ("direction = 0 ", "direction = 40deg ", "a text stands in quotation marks: \"40deg\""),
         ("direction = 0 ", "direction = 40 ", "from.state.direction: 40 is more than a full turn in radians"),
@@ -307,4 +307,28 @@ fn far_points_of_lines_cost_no_digits() {
     let far = with_limit(&["--from-line=-1e12,0,0", "--to-line", "-8,-1e12,90deg"]).json();
     let length = |json: &Value| json["paths"][0]["length"].as_f64().unwrap();
     assert!((length(&near) / length(&far) - 1.0).abs() < 1e-3, "{} {}", length(&near), length(&far));
+}
+
+/// From a state to itself there is nothing to join, and the option for JSON is no mistake where all is JSON.
+#[test]
+fn equal_states_and_needless_options() {
+    let same = with_limit(&["--from", "1,2,30deg,0.1", "--to", "1,2,30deg,0.1", "--json"]);
+    assert_eq!(same.code, Some(1));
+    assert_eq!(same.json()["reason"], "the two states are one: there is nothing to join");
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/ramp.toml");
+    assert_eq!(fine(["join", example, "--json"]).out, fine(["join", example]).out);
+}
+
+/// What is joined is drawn, too, in grey: lines and circles, but no states.
+#[test]
+fn lines_and_circles_are_in_the_picture() {
+    let folder = Folder::new("");
+    let grey = |ends: &[&str]| {
+        let figure = folder.text("join.svg");
+        let said = with_limit(&[ends, &["--figure", &figure]].concat());
+        assert_eq!(said.code, Some(0), "{}", said.err);
+        std::fs::read_to_string(figure).unwrap().matches("stroke=\"#6e6e6e\"").count()
+    };
+    assert_eq!(grey(&["--from-line=-3,0,0", "--to-circle", "0,4.2,4,left"]), 2);
+    assert_eq!(grey(&["--from=-3,0,0", "--to", "3,2,0.5,0.25"]), 0);
 }

@@ -1,6 +1,6 @@
 //! `query` with `--ranges`, `--nearest` and `--boundary`: what is asked wrongly is refused, never passed over.
 
-use super::{fine, run};
+use super::{Folder, fine, run};
 
 const DATUM: [&str; 7] = ["query", "--phi0", "40deg", "--phi1", "80deg", "--kappa0", "0.4"];
 
@@ -38,7 +38,14 @@ fn questions_are_answered() {
     assert!(none.code == Some(1) && none.out.contains("holds for no kappa1 there"), "{}", none.out);
     let plane = ["query", "--phi0", "40deg", "--phi1", "80deg", "--boundary", "kappa0,kappa1"];
     let plane = plane.iter().chain(&["--within", "0,0.8", "--within", "0,20", "--cells", "16"]);
-    assert!(fine(plane).out.contains("open beside the outlines"));
+    assert!(fine(plane.clone()).out.contains("open beside the outlines"));
+    let folder = Folder::new("");
+    let figure = folder.text("outline.svg");
+    fine(plane.clone().chain(&["--figure", &figure[..]]));
+    let drawn = std::fs::read_to_string(figure).unwrap();
+    assert!(drawn.contains(">SPIRAL: φ₀ = 0.698132, φ₁ = 1.396263<"), "{drawn:.600}");
+    let wrong = run(plane.chain(&["--figure", "outline.pdf"]));
+    assert!(wrong.code == Some(2) && wrong.err.contains(".png or .svg"), "{}", wrong.err);
 }
 
 /// Where a range ends at what is not decided, nothing is said to fail there: only the number of solutions changes.
@@ -48,4 +55,7 @@ fn what_is_open_is_not_said_to_fail() {
     let found = fine(ph.iter().chain(&["--ranges", "kappa1", "--within", "2.7,2.8"]));
     assert!(found.out.contains("not decided for kappa1 from 2.72304831"), "{}", found.out);
     assert!(!found.out.contains("fail beyond 2.72304831") && !found.out.contains("and 2.72304831"), "{}", found.out);
+    // All of it open: not a yes.
+    let none = run(ph.iter().chain(&["--ranges", "kappa1", "--within", "2.72304831882575,2.72304831883338"]));
+    assert!(none.code == Some(1) && none.out.starts_with("not decided for kappa1"), "{}", none.out);
 }

@@ -119,13 +119,41 @@ fn seen(piece: &Value) -> Seen {
             let end = Place { point: end, direction: direction + 2.0 * half, curvature };
             Seen { ends: [start, end], curvatures: vec![curvature], length }
         }
+        "clothoid" => {
+            let (point, direction, [from, to], length) = (
+                vector(&piece["start"]),
+                number("direction"),
+                ["curvature", "end_curvature"].map(number),
+                number("length"),
+            );
+            let across = by_powers(length, direction, [from * length, 0.5 * (to - from) * length]);
+            let end = [0, 1].map(|i| point[i] + across[i]);
+            let turned = direction + 0.5 * (from + to) * length;
+            let end = Place { point: end, direction: turned, curvature: to };
+            Seen { ends: [Place { point, direction, curvature: from }, end], curvatures: vec![from, to], length }
+        }
         "involute" => involute(piece),
         "trig-quintic" => {
             let points: Vec<Vector> = piece["control_points"].as_array().unwrap().iter().map(vector).collect();
-            sampled(|t| trigonometric(&points, number("p"), number("q"), t))
+            sampled([number("from"), number("to")], |t| trigonometric(&points, number("p"), number("q"), t))
         }
         _ => bezier(&piece["control_points"].as_array().unwrap().iter().map(vector).collect::<Vec<_>>()),
     }
+}
+
+/// From the start to the end of a curve of a length whose direction is `direction + a t + b t²`: with
+/// `exp(i (a t + b t²)) = Σ c_n t^n`, `(n + 1) c_(n+1) = i (a c_n + 2 b c_(n-1))`.
+fn by_powers(length: f64, direction: f64, [a, b]: [f64; 2]) -> Vector {
+    let (mut before, mut c, mut sum): (Vector, Vector, Vector) = ([0.0, 0.0], [1.0, 0.0], [0.0, 0.0]);
+    // Directions change by up to 10 radians.
+    for n in 0..200 {
+        let n = f64::from(n + 1);
+        sum = [0, 1].map(|i| sum[i] + c[i] / n);
+        let next = [-(a * c[1] + 2.0 * b * before[1]) / n, (a * c[0] + 2.0 * b * before[0]) / n];
+        (before, c) = (c, next);
+    }
+    let (sin, cos) = direction.sin_cos();
+    [length * (cos * sum[0] - sin * sum[1]), length * (sin * sum[0] + cos * sum[1])]
 }
 
 /// The library's own evaluation, as an involute has no control points; its ends are what it was made from.
@@ -156,7 +184,7 @@ fn bezier(p: &[Vector]) -> Seen {
         let speed = d[0].hypot(d[1]);
         (rows[rows.len() - 1][0], d[1].atan2(d[0]), (d[0] * e[1] - d[1] * e[0]) / speed.powi(3), speed)
     };
-    sampled(jet)
+    sampled([0.0, 1.0], jet)
 }
 
 /// Value and two derivatives.
@@ -197,16 +225,16 @@ fn trigonometric(points: &[Vector], p: f64, q: f64, t: f64) -> (Vector, f64, f64
     ([origin[0] + x, origin[1] + y], d[1].atan2(d[0]), curvature, speed * std::f64::consts::FRAC_PI_2)
 }
 
-/// Ends, curvatures and length of a curve given by point, direction, curvature and speed.
-fn sampled(jet: impl Fn(f64) -> (Vector, f64, f64, f64)) -> Seen {
+/// Ends, curvatures and length of a part of a curve given by point, direction, curvature and speed.
+fn sampled([from, to]: [f64; 2], jet: impl Fn(f64) -> (Vector, f64, f64, f64)) -> Seen {
     let place = |t: f64| {
         let (point, direction, curvature, _) = jet(t);
         Place { point, direction, curvature }
     };
     let steps = 400;
-    let at = |i: usize| jet(i as f64 / steps as f64);
+    let at = |i: usize| jet(from + (to - from) * (i as f64 / steps as f64));
     // Simpson's rule.
     let weight = |i: usize| if i == 0 || i == steps { 1.0 } else { [2.0, 4.0][i % 2] };
-    let length = (0..=steps).map(|i| weight(i) * at(i).3).sum::<f64>() / (3 * steps) as f64;
-    Seen { ends: [place(0.0), place(1.0)], curvatures: (0..=steps).map(|i| at(i).2).collect(), length }
+    let length = (0..=steps).map(|i| weight(i) * at(i).3).sum::<f64>() * (to - from) / (3 * steps) as f64;
+    Seen { ends: [place(from), place(to)], curvatures: (0..=steps).map(|i| at(i).2).collect(), length }
 }

@@ -4,7 +4,7 @@ use super::separation::{Polygon, sampled};
 use super::*;
 use spiral_atlas::curve::{CubicBezier, TrigBezier};
 use spiral_atlas::path::{Course, Motion, Verdict, separation};
-use spiral_atlas::transition::{Arc, Cubic, Line, Piece, TrigPart};
+use spiral_atlas::transition::{Arc, Clothoid, Cubic, Line, Piece, TrigPart};
 use std::f64::consts::FRAC_PI_2;
 
 fn cubic(p: [[f64; 2]; 4]) -> Piece {
@@ -33,6 +33,13 @@ pub(crate) fn each(unit: f64) -> Vec<Piece> {
         cubic([a, b, c, d]),
         Piece::TrigQuintic(TrigPart { curve, from: 0.0, to: 1.0 }),
         Piece::Arc(Arc { start: a, start_direction: 0.2, curvature: 1.0 / unit, length: 2.0 * unit }),
+        Piece::Clothoid(Clothoid {
+            start: a,
+            start_direction: 0.2,
+            curvature: -1.0 / unit,
+            end_curvature: 2.0 / unit,
+            length: 2.0 * unit,
+        }),
         Piece::Line(Line { start: a, end: d }),
         PhQuintic::new(a, [[1.0, 0.0], [1.0, 0.5], [0.5, 1.0]].map(|w| w.map(|x| root * x))).into(),
     ]
@@ -59,10 +66,24 @@ fn points(piece: &Piece) -> Vec<[f64; 2]> {
             }
             Piece::Line(l) => sum(&[l.start, l.end], &[u, t]),
             Piece::PhQuintic(curve) => bezier(curve, t).point,
+            Piece::Clothoid(c) => clothoid(c, t),
             Piece::Involute(_) => panic!("an involute has no formula"),
         }
     };
     (0..=4000).map(|i| point(f64::from(i) / 4000.0)).collect()
+}
+
+/// By Simpson's rule.
+fn clothoid(c: &Clothoid, t: f64) -> [f64; 2] {
+    let (s, steps) = (t * c.length, 60);
+    let direction = |x: f64| {
+        let angle = c.start_direction + x * (c.curvature + 0.5 * x * (c.end_curvature - c.curvature) / c.length);
+        [angle.cos(), angle.sin()]
+    };
+    let weight = |i: i32| if i == 0 || i == steps { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+    let sum =
+        |k: usize| (0..=steps).map(|i| weight(i) * direction(s * f64::from(i) / f64::from(steps))[k]).sum::<f64>();
+    [0, 1].map(|k| c.start[k] + s * sum(k) / f64::from(3 * steps))
 }
 
 fn random(noise: &mut Noise, kind: usize) -> Piece {
@@ -82,6 +103,13 @@ fn random(noise: &mut Noise, kind: usize) -> Piece {
             length: 1.5 + p()[0],
         }),
         3 => Piece::Line(Line { start: p(), end: p() }),
+        4 => Piece::Clothoid(Clothoid {
+            start: p(),
+            start_direction: 4.0 * p()[0],
+            curvature: 3.0 * p()[0],
+            end_curvature: 3.0 * p()[0],
+            length: 1.5 + p()[0],
+        }),
         _ => PhQuintic::new(p(), [p(), p(), p()]).into(),
     }
 }
@@ -89,8 +117,8 @@ fn random(noise: &mut Noise, kind: usize) -> Piece {
 #[test]
 fn motions_along_each_kind_agree_with_dense_sampling() {
     let mut noise = Noise(31);
-    for i in 0..50 {
-        let [one, two] = [i % 5, (i / 5) % 4].map(|kind| random(&mut noise, kind));
+    for i in 0..60 {
+        let [one, two] = [i % 6, (i / 6) % 5].map(|kind| random(&mut noise, kind));
         let (v1, v2, t2) = (1.0 + 0.5 * noise.next(), 1.0 + 0.5 * noise.next(), 0.1 * noise.next());
         let (a, b) = (Motion::new([one.clone()], v1, 0.0).unwrap(), Motion::new([two.clone()], v2, t2).unwrap());
         let lengths = [(&a, &one), (&b, &two)].map(|(m, piece)| m.length() / piece.length() - 1.0);

@@ -2,7 +2,7 @@
 
 use super::bezier;
 use spiral_atlas::curve::{CubicBezier, PhQuintic, TrigBezier};
-use spiral_atlas::transition::{Arc, Cubic, Ends, InvoluteBetween, Line, Piece, TrigPart};
+use spiral_atlas::transition::{Arc, Clothoid, Cubic, Ends, InvoluteBetween, Line, Piece, TrigPart};
 
 /// One of each kind, all of them far from the origin in units of their size.
 pub(crate) fn all() -> Vec<Piece> {
@@ -28,6 +28,7 @@ pub(crate) fn all() -> Vec<Piece> {
         Piece::Involute(InvoluteBetween::new(&ends, [0, 0]).unwrap()),
         Piece::Line(Line { start, end: [301.7, -200.9] }),
         Piece::Arc(Arc { start, start_direction: 0.3, curvature: -0.7, length: 2.5 }),
+        Piece::Clothoid(Clothoid { start, start_direction: 0.3, curvature: -0.7, end_curvature: 1.1, length: 2.5 }),
     ]
 }
 
@@ -58,7 +59,16 @@ fn pieces_come_back_from_json_as_they_were() {
 fn what_is_wrong_with_a_piece_is_told() {
     let cases = [
         (r#"{"start": [0, 0]}"#, "missing field `kind`"),
-        (r#"{"kind": "clothoid"}"#, "unknown variant `clothoid`, expected one of `cubic`, `ph-quintic`"),
+        (r#"{"kind": "spline"}"#, "unknown variant `spline`, expected one of `cubic`, `ph-quintic`"),
+        (
+            r#"{"kind": "clothoid", "start": [0, 0], "direction": 0, "curvature": 1, "length": 2}"#,
+            "a piece of the kind `clothoid` needs `end_curvature`",
+        ),
+        (
+            r#"{"kind": "clothoid", "start": [0, 0], "direction": 0, "curvature": 1, "length": 2,
+                "end_curvature": -3e9}"#,
+            "the length of a clothoid times its greater curvature is 6000000000; ",
+        ),
         (r#"{"kind": "ph-quintic", "start": [0, 0]}"#, "a piece of the kind `ph-quintic` needs `preimage`"),
         (
             r#"{"kind": "ph-quintic", "start": [0, 0], "end": [7, 0], "preimage": [[1, 0], [1, 0], [1, 0]]}"#,

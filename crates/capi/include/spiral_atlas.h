@@ -307,8 +307,8 @@ SpiralStatus spiral_fit(const SpiralEnd *start,
 
 // A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
 // `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic",
-// "trig-quintic" or "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no
-// limit. SPIRAL_NONE where none was found: the last error says why.
+// "trig-quintic", "involute" or "clothoid" (null stands for "cubic"). A path longer than `longest` counts as none;
+// infinity is no limit. SPIRAL_NONE where none was found: the last error says why.
 //
 // # Safety
 // `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
@@ -325,8 +325,8 @@ SpiralStatus spiral_join(const SpiralEnd *start,
 // `curve` comes from spiral_fit or spiral_join and is not used any more, nor are pointers that it gave.
 void spiral_curve_close(SpiralCurve *curve);
 
-// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null
-// pointer. It lives as long as the curve.
+// "cubic", "ph-quintic", "trig-quintic", "involute", "clothoid", "line" or "arc"; "path" of several pieces; null for a
+// null pointer. It lives as long as the curve.
 //
 // # Safety
 // `curve` is null or open.
@@ -346,7 +346,7 @@ const char *spiral_curve_json(const SpiralCurve *curve);
 double spiral_curve_length(const SpiralCurve *curve);
 
 // Control points: writes at most `room` of them, and always how many there are: 0 for what has none, an involute, a
-// line, an arc, or a curve of several pieces.
+// clothoid, a line, an arc, or a curve of several pieces.
 //
 // # Safety
 // `curve` is null or open; `xy` is null or has room for `room` points; `count` is null or valid for a write.

@@ -283,7 +283,7 @@ public:
     /// All that rebuilds it exactly: the piece as `curve` has it, or {"pieces": [..]} of several.
     std::string json() const { return spiral_curve_json(handle_.get()); }
 
-    /// Control points; an involute, a line, an arc and a curve of several pieces have none.
+    /// Control points; an involute, a clothoid, a line, an arc and a curve of several pieces have none.
     std::vector<std::array<double, 2>> control_points() const {
         std::size_t count = 0;
         detail::check(spiral_curve_control_points(handle_.get(), nullptr, 0, &count));

@@ -114,8 +114,8 @@ pub unsafe extern "C" fn spiral_fit(
 
 /// A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
 /// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic",
-/// "trig-quintic" or "involute" (null stands for "cubic"). A path longer than `longest` counts as none; infinity is no
-/// limit. SPIRAL_NONE where none was found: the last error says why.
+/// "trig-quintic", "involute" or "clothoid" (null stands for "cubic"). A path longer than `longest` counts as none;
+/// infinity is no limit. SPIRAL_NONE where none was found: the last error says why.
 ///
 /// # Safety
 /// `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
@@ -136,9 +136,11 @@ pub unsafe extern "C" fn spiral_join(
             ("ph-quintic", Family::PhQuintic),
             ("trig-quintic", Family::TrigQuintic),
             ("involute", Family::Involute),
+            ("clothoid", Family::Clothoid),
         ];
         let (_, family) = family.into_iter().find(|(known, _)| *known == name).ok_or_else(|| {
-            Fault::domain(format!("the kind is `{name}`; it must be cubic, ph-quintic, trig-quintic or involute"))
+            let known = "cubic, ph-quintic, trig-quintic, involute or clothoid";
+            Fault::domain(format!("the kind is `{name}`; it must be {known}"))
         })?;
         let state = |e: &SpiralEnd| State { point: [e.x, e.y], direction: e.direction, curvature: e.curvature };
         let request = Request { family, longest, ..Request::new(state(start), state(end), greatest_curvature) };
@@ -162,8 +164,8 @@ pub unsafe extern "C" fn spiral_curve_close(curve: *mut SpiralCurve) {
     }
 }
 
-/// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces; null for a null
-/// pointer. It lives as long as the curve.
+/// "cubic", "ph-quintic", "trig-quintic", "involute", "clothoid", "line" or "arc"; "path" of several pieces; null for a
+/// null pointer. It lives as long as the curve.
 ///
 /// # Safety
 /// `curve` is null or open.
@@ -195,7 +197,7 @@ pub unsafe extern "C" fn spiral_curve_length(curve: *const SpiralCurve) -> f64 {
 }
 
 /// Control points: writes at most `room` of them, and always how many there are: 0 for what has none, an involute, a
-/// line, an arc, or a curve of several pieces.
+/// clothoid, a line, an arc, or a curve of several pieces.
 ///
 /// # Safety
 /// `curve` is null or open; `xy` is null or has room for `room` points; `count` is null or valid for a write.

@@ -76,7 +76,7 @@ impl Curve {
         self.pieces.iter().cloned().map(Curve::from).collect()
     }
 
-    /// "cubic", "ph-quintic", "trig-quintic", "involute", "line" or "arc"; "path" of several pieces.
+    /// "cubic", "ph-quintic", "trig-quintic", "involute", "clothoid", "line" or "arc"; "path" of several pieces.
     #[getter]
     fn kind(&self) -> &'static str {
         if let [piece] = &self.pieces[..] { piece.kind().name() } else { "path" }
@@ -100,8 +100,8 @@ impl Curve {
         self.pieces[self.pieces.len() - 1].end().into()
     }
 
-    /// The control points, a float64 array of shape (degree + 1, 2); None for what has none: an involute, a line, an
-    /// arc, and a curve of several pieces.
+    /// The control points, a float64 array of shape (degree + 1, 2); None for what has none: an involute, a clothoid, a
+    /// line, an arc, and a curve of several pieces.
     #[getter]
     fn control_points<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
         let [piece] = &self.pieces[..] else { return Ok(None) };

@@ -45,7 +45,7 @@ impl Join {
 ///     start, end: states (x, y, direction, curvature): direction in radians from the x axis, curvature positive to the
 ///         left.
 ///     greatest_curvature: the limit of |curvature|, above 0.
-///     family: what its spirals are: "cubic", "ph-quintic", "trig-quintic" or "involute".
+///     family: what its spirals are: "cubic", "ph-quintic", "trig-quintic", "involute" or "clothoid".
 ///     objective: what is least among the joins tried: "length", "greatest-curvature", "greatest-rate" (of change of
 ///         curvature) or "bending-energy".
 ///     longest: a longer join counts as none.

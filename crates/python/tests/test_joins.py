@@ -10,7 +10,7 @@ import spiral_atlas
 EXIT = ((0.0, 0.0, 0.0, 0.0), (180.0, 150.0, math.radians(100), 0.0), 1 / 60)
 
 
-@pytest.mark.parametrize("family", ["cubic", "ph-quintic", "trig-quintic", "involute"])
+@pytest.mark.parametrize("family", ["cubic", "ph-quintic", "trig-quintic", "involute", "clothoid"])
 def test_a_join_meets_its_ends_and_keeps_the_limit(family):
     found = spiral_atlas.join(*EXIT, family=family, longest=600)
     assert found and found.reason is None and found.curve is not None
@@ -40,7 +40,7 @@ def test_objectives_and_bounds_are_kept():
     [
         ({"greatest_curvature": 0}, "greatest curvature"),
         ({"end": (math.nan, 0, 0, 0)}, "end x is NaN"),
-        ({"family": "clothoid"}, "clothoid"),
+        ({"family": "spline"}, "spline"),
         ({"objective": "beauty"}, "beauty"),
     ],
 )

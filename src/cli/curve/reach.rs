@@ -19,7 +19,7 @@ pub(super) struct Args {
     segment: Segment,
     /// Where it ends.
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
-    #[arg(required_unless_present_any = ["m", "q"], conflicts_with_all = ["m", "q"])]
+    #[arg(conflicts_with_all = ["m", "q"])]
     to: Option<[f64; 2]>,
     /// Its shape m, with q instead of its end.
     #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true, requires = "q")]
@@ -34,7 +34,9 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(&self, kind: Kind) -> Result<Outcome> {
         let shape = self.m.zip(self.q).map(|(m, q)| Target::Shape { m, q });
-        let target = shape.or(self.to.map(Target::Point)).unwrap_or_else(|| refuse("`--to` is needed"));
+        let target = shape
+            .or(self.to.map(Target::Point))
+            .unwrap_or_else(|| refuse("where it ends is needed: `--to X,Y`, or its shape `--m M --q Q`"));
         let &Segment { from, start_direction, turn, radius, angle } = &self.segment;
         let request =
             Request { base: self.base, start: from, direction: start_direction, turn, radius, theta: angle, target };

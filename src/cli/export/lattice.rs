@@ -97,6 +97,7 @@ fn figure(lattice: &Lattice) -> Result<Drawing> {
         paths,
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
         comb: Vec::new(),
+        given: Vec::new(),
         level: Some(1.0 / lattice.options.turning_radius),
         backdrop: None,
     };

@@ -3,14 +3,15 @@
 pub(super) mod parse;
 mod request;
 
-use super::path::figure::{SAMPLES, drawn};
+use super::path::figure::{self, SAMPLES, drawn};
 use super::{Outcome, numbers, output, points};
 use parse::{COLUMNS, states};
 use spiral_atlas::Result;
 use spiral_atlas::path::Course;
 use spiral_atlas::plot::Drawing;
-use spiral_atlas::transition::Station;
 use spiral_atlas::transition::join::{self, End, Family, Join, Objective, Request, State};
+use spiral_atlas::transition::{Station, Turn};
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 /// Join two states, or two lines and circles, by few spirals, arcs and lines, within a limit of curvature.
@@ -96,6 +97,9 @@ pub(super) struct Args {
     /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
     #[arg(long, requires = "samples")]
     csv: bool,
+    /// As the other commands have it; here it is always JSON, but for CSV.
+    #[arg(long, hide = true, conflicts_with = "csv")]
+    json: bool,
     /// Draw the path and its curvature.
     #[arg(long, value_name = "FILE.png|svg")]
     figure: Option<PathBuf>,
@@ -103,7 +107,7 @@ pub(super) struct Args {
 
 const ENDS: &str = "What is joined";
 /// The kinds of spirals that joins are made of.
-pub(super) const FAMILIES: [&str; 4] = ["cubic", "ph-quintic", "involute", "trig-quintic"];
+pub(super) const FAMILIES: [&str; 5] = ["cubic", "ph-quintic", "involute", "trig-quintic", "clothoid"];
 const OBJECTIVES: [&str; 4] = ["length", "greatest-curvature", "greatest-rate", "bending-energy"];
 
 /// What is printed of a single join.
@@ -168,7 +172,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
     }
     let Ok(join) = &found else { return Ok(Outcome::Bad) };
     if let Some(path) = &args.figure {
-        output::write_figure(path, &figure(join)?)?;
+        output::write_figure(path, &figure(&request, join)?)?;
     }
     Ok(Outcome::Fine)
 }
@@ -199,17 +203,45 @@ impl Args {
     }
 }
 
+/// The line or circle that a join leaves or reaches at a point, as much of it as goes on from there for a length:
+/// backwards before the start.
+fn beyond(end: &End, at: [f64; 2], ahead: f64) -> figure::Line {
+    let [x, y] = at;
+    let steps = (0..=200).map(|i| ahead * f64::from(i) / 200.0);
+    match *end {
+        End::State(_) => Vec::new(),
+        End::Line { direction, .. } => steps.map(|s| [x + s * direction.cos(), y + s * direction.sin()]).collect(),
+        End::Circle { centre: [a, b], radius, turn } => {
+            let round = if turn == Turn::Left { 1.0 } else { -1.0 } / radius;
+            let first = (y - b).atan2(x - a);
+            let angles = steps.map(|s| first + (s * round).clamp(-TAU, TAU));
+            angles.map(|angle| [a + radius * angle.cos(), b + radius * angle.sin()]).collect()
+        }
+    }
+}
+
 /// The path, and its curvature over the length.
-fn figure(join: &Join) -> Result<Drawing> {
+fn figure(request: &Request, join: &Join) -> Result<Drawing> {
     let all = Course::new(join.pieces.clone())?.outline(SAMPLES)?;
     let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
     let (lines, arcs) = (kinds("line"), kinds("arc"));
     let spirals = join.pieces.len() - lines - arcs;
+    let ends = join.pieces.first().zip(join.pieces.last());
+    let given = ends.map_or(vec![], |(first, last)| {
+        let far = 0.3 * join.measures.length;
+        vec![beyond(&request.from, first.start(), -far), beyond(&request.to, last.end(), far)]
+    });
+    let more = if given.iter().all(Vec::is_empty) { "" } else { "; grey: what is joined" };
     drawn(
         vec![all.iter().map(|s| [s.x, s.y]).collect()],
         vec![all.iter().map(|s| [s.station, s.curvature]).collect()],
         join.pieces.iter().skip(1).map(|piece| vec![piece.start()]).collect(),
-        &format!("A join of length {:.6}", join.measures.length),
-        &format!("dots: where pieces start; comb: curvature; spirals: {spirals}, arcs: {arcs}, lines: {lines}"),
+        given.into_iter().filter(|line| !line.is_empty()).collect(),
+        [
+            &format!("A join of length {:.6}", join.measures.length),
+            &format!(
+                "dots: where pieces start; comb: curvature; spirals: {spirals}, arcs: {arcs}, lines: {lines}{more}"
+            ),
+        ],
     )
 }

@@ -14,7 +14,8 @@ const TALL: (u32, u32) = (1300, 1300);
 /// Samples of a path, about.
 pub(crate) const SAMPLES: usize = 2000;
 
-type Line = Vec<[f64; 2]>;
+/// Points of a line.
+pub(crate) type Line = Vec<[f64; 2]>;
 
 /// Parameters of one of several spans.
 fn steps(spans: usize) -> impl Iterator<Item = f64> + Clone {
@@ -71,7 +72,7 @@ pub(crate) fn measured<'c>(courses: impl Iterator<Item = &'c Course>, offset: Op
         format!("{} paths", courses.len())
     };
     let note = offset.map_or("dots: starts".into(), |d| format!("dots: starts; the other colours: at distance {d}"));
-    drawn(each(&|s| [s.x, s.y]), each(&|s| [s.station, s.curvature]), offsets, &title, &note)
+    drawn(each(&|s| [s.x, s.y]), each(&|s| [s.station, s.curvature]), offsets, vec![], [&title, &note])
 }
 
 /// The curve taken, its curvature, and the others there are.
@@ -86,12 +87,18 @@ pub(crate) fn choice(choice: &Choice) -> Result<Drawing> {
 /// Paths and their curvatures, and points of other curves.
 fn beside_others(paths: &[Vec<PhQuintic>], others: Vec<Vec<[f64; 2]>>, title: &str, note: &str) -> Result<Drawing> {
     let lines = paths.iter().map(|spans| along(spans, PhQuintic::curvature)).collect();
-    drawn(paths.iter().map(|spans| points(spans)).collect(), lines, others, title, note)
+    drawn(paths.iter().map(|spans| points(spans)).collect(), lines, others, vec![], [title, note])
 }
 
-/// Points of paths, their curvatures over the length, and points of other curves. A single path without other curves
-/// beside it (dots are none) has a comb, where its curvatures are those at its points.
-pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title: &str, note: &str) -> Result<Drawing> {
+/// Points of paths, their curvatures over the length, points of other curves and of what was given, heading and note. A
+/// single path without other curves beside it (dots are none) has a comb, where its curvatures are those at its points.
+pub(crate) fn drawn(
+    paths: Vec<Line>,
+    lines: Vec<Line>,
+    others: Vec<Line>,
+    given: Vec<Line>,
+    [title, note]: [&str; 2],
+) -> Result<Drawing> {
     if lines.iter().flatten().flatten().any(|x| !x.is_finite()) {
         return Err(Error::invalid("a path stands still somewhere, where it has no curvature"));
     }
@@ -106,6 +113,7 @@ pub(crate) fn drawn(paths: Vec<Line>, lines: Vec<Line>, others: Vec<Line>, title
         note: note.into(),
         paths: paths.into_iter().chain(others).collect(),
         comb,
+        given,
         graph: Lines { across: "s".into(), up: "κ".into(), lines },
         level: None,
         backdrop: None,
@@ -130,6 +138,7 @@ pub(crate) fn planned(scene: &Scene, plan: &Plan) -> Result<Drawing> {
         paths: vec![points(spans)],
         graph: Lines { across: "s".into(), up: "|κ|".into(), lines: vec![along(spans, |c, t| c.curvature(t).abs())] },
         comb: Vec::new(),
+        given: Vec::new(),
         level: Some(most),
         backdrop: Some(Backdrop {
             obstacles: scene.obstacles.clone(),
@@ -167,6 +176,7 @@ pub(crate) fn separations(motions: &[Motion], found: &Separations, title: String
         paths: motions.iter().map(|m| pieces(m.course().pieces())).collect(),
         graph: Lines { across: "time".into(), up: "separation".into(), lines },
         comb: Vec::new(),
+        given: Vec::new(),
         level: Some(minimum),
         backdrop: None,
     };

@@ -32,6 +32,7 @@ pub(super) fn slope(piece: &Piece) -> Signs {
             Signs { inside: vec![], ends: [last - first; 2] }
         }
         Piece::Line(_) | Piece::Arc(_) => Signs { inside: vec![], ends: [0.0; 2] },
+        Piece::Clothoid(clothoid) => Signs { inside: vec![], ends: [clothoid.rate(); 2] },
     }
 }
 
@@ -44,7 +45,7 @@ pub(super) fn bend(piece: &Piece) -> Signs {
             between([0.0, 1.0], curve.inflections(), |t| curve.curvature(t))
         }
         Piece::TrigQuintic(TrigPart { curve, from, to }) => sampled([*from, *to], |t| curve.jet(t).curvature()),
-        Piece::Involute(_) => {
+        Piece::Involute(_) | Piece::Clothoid(_) => {
             let curvature = |t: f64| piece.at(t).curvature;
             let ends = [curvature(0.0), curvature(1.0)];
             let changes = opposite(ends[0], ends[1]);

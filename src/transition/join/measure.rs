@@ -73,6 +73,7 @@ fn energy(piece: &Piece) -> f64 {
     match piece {
         Piece::Line(_) => 0.0,
         Piece::Arc(Arc { curvature, length, .. }) => curvature * curvature * length,
+        Piece::Clothoid(clothoid) => clothoid.bending_energy(),
         Piece::PhQuintic(curve) => curve.bending_energy(),
         Piece::Involute(between) => {
             piece.length() * integral(|share| piece.at(between.parameter_at(share)).curvature.powi(2), [0.0, 1.0])
@@ -96,7 +97,7 @@ fn jet(piece: &Piece, t: f64) -> Option<Jet> {
         Piece::Cubic(cubic) => Some(of_legs(&cubic.legs, t)),
         Piece::PhQuintic(curve) => Some(curve.jet(t)),
         Piece::TrigQuintic(part) => Some(part.curve.jet(t)),
-        Piece::Involute(_) | Piece::Line(_) | Piece::Arc(_) => None,
+        Piece::Involute(_) | Piece::Line(_) | Piece::Arc(_) | Piece::Clothoid(_) => None,
     }
 }
 
@@ -106,6 +107,7 @@ fn rate(piece: &Piece, share: f64) -> f64 {
     let t = from + share * (to - from);
     match piece {
         Piece::Line(_) | Piece::Arc(_) => 0.0,
+        Piece::Clothoid(clothoid) => clothoid.rate(),
         Piece::Cubic(_) | Piece::PhQuintic(_) | Piece::TrigQuintic(_) => {
             jet(piece, t).map_or(0.0, |jet| jet.curvature_ds())
         }
@@ -119,8 +121,8 @@ fn rate(piece: &Piece, share: f64) -> f64 {
 }
 
 fn rate_range(piece: &Piece) -> [f64; 2] {
-    if matches!(piece, Piece::Line(_) | Piece::Arc(_)) {
-        return [0.0, 0.0];
+    if matches!(piece, Piece::Line(_) | Piece::Arc(_) | Piece::Clothoid(_)) {
+        return [rate(piece, 0.0); 2];
     }
     let share = |i: usize| i as f64 / STEPS as f64;
     let rates: Vec<f64> = (0..=STEPS).map(|i| rate(piece, share(i))).collect();

@@ -41,6 +41,7 @@ mod request;
 mod shapes;
 mod spiral;
 mod states;
+mod trig;
 mod turns;
 
 use super::piece::principal;
@@ -137,6 +138,9 @@ fn reckoned(request: &Request) -> Request {
 /// Offers all joins that are tried, and says why there is none, should there be none.
 fn tried(request: &Request, best: &mut Best) -> Result<String> {
     if let (End::State(from), End::State(to)) = (&request.from, &request.to) {
+        if states::same(from, to) {
+            return Ok("the two states are one: there is nothing to join".into());
+        }
         states::states(request, [from, to], best)?;
         return Ok(
             "no turns and lines of those tried fit between these states; a greater limit of curvature gives them room"

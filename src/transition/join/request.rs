@@ -71,8 +71,11 @@ pub enum Family {
     PhQuintic,
     /// Images of an involute of a circle.
     Involute,
-    /// Quintic trigonometric Bézier curves, from or to a straight end; with the shape numbers ratio 6, m 1, p 0, q 0.
+    /// Quintic trigonometric Bézier curves, from or to a straight end, or the part of one between two circles; with the
+    /// shape numbers ratio 6, m 1, p 0, q 0.
     TrigQuintic,
+    /// Clothoids, for comparison.
+    Clothoid,
 }
 
 /// Of several joins that keep the limits, the one that has least of this.

@@ -153,7 +153,7 @@ impl Sought {
     /// Lengths of spirals between two curvatures.
     fn lengths(&self, from: f64, to: f64) -> Vec<f64> {
         let bend = 0.5 * (from.abs() + to.abs());
-        let short = [0.4, 0.8].into_iter().filter(|length| length * bend <= Spiral::most(from, to));
+        let short = [0.4, 0.8].into_iter().filter(|length| length * bend <= Spiral::most(self.family, from, to));
         match self.objective {
             Objective::Length => short.collect(),
             _ => ANGLES.into_iter().map(|angle| angle / bend).chain([0.4]).filter(|length| *length >= 0.4).collect(),
@@ -177,7 +177,7 @@ impl Sought {
         let spiral = |angle: f64| Link::direct(from, to, 2.0 * angle / (from.abs() + to.abs()));
         let single = |f: &dyn Fn(&Link) -> f64| {
             let least = 0.5 * SHORTEST * (from.abs() + to.abs());
-            root(|angle| f(&spiral(angle)), least, Spiral::most(from, to)).map(spiral)
+            root(|angle| f(&spiral(angle)), least, Spiral::most(self.family, from, to)).map(spiral)
         };
         match nodes {
             [Node::Line(_), Node::Line(_)] => Vec::new(),
@@ -195,7 +195,7 @@ impl Sought {
                 let one = (from * to > 0.0 && from != to && apart > 0.0).then(|| single(&far)).flatten();
                 let pair = |angle: f64| Link::over_line([from, to], [from, to].map(|k| 2.0 * angle / k.abs()), 0.0);
                 let least = 0.5 * SHORTEST * from.abs().max(to.abs());
-                let pair = root(|angle| far(&pair(angle)), least, Spiral::most(from, 0.0)).map(pair);
+                let pair = root(|angle| far(&pair(angle)), least, Spiral::most(self.family, from, 0.0)).map(pair);
                 let lines = self.links(from, to).into_iter().filter_map(|link| link.reaching(self.family, apart));
                 lines.chain(one).chain(pair).collect()
             }
@@ -261,7 +261,8 @@ impl Sought {
                 };
                 let bend = (k.abs() + if last.second.is_none() { to.abs() } else { 0.0 }).max(to.abs());
                 let long = last.second.map_or(last.first.length, |second| second.length.max(last.first.length));
-                let most = 2.0 * Spiral::most(k, if last.second.is_none() { *to } else { 0.0 }) / (bend * long);
+                let most =
+                    2.0 * Spiral::most(self.family, k, if last.second.is_none() { *to } else { 0.0 }) / (bend * long);
                 let short = last.second.map_or(last.first.length, |second| second.length.min(last.first.length));
                 let factor = root(|x| length(stretched(x).hop(self.family)) - far, SHORTEST / short, most);
                 factor.map(|factor| add_chains([first, stretched(factor)]));
@@ -277,7 +278,7 @@ impl Sought {
         let gentle = angle.abs() / 0.4;
         for peak in PEAKS.into_iter().chain((gentle < PEAKS[3]).then_some(gentle)) {
             let long = angle.abs() / peak;
-            if 0.5 * angle.abs() > Spiral::most(0.0, peak) || long < SHORTEST {
+            if 0.5 * angle.abs() > Spiral::most(self.family, 0.0, peak) || long < SHORTEST {
                 continue;
             }
             let k = peak.copysign(angle);

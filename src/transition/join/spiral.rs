@@ -7,6 +7,7 @@
 //! = L, but at a straight end the outer leg is m times the inner one, as in Habib & Sakai's CGIV paper, with m = 1.
 //! Spirals that turn by more than some 0.6 rad need other legs to have monotone curvature ([`Spiral::shape`]).
 
+use super::super::clothoid::{Clothoid, clothoid_step};
 use super::super::cubic::spiral;
 use super::super::involute::involute_between;
 use super::super::ph_quintic::ph_spiral;
@@ -15,11 +16,12 @@ use super::super::placement::Ends;
 use super::super::segment::{Base, Request, Target, add_segment};
 use super::super::turn::Turn;
 use super::request::Family;
+use super::trig::{STRAIGHT, TrigWay};
 use crate::curve::vector::{Vector, add, length, scale, sub, turn, unit};
-use crate::curve::{CubicBezier, PhQuintic, TrigBezier};
+use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::Result;
 use crate::family::reach::{Kind, Level};
-use crate::family::trig_quintic::{SPIRAL, Scaling, Shape, flags};
+use std::f64::consts::PI;
 
 /// A spiral leads at least this factor from one curvature to the other.
 const APART: f64 = 0.55;
@@ -70,8 +72,14 @@ impl Spiral {
     }
 
     /// The most that a spiral of [`Spiral::step`] between two curvatures turns, radians.
-    pub(super) fn most(from: f64, to: f64) -> f64 {
-        if from == 0.0 || to == 0.0 { 1.3 } else { 1.15 }
+    pub(super) fn most(family: Family, from: f64, to: f64) -> f64 {
+        match family {
+            // All of them are spirals. This reaches circles two radii away from a line.
+            Family::Clothoid => 1.5 * PI,
+            Family::TrigQuintic if from != 0.0 && to != 0.0 => TrigWay::whole(STRAIGHT, from, to).angle(),
+            _ if from == 0.0 || to == 0.0 => STRAIGHT,
+            _ => 1.15,
+        }
     }
 
     /// By how much the legs are longer than L/3, and by how much the one at the flatter end is longer than the other is
@@ -83,6 +91,9 @@ impl Spiral {
     fn shape(&self, family: Family) -> [f64; 2] {
         let angle = self.angle().abs();
         let (flat, round) = (self.from.abs().min(self.to.abs()), self.from.abs().max(self.to.abs()));
+        if family == Family::Clothoid {
+            return [1.0, 1.0];
+        }
         if family == Family::TrigQuintic {
             // These are as long as they are; nearly their chord.
             return [length(self.step(family)) / self.length * (1.0 + angle * angle / 48.0), 1.0];
@@ -135,11 +146,8 @@ impl Spiral {
                 let tilted = |f: f64| [f * half.cos(), f * half.sin()];
                 PhQuintic::new([0.0, 0.0], [[a, 0.0], add([x, 0.0], tilted(y)), tilted(b)]).end
             }
-            Family::TrigQuintic if k0.min(k1) > 0.0 => [f64::NAN, f64::NAN],
-            Family::TrigQuintic => {
-                let [x, y] = trig_shape(angle).curve(1.0 / k0.max(k1), Scaling::Corrected).points()[5];
-                if k0 == 0.0 { [x, y] } else { turn([angle.cos(), angle.sin()], [x, -y]) }
-            }
+            Family::Clothoid => clothoid_step(0.0, [k0, k1], self.length),
+            Family::TrigQuintic => TrigWay::of(angle, k0, k1).map_or([f64::NAN; 2], |way| way.step()),
         };
         [x, side * y]
     }
@@ -148,11 +156,32 @@ impl Spiral {
     /// where the family has none.
     pub(super) fn piece(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
         let direction = at.direction + self.angle();
-        if family != Family::Involute && (self.from == 0.0 || self.to == 0.0) {
-            let Some(piece) = self.straight_ended(family, at, scale_by)? else { return Ok(None) };
+        let placed = match family {
+            Family::Clothoid => Some(Piece::Clothoid(Clothoid {
+                start: at.at,
+                start_direction: at.direction,
+                curvature: self.from * scale_by,
+                end_curvature: self.to * scale_by,
+                length: self.length / scale_by,
+            })),
+            Family::TrigQuintic => match TrigWay::of(self.angle().abs(), self.from, self.to) {
+                Some(way) => way.piece(at.at, at.direction, scale_by, self.angle())?,
+                None => None,
+            },
+            Family::Cubic | Family::PhQuintic if self.from == 0.0 || self.to == 0.0 => {
+                self.straight_ended(family, at, scale_by)?
+            }
+            _ => return self.from_ends(family, at, scale_by),
+        };
+        Ok(placed.map(|piece| {
             let end = piece.end();
-            return Ok(Some((piece, Pose { at: end, direction })));
-        }
+            (piece, Pose { at: end, direction })
+        }))
+    }
+
+    /// As [`Spiral::piece`], by the family's own answer to both ends.
+    fn from_ends(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
+        let direction = at.direction + self.angle();
         let end = add(at.at, scale(turn(at.along(), self.step(family)), 1.0 / scale_by));
         let ends = Ends {
             start: at.at,
@@ -167,29 +196,8 @@ impl Spiral {
     }
 
     /// One end is straight.
-    fn trigonometric(self, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
-        let (angle, round) = (self.angle().abs(), self.from + self.to);
-        let shape = trig_shape(angle);
-        if flags(&shape)? & SPIRAL == 0 {
-            return Ok(None);
-        }
-        let curve = shape.curve(1.0 / (round.abs() * scale_by), Scaling::Corrected);
-        let mirrored = |curve: &TrigBezier| curve.mapped(curve.start, |[x, y]| [x, -y]);
-        // Run backwards it starts along θ + π and turns the other way.
-        let (curve, start) =
-            if self.from == 0.0 { (curve, 0.0) } else { (mirrored(&curve).reversed(), std::f64::consts::PI - angle) };
-        let curve = if round > 0.0 { curve } else { mirrored(&curve) };
-        let turned = at.direction - start.copysign(round);
-        let along = unit(turned);
-        Ok(Some(Piece::TrigQuintic(TrigPart { curve: curve.mapped(at.at, |z| turn(along, z)), from: 0.0, to: 1.0 })))
-    }
-
-    /// One end is straight.
     fn straight_ended(self, family: Family, at: Pose, scale_by: f64) -> Result<Option<Piece>> {
         let round = self.from + self.to;
-        if family == Family::TrigQuintic {
-            return self.trigonometric(at, scale_by);
-        }
         let [longer, m] = self.shape(family);
         let request = Request {
             base: if self.from == 0.0 { Base::Line } else { Base::Circle },
@@ -208,18 +216,14 @@ impl Spiral {
     }
 }
 
-/// The shape of trigonometric spirals: a ratio of 6 gives spirals for all angles to a straight end that are used here.
-fn trig_shape(theta: f64) -> Shape {
-    Shape { ratio: 6.0, theta, m: 1.0, p: 0.0, q: 0.0 }
-}
-
 /// The family's proved spiral between two ends, if it has one.
 pub(super) fn between(family: Family, ends: &Ends) -> Result<Option<Piece>> {
     Ok(match family {
         Family::Cubic => spiral(ends)?.chosen().map(|s| s.piece()),
         Family::PhQuintic => ph_spiral(ends)?.chosen().map(|s| Piece::PhQuintic(s.curve)),
-        // Both ends would be round, or both are straight.
+        // Of those from a straight end none has these ends but by chance.
         Family::TrigQuintic => None,
+        Family::Clothoid => Clothoid::between(ends).map(Piece::Clothoid),
         Family::Involute => {
             let (found, frame) = involute_between(ends, [0, 0])?;
             InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute)
@@ -229,7 +233,6 @@ pub(super) fn between(family: Family, ends: &Ends) -> Result<Option<Piece>> {
 
 /// The same way, travelled back.
 pub(super) fn reversed(piece: Piece) -> Result<Piece> {
-    use std::f64::consts::PI;
     Ok(match piece {
         Piece::Cubic(Cubic { points, legs }) => {
             let ([a, b, c, d], [u, v, w]) = (points.p, legs);
@@ -244,6 +247,7 @@ pub(super) fn reversed(piece: Piece) -> Result<Piece> {
             let start = Piece::Arc(arc).end();
             Piece::Arc(Arc { start, start_direction: back, curvature: -arc.curvature, length: arc.length })
         }
+        Piece::Clothoid(clothoid) => Piece::Clothoid(clothoid.reversed()),
         Piece::Involute(between) => {
             let e = *between.ends();
             let ends = Ends {
@@ -274,7 +278,8 @@ pub(super) fn pinned(piece: Piece, to: Vector) -> Result<Piece> {
             let ends = Ends { end: to, ..*between.ends() };
             Piece::Involute(InvoluteBetween::new(&ends, [0, 0])?)
         }
-        Piece::TrigQuintic(part) => {
+        // The end of a part is no point of the polygon.
+        Piece::TrigQuintic(part) if part.to == 1.0 => {
             let mut curve = part.curve;
             curve.sides[2] = add(curve.sides[2], sub(to, curve.points()[5]));
             Piece::TrigQuintic(TrigPart { curve, ..part })

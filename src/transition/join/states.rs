@@ -92,6 +92,12 @@ pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best
     Ok(())
 }
 
+/// Whether both are one; a rounding of a full turn is none.
+pub(super) fn same(from: &State, to: &State) -> bool {
+    let turned = principal(to.direction - from.direction).abs();
+    from.point == to.point && from.curvature == to.curvature && turned <= 4.0 * f64::EPSILON
+}
+
 /// Joins of one piece.
 fn simple(family: Family, [from, to]: [&State; 2]) -> Result<Vec<Piece>> {
     let across = sub(to.point, from.point);
@@ -152,7 +158,7 @@ fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece
         let [first, second] = pair(share, 1.0);
         add(first.step(family), turn(unit(first.angle()), second.step(family)))
     };
-    let least = (angle - Spiral::most(0.0, 1.0)).max(0.02 * angle);
+    let least = (angle - Spiral::most(family, 0.0, 1.0)).max(0.02 * angle);
     let Some(share) = root(|share| cross(step(share), across), least, angle - least) else { return Ok(None) };
     let k = length(step(share)) / length(across);
     if k > 1.0 || dot(step(share), across) < 0.0 || 2.0 * share.min(angle - share) < SHORTEST * k {

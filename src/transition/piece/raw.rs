@@ -4,7 +4,7 @@ use super::{Arc, Cubic, InvoluteBetween, Kind, Line, Piece, TrigPart};
 use crate::curve::vector::{add, length, sub};
 use crate::curve::{CubicBezier, PhQuintic, TrigBezier};
 use crate::error::{Error, Result, above_zero};
-use crate::transition::Ends;
+use crate::transition::{Clothoid, Ends};
 use serde::{Deserialize, Serialize, Serializer};
 
 /// A given end may miss the end of the curve by this share of the curve's size and place, for roundings of whoever
@@ -130,6 +130,14 @@ impl RawPiece {
                 curvature: Some(*curvature),
                 ..of(Kind::Arc)
             },
+            Piece::Clothoid(Clothoid { start, start_direction, curvature, end_curvature, .. }) => RawPiece {
+                start: Some(*start),
+                end: Some(piece.end()),
+                direction: Some(*start_direction),
+                curvature: Some(*curvature),
+                end_curvature: Some(*end_curvature),
+                ..of(Kind::Clothoid)
+            },
         }
     }
 
@@ -225,6 +233,23 @@ impl RawPiece {
                 let piece = Piece::Arc(Arc { start, start_direction, curvature, length });
                 let reached = piece.end();
                 near("the arc leads", reached, "`end` is", end.unwrap_or(reached), &[start, [length, length]])?;
+                Ok(piece)
+            }
+            Kind::Clothoid => {
+                let (start, start_direction) = (self.needs("start", start)?, self.needs("direction", self.direction)?);
+                let (curvature, length) = (self.needs("curvature", curvature)?, self.needs("length", self.length)?);
+                let end_curvature = self.needs("end_curvature", self.end_curvature)?;
+                above_zero("`length` of a clothoid", length)?;
+                let clothoid = Clothoid { start, start_direction, curvature, end_curvature, length };
+                let (angle, most) = (clothoid.angle_bound(), Clothoid::MOST_ANGLE);
+                if angle > most {
+                    let what = "the length of a clothoid times its greater curvature";
+                    let way_out = "divide it into shorter ones";
+                    return Err(Error::domain(what, angle, format!("at most {most}")).or(way_out));
+                }
+                let piece = Piece::Clothoid(clothoid);
+                let reached = piece.end();
+                near("the clothoid leads", reached, "`end` is", end.unwrap_or(reached), &[start, [length, length]])?;
                 Ok(piece)
             }
         }

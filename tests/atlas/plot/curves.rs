@@ -82,6 +82,7 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         note: String::new(),
         paths: vec![straight(1.0), straight(1.5)],
         comb: Vec::new(),
+        given: Vec::new(),
         graph: graph(0.0),
         level: None,
         backdrop: None,
@@ -99,6 +100,7 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         PathsFigure { graph: graph(3.0), ..figure.clone() },
         PathsFigure { comb: vec![0.1, 0.2], ..figure.clone() },
         PathsFigure { backdrop: behind(0.5), ..figure.clone() },
+        PathsFigure { given: vec![vec![[1.0, 0.0], [1.2, 0.5]]], ..figure.clone() },
     ];
     assert!(others.iter().all(|other| picture(other).unwrap() != first));
     let wrong = [
@@ -106,6 +108,7 @@ fn paths_are_drawn_beside_their_graphs_or_refused() {
         PathsFigure { paths: vec![], ..figure.clone() },
         PathsFigure { graph: graph(f64::INFINITY), ..figure.clone() },
         PathsFigure { backdrop: behind(f64::NAN), ..figure.clone() },
+        PathsFigure { given: vec![straight(f64::NAN)], ..figure.clone() },
     ];
     for figure in wrong {
         assert!(picture(&figure).unwrap_err().to_string().contains("must have points"));

@@ -107,7 +107,9 @@ class Curve:
     @property
     def pieces(self) -> list[Curve]: ...
     @property
-    def kind(self) -> Literal["cubic", "ph-quintic", "trig-quintic", "involute", "line", "arc", "path"]: ...
+    def kind(
+        self,
+    ) -> Literal["cubic", "ph-quintic", "trig-quintic", "involute", "clothoid", "line", "arc", "path"]: ...
     @property
     def length(self) -> float: ...
     @property
@@ -227,7 +229,7 @@ def join(
     end: Sequence[float] | NDArray[np.float64],
     greatest_curvature: float,
     *,
-    family: Literal["cubic", "ph-quintic", "trig-quintic", "involute"] = "cubic",
+    family: Literal["cubic", "ph-quintic", "trig-quintic", "involute", "clothoid"] = "cubic",
     objective: Literal["length", "greatest-curvature", "greatest-rate", "bending-energy"] = "length",
     longest: float | None = None,
     most_pieces: int | None = None,
