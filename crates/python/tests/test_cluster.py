@@ -246,11 +246,21 @@ def test_recipes_of_several_atlases_need_a_name(tmp_path):
 
 def test_shapes_are_whole_chunks_of_about_a_size():
     for counts in [(512,) * 4, (128,) * 4, (41, 1, 37, 43), (5, 3), (1 << 22,), (100_000, 7, 90), (17, 300, 2, 2, 900)]:
-        chunks = shapes.usual_chunks(counts)
-        shards = shapes.usual_shards(counts, chunks)
-        shapes.check(counts, chunks, shards)
-        assert np.prod(chunks) <= shapes.CHUNK_NODES and np.prod(shards) <= shapes.SHARD_NODES
-        assert np.prod(shards) * 2 > min(shapes.SHARD_NODES, np.prod(counts))
+        for node in (2, 10):
+            chunks, shards = shapes.usual(counts, node)
+            shapes.check(counts, chunks, shards)
+            assert np.prod(chunks) <= shapes.CHUNK_NODES and node * np.prod(shards) <= shapes.SHARD_BYTES
+            wanted = min(shapes.SHARD_BYTES / node, max(shapes.LEAST_NODES, np.prod(counts) / shapes.SHARDS))
+            assert min(wanted, np.prod(counts)) / 2 < np.prod(shards) <= max(wanted, np.prod(chunks))
+    # Planes of the last two axes are large, because blocks of nodes are proved in them.
+    assert shapes.usual((128,) * 4, 2) == ((8, 8, 128, 128), (32, 32, 128, 128))
+    assert shapes.usual((512,) * 4, 2) == ((8, 8, 128, 128), (16, 16, 256, 256))
+    # Shards of a user's have whole chunks, whatever they are.
+    for given in [(64,) * 4, (8, 8, 4, 4), (45, 45, 45, 45), (1, 3 << 20)]:
+        chunks, shards = shapes.usual([1000] * len(given), 2, shards=given)
+        shapes.check([1000] * len(given), chunks, shards)
+        assert shards == given and (np.prod(chunks) <= shapes.CHUNK_NODES or 45 in given)
+    assert shapes.usual((16,) * 4, 2, chunks=(4, 8, 4, 4))[0] == (4, 8, 4, 4)
     for chunks, shards, words in [
         ((2, 2), (4, 3), "whole chunks"),
         ((0, 2), (4, 4), "at least 1"),

@@ -58,10 +58,10 @@ def parser() -> argparse.ArgumentParser:
         )
         added.add_argument("--atlas", metavar="NAME", help="which atlas of the recipe, where it has several")
         added.add_argument(
-            "--chunks", type=sides, metavar="N,N,..", help="nodes of a chunk along each axis [some 2^18 in all]"
+            "--chunks", type=sides, metavar="N,N,..", help="nodes of a chunk along each axis [at most 2^20 in all]"
         )
         added.add_argument(
-            "--shards", type=sides, metavar="N,N,..", help="nodes of a shard along each axis [some 2^22 in all]"
+            "--shards", type=sides, metavar="N,N,..", help="nodes of a shard along each axis [at most 32 MiB in all]"
         )
 
     def cluster(added: argparse.ArgumentParser) -> None:
