@@ -224,6 +224,39 @@ def test_what_is_not_written_is_no_verdict(folder, tmp_path):
         spiral_atlas.open(tmp_path / "nowhere.zarr")
 
 
+def test_an_object_store_holds_the_same_for_few_requests(folder, atlas, place, monkeypatch):
+    """A store behind a URL, of fsspec's kind as those of clouds are."""
+    url, requests = "memory://atlases/small.zarr", []
+    create(folder / "small.toml", url, **SHAPES)
+    for name in ("get", "set", "delete"):
+
+        def noted(self, key, *rest, name=name, plain=getattr(zarr.storage.FsspecStore, name), **options):
+            requests.append((name, key))
+            return plain(self, key, *rest, **options)
+
+        monkeypatch.setattr(zarr.storage.FsspecStore, name, noted)
+    store = Store(url, mode="r+", complete=False)
+    # The metadata of the group and of nine arrays, and the values of four axes.
+    assert len(requests) == 1 + 9 + 4
+    requests.clear()
+    write_shard(store, 7, threads=1)
+    # Of each field what may be there goes, zarr looks whether any is left, and the new comes. The digest is looked up
+    # before and written after.
+    fields, digest = [f"{name}/c/0/1/0/1" for name in store.fields], "manifest/digests/c/0/1/0/1/0/0"
+    wanted = [(what, key) for key in fields for what in ("delete", "get", "set")]
+    assert requests == [("get", digest), *wanted, ("set", digest)]
+    with pytest.raises(spiral_atlas.AtlasError, match="shards are missing"):
+        spiral_atlas.open(url)
+    # Made complete from the file; what is there stays.
+    assert spiral_atlas.to_zarr(atlas, url).id == spiral_atlas.open(place).id
+    store = spiral_atlas.open(url)
+    store.check()
+    assert np.array_equal(store.flags[...], atlas.flags) and np.array_equal(store.scalar("f0")[...], atlas.scalar("f0"))
+    assert [png for png in pictures(store)] == [png for png in pictures(place)]
+    with pytest.raises(ValueError, match="holds another atlas"):
+        create({"family": "cubic", "atlas": [{"name": "a", "axes": dict.fromkeys(atlas.axes, {"values": [0.5]})}]}, url)
+
+
 def test_recipes_of_several_atlases_need_a_name(tmp_path):
     axes = {name: {"values": [0.5, 0.7]} for name in ("phi0", "phi1", "kappa0", "kappa1")}
     edges = {name: {"linear": [0.2, 1.2]} for name in axes}

@@ -261,6 +261,7 @@ def _client(scheduler: str | None, workers: int) -> "Iterator[Client]":
     """A client of a scheduler or, without one, of a cluster that lives as long."""
     import dask
     from distributed import Client, LocalCluster
+    from distributed.utils import get_mp_context
 
     if scheduler is not None:
         # Its own log tells in other words what the failures tell.
@@ -271,6 +272,7 @@ def _client(scheduler: str | None, workers: int) -> "Iterator[Client]":
     with warnings.catch_warnings(), dask.config.set(SETTINGS):
         # The usual port of the dashboard may be taken; it is another one then.
         warnings.filterwarnings("ignore", "Port .* is already in use")
+        get_mp_context().set_forkserver_preload(["distributed", __name__])
         cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, silence_logs=logging.CRITICAL)
     with cluster, Client(cluster, set_as_default=False) as client:
         yield client
