@@ -1,6 +1,6 @@
 // Curvature against length.
 
-import { byId, pathOf, svg } from "./dom.js";
+import { byId, pathOf, sizeOf, svg } from "./dom.js";
 import { show, ticks } from "./numbers.js";
 
 const LEFT = 64;
@@ -10,7 +10,7 @@ const BOTTOM = 26;
 
 /** Draws curves { kind, samples }; `marked` is told which sample of the active one the pointer is at. */
 export function drawGraph(element, curves, active, marked) {
-  const [w, h] = [element.clientWidth || 600, element.clientHeight || 140];
+  const [w, h] = sizeOf(element).map((size, i) => size || [600, 140][i]);
   const unit = byId("unit").value;
   const all = curves.map((c) => c.samples.filter((s) => Number.isFinite(s[4]) && s[4] !== null));
   const longest = Math.max(...all.map((s) => s.at(-1)?.[0] ?? 0), 0);

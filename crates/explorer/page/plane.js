@@ -1,6 +1,6 @@
 // The drawing: curves, polygons, circles and combs in the plane, and the handles that are dragged.
 
-import { byId, pathOf, svg } from "./dom.js";
+import { byId, onMove, pathOf, sizeOf, svg } from "./dom.js";
 
 /** Pixels beyond which a drawn number would only slow the browser down. */
 const FAR = 2e4;
@@ -32,7 +32,8 @@ export class Plane {
   }
 
   get size() {
-    return [this.#svg.clientWidth || 600, this.#svg.clientHeight || 400];
+    const [w, h] = sizeOf(this.#svg);
+    return [w || 600, h || 400];
   }
 
   toScreen([x, y]) {
@@ -47,6 +48,7 @@ export class Plane {
 
   /** Shows all of these points. */
   fit(points) {
+    sizeOf(this.#svg, true);
     const [w, h] = this.size;
     const [xs, ys] = [0, 1].map((i) => points.map((p) => p[i]).filter(Number.isFinite));
     const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
@@ -158,14 +160,13 @@ export class Plane {
       element.focus({ preventScroll: true });
       element.setPointerCapture(event.pointerId);
       element.classList.add("held");
-      const at = this.#local(event);
-      const start = entry.handle.at(this);
-      entry.offset = [at[0] - start[0], at[1] - start[1]];
+      const [x, y] = entry.handle.at(this);
+      entry.offset = [event.clientX - x, event.clientY - y];
     });
-    element.addEventListener("pointermove", (event) => {
+    onMove(element, (event) => {
       if (!entry.offset) return;
-      const at = this.#local(event);
-      entry.handle.move(this.toWorld([at[0] - entry.offset[0], at[1] - entry.offset[1]]), this);
+      const [x, y] = entry.offset;
+      entry.handle.move(this.toWorld([event.clientX - x, event.clientY - y]), this);
       this.place();
       this.changed(event.timeStamp);
     });

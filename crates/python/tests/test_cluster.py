@@ -203,6 +203,11 @@ def test_a_run_that_has_nothing_to_do_writes_nothing(place, folder):
     told = json.loads(again.stdout)
     assert told["shards"] == {"all": 36, "written": 0, "kept": 36, "missing": 0, "wrong": 0}
     assert told["id"] == spiral_atlas.open(place).id and told["nodes"] == 57_834
+    command = [sys.executable, "-m", "spiral_atlas.cluster", "info", place]
+    about = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    for line in ("small, cubic, by spiral-atlas", "; complete\n", "grid of 57,834 nodes", "36 shards of 8,8,8,16, in"):
+        assert line in about, about
+    assert "bit 3 SPIRAL" in about and '  fields = ["f0", "margin"]' in about
     assert {path: path.stat().st_mtime_ns for path in place.rglob("*")} == before
 
 
