@@ -4,6 +4,8 @@ import { byId, onMove, pathOf, sizeOf, svg } from "./dom.js";
 
 /** Pixels beyond which a drawn number would only slow the browser down. */
 const FAR = 2e4;
+/** Pixels from the border that handles keep when everything is shown. */
+const EDGE = 16;
 /** Length of the longest tooth of a comb, in pixels. */
 const TOOTH = 64;
 
@@ -58,6 +60,20 @@ export class Plane {
       (h - 130) / Math.max(high - low, 0.02 * extent),
     );
     this.view = { x: (left + right) / 2, y: (low + high) / 2, scale: Math.max(scale, 1e-300) };
+    // Handles have a length of pixels, so that their places follow from the scale: a few rounds bring them in.
+    for (let round = 0; round < 4; round++) {
+      const places = [...this.#handles.values()].map(({ handle }) => handle.at(this));
+      const beyond = [0, 1].map((i) => {
+        const size = this.size[i];
+        const over = (values) => Math.max(0, ...values.filter(Number.isFinite));
+        return [over(places.map((p) => EDGE - p[i])), over(places.map((p) => p[i] + EDGE - size))];
+      });
+      const worst = Math.max(...beyond.map(([before, after], i) => (before + after) / this.size[i]));
+      if (!(worst > 0)) return;
+      this.view.x += (beyond[0][1] - beyond[0][0]) / 2 / this.view.scale;
+      this.view.y -= (beyond[1][1] - beyond[1][0]) / 2 / this.view.scale;
+      this.view.scale *= Math.max(0.5, 1 - worst);
+    }
   }
 
   draw(scene = this.#scene) {
