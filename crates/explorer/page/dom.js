@@ -22,7 +22,7 @@ const observer = new ResizeObserver((entries) => {
   for (const { target } of entries) sizes.set(target, [target.clientWidth, target.clientHeight]);
 });
 
-/** Width and height as they were last laid out: to ask for them anew lays out the page, each time that it has changed. */
+/** Width and height as they were last laid out; to ask for them anew lays out the page, if it has changed. */
 export function sizeOf(element, anew = false) {
   if (anew || !sizes.has(element)) {
     if (!sizes.has(element)) observer.observe(element);

@@ -94,7 +94,8 @@ export function reason(element, answer, state, advice, take) {
   const why = advice?.why ?? curve.why ?? {};
   const head = HEADS[why.cause ?? why.condition] ?? "No such curve";
   const parts = [html("p", { class: "head no" }, head)];
-  if (why.needs?.length === 2) parts.push(html("p", {}, why.alone ? "One of these alone would do:" : "Both are needed:"));
+  if (why.needs?.length === 2)
+    parts.push(html("p", {}, why.alone ? "One of these alone would do:" : "Both are needed:"));
   const list = [...needs(why), ...remedies(advice?.why, answer, unit, take)];
   if (list.length) parts.push(html("ul", { class: "needs" }, ...list));
   const told = measure(why);

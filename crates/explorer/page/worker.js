@@ -53,8 +53,8 @@ function refine() {
   if (left === 0 || whole || performance.now() - began >= making.next) {
     making.next = 2 * (performance.now() - began);
     const pixels = core.pixels(width * height);
-    const { took } = making;
-    const answer = { ...about, width, height, pixels, drawn: core.drawn(), done: left === 0, proved: core.proved(), took };
+    const reached = { drawn: core.drawn(), done: left === 0, proved: core.proved(), took: making.took };
+    const answer = { ...about, width, height, pixels, ...reached };
     self.postMessage({ id, answer }, [pixels.buffer]);
   }
   if (left > 0) channel.port2.postMessage(0);
