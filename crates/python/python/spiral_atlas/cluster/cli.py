@@ -195,7 +195,8 @@ def info(options: argparse.Namespace) -> int:
         unit = " radians" if name in store.angles else ""
         lines.append(f"  {name:<14} {len(axis):>7,} values from {axis[0]} to {axis[-1]}{unit}")
     lines += [f"{store.shard_count:,} shards of {shapes.told(store.shards)}, in chunks of {shapes.told(store.chunks)}"]
-    lines += ["flags (u8)", *(f"  bit {bit} {name:<14} {doc}" for bit, (name, doc) in enumerate(store.flag_docs.items()))]
+    flags = enumerate(store.flag_docs.items())
+    lines += ["flags (u8)", *(f"  bit {bit} {name:<14} {doc}" for bit, (name, doc) in flags)]
     counts = store.counts.items()
     lines += ["solutions (u8)", *(f"  {name}: {bits} bits from bit {shift} on" for name, (shift, bits) in counts)]
     if store.scalar_docs:

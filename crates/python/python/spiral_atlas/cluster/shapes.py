@@ -8,7 +8,7 @@ CHUNK_NODES = 1 << 20
 SHARD_BYTES = 1 << 25
 """Most bytes of a shard before compression. A shard is what a task computes and what a file holds, for each field."""
 SHARDS = 16
-"""Of small atlases shards are smaller, so that there are as many and all cores have work, but no smaller than this many nodes."""
+"""Of small atlases shards are smaller, so that there are as many and all cores have work, but no smaller than these."""
 LEAST_NODES = 1 << 18
 PLANE = 16
 """How much longer the last two sides are. A family proves whole blocks of nodes in these two axes, and what it computes
