@@ -212,6 +212,21 @@ def touch_drags(browser):
 
 
 @test
+def everything_is_shown_with_its_handles(browser):
+    joined = "#mode=join&from=state,0,0,0,0&to=state,180,150,1.6,0"
+    for link in ["", joined, "#start=0,0,1.5,0.004&end=200,0,1.6,0.04", "#start=0,0,0,0&end=0,9,3,-0.2"]:
+        for size in ({"width": 1400, "height": 860}, {"width": 390, "height": 844}):
+            page = Page(browser, link, viewport=size)
+            plane = page.page.locator("#plane").bounding_box()
+            for knob in page.page.locator(".handle .knob").all():
+                box = knob.bounding_box()
+                for side, length in (("x", "width"), ("y", "height")):
+                    assert plane[side] <= box[side], (link, size, box)
+                    assert box[side] + box[length] <= plane[side] + plane[length], (link, size, box)
+            page.close()
+
+
+@test
 def typed_numbers_have_units(browser):
     page = Page(browser)
     ends = lambda: page.tell("state()")["ends"]

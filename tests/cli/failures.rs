@@ -14,6 +14,9 @@ fn bad_input_is_named() {
     std::fs::write(folder.at("head.csv"), "phi0,phi1,kappa0\n").unwrap();
     std::fs::write(folder.at("none.csv"), "").unwrap();
     std::fs::write(folder.at("junk.safetensors"), "junk").unwrap();
+    std::fs::create_dir(folder.at("store.zarr")).unwrap();
+    std::fs::write(folder.at("store.zarr/zarr.json"), "{}").unwrap();
+    let store = folder.text("store.zarr");
     let (typo, wide, junk) = (folder.text("typo.toml"), folder.text("wide.toml"), folder.text("junk.safetensors"));
     let (head, none, out) = (folder.text("head.csv"), folder.text("none.csv"), folder.text("out"));
     let cases: &[(&[&str], i32, &[&str])] = &[
@@ -62,6 +65,7 @@ fn bad_input_is_named() {
         ),
         (&["--famly"], 2, &["'--famly'", "Usage: spiral-atlas <COMMAND>", "try 'spiral-atlas --help'"]),
         (&["info", &folder.text("")], 2, &["not an ordinary file"]),
+        (&["info", &store], 2, &["store.zarr: it is a Zarr store; `spiral-atlas-cluster` reads it"]),
         (&["generate", &folder.text("")], 2, &["it is a folder"]),
         (
             &["generate", &recipe, "--out", &folder.text("recipe.toml/out")],

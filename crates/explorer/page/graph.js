@@ -1,6 +1,6 @@
 // Curvature against length.
 
-import { byId, pathOf, svg } from "./dom.js";
+import { byId, pathOf, sizeOf, svg } from "./dom.js";
 import { show, ticks } from "./numbers.js";
 
 const LEFT = 64;
@@ -10,7 +10,7 @@ const BOTTOM = 26;
 
 /** Draws curves { kind, samples }; `marked` is told which sample of the active one the pointer is at. */
 export function drawGraph(element, curves, active, marked) {
-  const [w, h] = [element.clientWidth || 600, element.clientHeight || 140];
+  const [w, h] = sizeOf(element).map((size, i) => size || [600, 140][i]);
   const unit = byId("unit").value;
   const all = curves.map((c) => c.samples.filter((s) => Number.isFinite(s[4]) && s[4] !== null));
   const longest = Math.max(...all.map((s) => s.at(-1)?.[0] ?? 0), 0);
@@ -21,7 +21,13 @@ export function drawGraph(element, curves, active, marked) {
     element.onpointermove = element.onpointerleave = null;
     return;
   }
-  const values = all.flat().map((s) => s[4]);
+  // What is no spiral may bend without bounds between its ends; as much of it is shown as tells that.
+  const seen = (curve, samples) => {
+    const ends = [samples.at(0), samples.at(-1)].map((s) => Math.abs(s?.[4] ?? 0));
+    const most = curve.kind === "waver" ? 3 * Math.max(...ends) : Infinity;
+    return samples.map((s) => Math.max(-most, Math.min(most, s[4])));
+  };
+  const values = curves.flatMap((curve, i) => seen(curve, all[i]));
   let [low, high] = [Math.min(0, ...values), Math.max(0, ...values)];
   const room = 0.06 * (high - low || 1);
   [low, high] = [low - (low < 0 ? room : 0), high + (high > 0 ? room : 0)];
@@ -34,10 +40,15 @@ export function drawGraph(element, curves, active, marked) {
   }
   for (const s of ticks(0, longest, 6))
     parts.push(svg("text", { x: x(s), y: h - 9, "text-anchor": "middle" }, show(s, 4)));
-  const place = (s) => [x(s[0]), y(s[4])];
+  const place = (s) => [x(s[0]), Math.max(-h, Math.min(2 * h, y(s[4])))];
   curves.forEach((curve, i) => {
     if (curve !== active)
-      parts.push(svg("path", { class: `curve other ${curve.kind}`, d: pathOf(all[i].map(place)) }));
+      parts.push(
+        svg("path", {
+          class: curve.kind === "waver" ? "waver" : `curve other ${curve.kind}`,
+          d: pathOf(all[i].map(place)),
+        }),
+      );
   });
   if (active)
     parts.push(

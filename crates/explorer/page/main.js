@@ -138,10 +138,11 @@ function showEnds() {
     circles: answer.circles,
     curves: drawn,
     active,
-    wavers: others.map((o) => bezier(o.control_points)),
+    wavers: others.map(({ samples }) => samples.map((s) => [s[1], s[2]])),
     comb: state.comb,
   });
-  drawGraph(byId("graph"), drawn, active, (point) => plane.mark(point));
+  const wavers = others.map(({ samples }) => ({ kind: "waver", samples }));
+  drawGraph(byId("graph"), [...drawn, ...wavers], active, (point) => plane.mark(point));
   verdicts(answer, state, choices);
   showReason();
   region.show(answer, state.kind);
@@ -150,16 +151,6 @@ function showEnds() {
 function showReason() {
   if (answer?.curves?.[state.kind])
     reason(byId("reason"), answer, state, advice, (ends) => update(() => (state.ends = pick(ends))));
-}
-
-/** Points of a Bézier curve. */
-function bezier(control) {
-  return Array.from({ length: 81 }, (_, i) => {
-    let points = control;
-    while (points.length > 1)
-      points = points.slice(1).map((p, j) => [0, 1].map((c) => points[j][c] + (p[c] - points[j][c]) * (i / 80)));
-    return points[0];
-  });
 }
 
 const shownAnswer = () => (state.mode === "join" ? joined : answer);

@@ -1,9 +1,11 @@
 // The drawing: curves, polygons, circles and combs in the plane, and the handles that are dragged.
 
-import { byId, pathOf, svg } from "./dom.js";
+import { byId, onMove, pathOf, sizeOf, svg } from "./dom.js";
 
 /** Pixels beyond which a drawn number would only slow the browser down. */
 const FAR = 2e4;
+/** Pixels from the border that handles keep when everything is shown. */
+const EDGE = 16;
 /** Length of the longest tooth of a comb, in pixels. */
 const TOOTH = 64;
 
@@ -32,7 +34,8 @@ export class Plane {
   }
 
   get size() {
-    return [this.#svg.clientWidth || 600, this.#svg.clientHeight || 400];
+    const [w, h] = sizeOf(this.#svg);
+    return [w || 600, h || 400];
   }
 
   toScreen([x, y]) {
@@ -47,6 +50,7 @@ export class Plane {
 
   /** Shows all of these points. */
   fit(points) {
+    sizeOf(this.#svg, true);
     const [w, h] = this.size;
     const [xs, ys] = [0, 1].map((i) => points.map((p) => p[i]).filter(Number.isFinite));
     const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
@@ -56,6 +60,20 @@ export class Plane {
       (h - 130) / Math.max(high - low, 0.02 * extent),
     );
     this.view = { x: (left + right) / 2, y: (low + high) / 2, scale: Math.max(scale, 1e-300) };
+    // Handles have a length of pixels, so that their places follow from the scale: a few rounds bring them in.
+    for (let round = 0; round < 4; round++) {
+      const places = [...this.#handles.values()].map(({ handle }) => handle.at(this));
+      const beyond = [0, 1].map((i) => {
+        const size = this.size[i];
+        const over = (values) => Math.max(0, ...values.filter(Number.isFinite));
+        return [over(places.map((p) => EDGE - p[i])), over(places.map((p) => p[i] + EDGE - size))];
+      });
+      const worst = Math.max(...beyond.map(([before, after], i) => (before + after) / this.size[i]));
+      if (!(worst > 0)) return;
+      this.view.x += (beyond[0][1] - beyond[0][0]) / 2 / this.view.scale;
+      this.view.y -= (beyond[1][1] - beyond[1][0]) / 2 / this.view.scale;
+      this.view.scale *= Math.max(0.5, 1 - worst);
+    }
   }
 
   draw(scene = this.#scene) {
@@ -158,14 +176,13 @@ export class Plane {
       element.focus({ preventScroll: true });
       element.setPointerCapture(event.pointerId);
       element.classList.add("held");
-      const at = this.#local(event);
-      const start = entry.handle.at(this);
-      entry.offset = [at[0] - start[0], at[1] - start[1]];
+      const [x, y] = entry.handle.at(this);
+      entry.offset = [event.clientX - x, event.clientY - y];
     });
-    element.addEventListener("pointermove", (event) => {
+    onMove(element, (event) => {
       if (!entry.offset) return;
-      const at = this.#local(event);
-      entry.handle.move(this.toWorld([at[0] - entry.offset[0], at[1] - entry.offset[1]]), this);
+      const [x, y] = entry.offset;
+      entry.handle.move(this.toWorld([event.clientX - x, event.clientY - y]), this);
       this.place();
       this.changed(event.timeStamp);
     });

@@ -1,6 +1,6 @@
 // The region at the present angles: computed by the worker, finer and finer, with a cursor at the present datum.
 
-import { byId, html, svg } from "./dom.js";
+import { byId, html, onMove, sizeOf, svg } from "./dom.js";
 import { logTicks, show, ticks } from "./numbers.js";
 import { colours, css, paint, ramp } from "./paint.js";
 
@@ -29,7 +29,7 @@ export class Region {
       this.#held = true;
       this.#drag(event);
     });
-    this.#chart.addEventListener("pointermove", (event) => this.#held && this.#drag(event));
+    onMove(this.#chart, (event) => this.#held && this.#drag(event));
     for (const name of ["pointerup", "pointercancel"]) {
       this.#chart.addEventListener(name, () => {
         if (this.#held) released();
@@ -52,10 +52,8 @@ export class Region {
     this.answer = answer;
     this.kind = kind;
     const { phi0, phi1, kappa0, kappa1 } = answer.datum;
-    const [w, h] = [
-      this.#chart.clientWidth - MARGIN.left - MARGIN.right,
-      this.#chart.clientHeight - MARGIN.top - MARGIN.bottom,
-    ];
+    const [W, H] = sizeOf(this.#chart);
+    const [w, h] = [W - MARGIN.left - MARGIN.right, H - MARGIN.top - MARGIN.bottom];
     if (w < 20 || h < 20) return;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [w, h].map((n) => Math.max(16, Math.min(MOST, Math.round(n * ratio))));
@@ -154,7 +152,7 @@ export class Region {
   #axes() {
     if (!this.#shown) return;
     const { unit, turn, placement } = this.answer;
-    const [W, H] = [this.#chart.clientWidth, this.#chart.clientHeight];
+    const [W, H] = sizeOf(this.#chart);
     const [w, h] = [W - MARGIN.left - MARGIN.right, H - MARGIN.top - MARGIN.bottom];
     if (w < 20 || h < 20) return;
     const [[x0, x1], [y0, y1]] = this.#shown.ranges.map((range) => range.map((k) => k / unit));

@@ -94,6 +94,8 @@ export function reason(element, answer, state, advice, take) {
   const why = advice?.why ?? curve.why ?? {};
   const head = HEADS[why.cause ?? why.condition] ?? "No such curve";
   const parts = [html("p", { class: "head no" }, head)];
+  if (why.needs?.length === 2)
+    parts.push(html("p", {}, why.alone ? "One of these alone would do:" : "Both are needed:"));
   const list = [...needs(why), ...remedies(advice?.why, answer, unit, take)];
   if (list.length) parts.push(html("ul", { class: "needs" }, ...list));
   const told = measure(why);
@@ -177,13 +179,12 @@ function needs(why) {
   const unit = byId("unit").value;
   return (why.needs ?? []).map((need) => {
     const bound = need.above ?? need.below;
-    const word = need.above !== undefined ? "above" : "below";
+    const sign = need.above !== undefined ? ">" : "<";
     const off = Math.abs(bound - need.curvature);
-    const joined = why.alone ? "" : ", and the other too";
     return html(
       "li",
       {},
-      `${need.which} curvature must be ${word} ${show(bound, 5)}/${unit}${joined}: off by ${show(off, 2)}`,
+      `${need.which} curvature ${sign} ${show(bound, 5)}/${unit}, off by ${show(off, 2)}/${unit}`,
     );
   });
 }
@@ -200,7 +201,7 @@ function remedies(why, answer, unit, take) {
         { class: "plain", onclick: () => take(ends) },
         `${remedy.which} curvature ${show(remedy.instead, 5)}/${unit}`,
       ),
-      ` would do: off by ${show(Math.abs(remedy.instead - remedy.curvature), 2)}`,
+      ` would do, off by ${show(Math.abs(remedy.instead - remedy.curvature), 2)}/${unit}`,
     );
   });
 }

@@ -33,7 +33,7 @@ function answer({ id, question, bytes, slice }) {
     const about = core.ask({ ask: "slice", ...slice });
     making = about.error
       ? undefined
-      : { id, about, width: slice.width, height: slice.height, began: performance.now() };
+      : { id, about, width: slice.width, height: slice.height, began: performance.now(), next: PACE };
     if (about.error) self.postMessage({ id, answer: about });
     else refine();
     return;
@@ -47,20 +47,16 @@ function refine() {
   const until = performance.now() + PACE;
   let left = 1;
   while (left > 0 && performance.now() < until) left = core.refine(TILES);
-  const pixels = core.pixels(width * height);
-  const drawn = core.drawn();
-  if (drawn) making.took ??= performance.now() - began;
-  const answer = {
-    ...about,
-    width,
-    height,
-    pixels,
-    drawn,
-    done: left === 0,
-    proved: core.proved(),
-    took: making.took,
-  };
-  self.postMessage({ id, answer }, [pixels.buffer]);
+  const whole = core.drawn() && !making.took;
+  if (whole) making.took = performance.now() - began;
+  // Each picture comes after twice the time of the one before, because the page paints it.
+  if (left === 0 || whole || performance.now() - began >= making.next) {
+    making.next = 2 * (performance.now() - began);
+    const pixels = core.pixels(width * height);
+    const reached = { drawn: core.drawn(), done: left === 0, proved: core.proved(), took: making.took };
+    const answer = { ...about, width, height, pixels, ...reached };
+    self.postMessage({ id, answer }, [pixels.buffer]);
+  }
   if (left > 0) channel.port2.postMessage(0);
   else making = undefined;
 }

@@ -13,6 +13,8 @@ use spiral_atlas::{Error, Result};
 
 /// Points of a curve that is drawn, less one.
 const STEPS: usize = 160;
+/// The same of one that is no spiral.
+const OTHER_STEPS: usize = 80;
 /// The same of a piece of a join.
 const PIECE_STEPS: usize = 64;
 /// Most points of an involute that are drawn: one that turns often has more.
@@ -114,10 +116,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let answer = spiral(ends)?;
             let piece = answer.chosen().map(|s| (s.piece(), json!({ "margin": s.margin, "f0": s.f0, "f1": s.f1 })));
             let why = answer.outcome.as_ref().err().map(|why| (why.sentence("cubic spiral"), json!(why)));
-            // What has these ends and is no spiral is drawn, too.
-            let others =
-                answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points.p }));
-            told(piece, why, others.collect())
+            told(piece, why, answer.solutions.iter().map(|s| other(&s.piece())).collect())
         }
         Kind::PhQuintic => {
             let answer = ph_spiral(ends)?;
@@ -125,9 +124,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
                 |s: &transition::PhSolution| json!({ "margin": s.margin, "a": s.a, "b": s.b, "energy": s.energy });
             let piece = answer.chosen().map(|s| (Piece::PhQuintic(s.curve), facts(s)));
             let why = answer.outcome.as_ref().err().map(|why| (why.sentence("PH quintic spiral"), json!(why)));
-            let others =
-                answer.solutions.iter().map(|s| json!({ "spiral": s.spiral, "control_points": s.control_points }));
-            told(piece, why, others.collect())
+            told(piece, why, answer.solutions.iter().map(|s| other(&Piece::PhQuintic(s.curve))).collect())
         }
         Kind::Involute => {
             let (found, frame) = involute_between(ends, [0, 0])?;
@@ -150,6 +147,11 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
         }
         _ => Err(Error::invalid(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
     }
+}
+
+/// What has these ends and is no spiral is drawn, too.
+fn other(piece: &Piece) -> Value {
+    json!({ "control_points": piece.control_points(), "samples": samples(piece, OTHER_STEPS, 0.0) })
 }
 
 /// A curve, or why there is none and what else has these ends.

@@ -14,6 +14,9 @@ const LAST: usize = 16;
 const LEAST: usize = 8;
 /// Most pixels along a side.
 const MOST: usize = 2048;
+/// Boxes that may fail before the picture is whole, and how many more each one may that does not.
+const PATIENCE: usize = 12;
+const REWARD: usize = 3;
 /// The axes of a slice.
 const AXES: [&str; 4] = ["phi0", "phi1", "kappa0", "kappa1"];
 
@@ -54,6 +57,8 @@ pub(crate) struct Slice {
     alike: VecDeque<Tile>,
     flags: Vec<u8>,
     proved: usize,
+    /// How many boxes may fail before the picture is whole.
+    patience: usize,
 }
 
 impl Slice {
@@ -104,6 +109,7 @@ impl Slice {
             alike: VecDeque::new(),
             flags,
             proved: 0,
+            patience: PATIENCE,
         })
     }
 
@@ -180,10 +186,17 @@ impl Slice {
         };
         let middle = [(x + right) / 2, (y + top) / 2];
         let within = code(middle[0], middle[1]);
-        // A box whose corners differ is not tried: a proof over a box takes as long as many pixels.
-        let corners = [(x, y), (x, top - 1), (right - 1, y), (right - 1, top - 1)];
-        if corners.into_iter().all(|(x, y)| code(x, y).flags() == within.flags()) && self.prove(&tile) {
-            return;
+        // A box whose corners differ is not tried: a proof over a box takes as long as many pixels. Some families prove
+        // small boxes alone, and there the large ones are soon given up.
+        if self.patience > 0 {
+            let corners = [(x, y), (x, top - 1), (right - 1, y), (right - 1, top - 1)];
+            if corners.into_iter().all(|(x, y)| code(x, y).flags() == within.flags()) {
+                if self.prove(&tile) {
+                    self.patience += REWARD;
+                    return;
+                }
+                self.patience -= 1;
+            }
         }
         // Until its parts are known, a tile looks like its middle.
         self.fill([x, right, y, top], decided(table, middle[0] * rows + middle[1], within));

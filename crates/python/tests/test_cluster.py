@@ -203,6 +203,11 @@ def test_a_run_that_has_nothing_to_do_writes_nothing(place, folder):
     told = json.loads(again.stdout)
     assert told["shards"] == {"all": 36, "written": 0, "kept": 36, "missing": 0, "wrong": 0}
     assert told["id"] == spiral_atlas.open(place).id and told["nodes"] == 57_834
+    command = [sys.executable, "-m", "spiral_atlas.cluster", "info", place]
+    about = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    for line in ("small, cubic, by spiral-atlas", "; complete\n", "grid of 57,834 nodes", "36 shards of 8,8,8,16, in"):
+        assert line in about, about
+    assert "bit 3 SPIRAL" in about and '  fields = ["f0", "margin"]' in about
     assert {path: path.stat().st_mtime_ns for path in place.rglob("*")} == before
 
 
@@ -222,6 +227,39 @@ def test_what_is_not_written_is_no_verdict(folder, tmp_path):
         Store(tmp_path / "nowhere.zarr")
     with pytest.raises(FileNotFoundError):
         spiral_atlas.open(tmp_path / "nowhere.zarr")
+
+
+def test_an_object_store_holds_the_same_for_few_requests(folder, atlas, place, monkeypatch):
+    """A store behind a URL, of fsspec's kind as those of clouds are."""
+    url, requests = "memory://atlases/small.zarr", []
+    create(folder / "small.toml", url, **SHAPES)
+    for name in ("get", "set", "delete"):
+
+        def noted(self, key, *rest, name=name, plain=getattr(zarr.storage.FsspecStore, name), **options):
+            requests.append((name, key))
+            return plain(self, key, *rest, **options)
+
+        monkeypatch.setattr(zarr.storage.FsspecStore, name, noted)
+    store = Store(url, mode="r+", complete=False)
+    # The metadata of the group and of nine arrays, and the values of four axes.
+    assert len(requests) == 1 + 9 + 4
+    requests.clear()
+    write_shard(store, 7, threads=1)
+    # Of each field what may be there goes, zarr looks whether any is left, and the new comes. The digest is looked up
+    # before and written after.
+    fields, digest = [f"{name}/c/0/1/0/1" for name in store.fields], "manifest/digests/c/0/1/0/1/0/0"
+    wanted = [(what, key) for key in fields for what in ("delete", "get", "set")]
+    assert requests == [("get", digest), *wanted, ("set", digest)]
+    with pytest.raises(spiral_atlas.AtlasError, match="shards are missing"):
+        spiral_atlas.open(url)
+    # Made complete from the file; what is there stays.
+    assert spiral_atlas.to_zarr(atlas, url).id == spiral_atlas.open(place).id
+    store = spiral_atlas.open(url)
+    store.check()
+    assert np.array_equal(store.flags[...], atlas.flags) and np.array_equal(store.scalar("f0")[...], atlas.scalar("f0"))
+    assert [png for png in pictures(store)] == [png for png in pictures(place)]
+    with pytest.raises(ValueError, match="holds another atlas"):
+        create({"family": "cubic", "atlas": [{"name": "a", "axes": dict.fromkeys(atlas.axes, {"values": [0.5]})}]}, url)
 
 
 def test_recipes_of_several_atlases_need_a_name(tmp_path):
@@ -246,11 +284,21 @@ def test_recipes_of_several_atlases_need_a_name(tmp_path):
 
 def test_shapes_are_whole_chunks_of_about_a_size():
     for counts in [(512,) * 4, (128,) * 4, (41, 1, 37, 43), (5, 3), (1 << 22,), (100_000, 7, 90), (17, 300, 2, 2, 900)]:
-        chunks = shapes.usual_chunks(counts)
-        shards = shapes.usual_shards(counts, chunks)
-        shapes.check(counts, chunks, shards)
-        assert np.prod(chunks) <= shapes.CHUNK_NODES and np.prod(shards) <= shapes.SHARD_NODES
-        assert np.prod(shards) * 2 > min(shapes.SHARD_NODES, np.prod(counts))
+        for node in (2, 10):
+            chunks, shards = shapes.usual(counts, node)
+            shapes.check(counts, chunks, shards)
+            assert np.prod(chunks) <= shapes.CHUNK_NODES and node * np.prod(shards) <= shapes.SHARD_BYTES
+            wanted = min(shapes.SHARD_BYTES / node, max(shapes.LEAST_NODES, np.prod(counts) / shapes.SHARDS))
+            assert min(wanted, np.prod(counts)) / 2 < np.prod(shards) <= max(wanted, np.prod(chunks))
+    # Planes of the last two axes are large, because blocks of nodes are proved in them.
+    assert shapes.usual((128,) * 4, 2) == ((8, 8, 128, 128), (32, 32, 128, 128))
+    assert shapes.usual((512,) * 4, 2) == ((8, 8, 128, 128), (16, 16, 256, 256))
+    # Shards of a user's have whole chunks, whatever they are.
+    for given in [(64,) * 4, (8, 8, 4, 4), (45, 45, 45, 45), (1, 3 << 20)]:
+        chunks, shards = shapes.usual([1000] * len(given), 2, shards=given)
+        shapes.check([1000] * len(given), chunks, shards)
+        assert shards == given and (np.prod(chunks) <= shapes.CHUNK_NODES or 45 in given)
+    assert shapes.usual((16,) * 4, 2, chunks=(4, 8, 4, 4))[0] == (4, 8, 4, 4)
     for chunks, shards, words in [
         ((2, 2), (4, 3), "whole chunks"),
         ((0, 2), (4, 4), "at least 1"),

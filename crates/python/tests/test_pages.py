@@ -38,14 +38,14 @@ def test_the_page_of_clusters_runs(tmp_path, monkeypatch):
         assert done.returncode == 0, done.stderr
         return done.stdout
 
-    assert "4 shards: 4 written" in run(shell[0])
+    assert "16 shards: 16 written" in run(shell[0])
     assert Path("wide.png").read_bytes().startswith(b"\x89PNG")
     exec(compile(code, "docs/cluster.md", "exec"), {})
     run("rm -r wide.atlas.zarr")
-    assert "shards 0 to 3" in run(shell[1])
+    assert "shards 0 to 15" in run(shell[1])
     for number in "01":
-        assert run(job, SLURM_ARRAY_TASK_ID=number).count("written") == 2
-    assert "4 shards: 4 there and right" in run(shell[2])
+        assert run(job, SLURM_ARRAY_TASK_ID=number).count("written") == 8
+    assert "16 shards: 16 there and right" in run(shell[2])
 
 
 def test_figure_2_is_drawn(tmp_path):

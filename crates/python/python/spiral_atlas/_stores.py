@@ -43,7 +43,7 @@ def to_zarr(
     Args:
         atlas: an atlas, or its file.
         store: a folder or a URL. A store of the same atlas that is there is completed.
-        chunks, shards: nodes along each axis; by default some 2**18 and 2**22 nodes.
+        chunks, shards: nodes along each axis; by default at most 2**20 nodes and 2**25 bytes.
 
     Raises:
         ValueError: another atlas is there, and the message says what differs.

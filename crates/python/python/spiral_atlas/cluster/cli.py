@@ -7,10 +7,11 @@ import sys
 import tempfile
 import time
 from collections.abc import Sequence
+from math import prod
 from pathlib import Path
 from typing import Any
 
-from . import layout, picture, run, shards
+from . import layout, picture, run, shapes, shards
 from .lock import StoreLockedError, locked
 from .store import Store
 
@@ -58,10 +59,10 @@ def parser() -> argparse.ArgumentParser:
         )
         added.add_argument("--atlas", metavar="NAME", help="which atlas of the recipe, where it has several")
         added.add_argument(
-            "--chunks", type=sides, metavar="N,N,..", help="nodes of a chunk along each axis [some 2^18 in all]"
+            "--chunks", type=sides, metavar="N,N,..", help="nodes of a chunk along each axis [at most 2^20 in all]"
         )
         added.add_argument(
-            "--shards", type=sides, metavar="N,N,..", help="nodes of a shard along each axis [some 2^22 in all]"
+            "--shards", type=sides, metavar="N,N,..", help="nodes of a shard along each axis [at most 32 MiB in all]"
         )
 
     def cluster(added: argparse.ArgumentParser) -> None:
@@ -87,6 +88,8 @@ def parser() -> argparse.ArgumentParser:
         type=numbers,
         help="a number from 0 on, or a range such as 0-15, cut off at the last shard",
     )
+    added = command("info", info, "Tell what a store holds: grid, fields, legend, shards and recipe.")
+    added.add_argument("store", metavar="STORE")
     added = command("check", check, "Read every shard of a store and compare it with its digest.")
     added.add_argument("store", metavar="STORE")
     cluster(added)
@@ -179,6 +182,26 @@ def shard(options: argparse.Namespace) -> int:
         for number in wanted:
             done = shards.write_shard(store, number)
             print(f"shard {number}: {done.state}, {done.nodes:,} nodes, {done.seconds:.2f} s", flush=True)
+    return 0
+
+
+def info(options: argparse.Namespace) -> int:
+    store = Store(options.store, complete=False)
+    about = store.metadata
+    complete = "complete" if store.group.attrs.get("complete") else "not complete: `generate` goes on with it"
+    lines = [store.path, f"  {about['name']}, {store.family}, by {about['generator']}; {complete}"]
+    lines += [f"grid of {prod(store.shape):,} nodes, first axis slowest; chart `{store.chart}`"]
+    for name, axis in store.axes.items():
+        unit = " radians" if name in store.angles else ""
+        lines.append(f"  {name:<14} {len(axis):>7,} values from {axis[0]} to {axis[-1]}{unit}")
+    lines += [f"{store.shard_count:,} shards of {shapes.told(store.shards)}, in chunks of {shapes.told(store.chunks)}"]
+    flags = enumerate(store.flag_docs.items())
+    lines += ["flags (u8)", *(f"  bit {bit} {name:<14} {doc}" for bit, (name, doc) in flags)]
+    counts = store.counts.items()
+    lines += ["solutions (u8)", *(f"  {name}: {bits} bits from bit {shift} on" for name, (shift, bits) in counts)]
+    if store.scalar_docs:
+        lines += ["scalars (f32)", *(f"  {name:<14} {doc}" for name, doc in store.scalar_docs.items())]
+    print("\n".join([*lines, "recipe", *(f"  {line}".rstrip() for line in store.recipe.splitlines())]))
     return 0
 
 

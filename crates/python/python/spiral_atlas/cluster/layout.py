@@ -34,7 +34,7 @@ def create(
         recipe: a dictionary, or the path of a TOML file.
         place: a folder, or a URL that zarr understands. For a name that ends with `.zarr` xarray needs no engine.
         atlas: which atlas of the recipe, where it has several.
-        chunks, shards: nodes along each axis; by default some 2**18 and 2**22 nodes.
+        chunks, shards: nodes along each axis; by default at most 2**20 nodes and 2**25 bytes.
 
     Raises:
         ValueError: the recipe is wrong; or another atlas is there, and the message says what differs.
@@ -70,8 +70,7 @@ def lay_out(
     """`create` for an outline, by the holder of the lock."""
     if not (_attributes(place) or {}).get("format"):
         counts = [len(axis) for axis in outline.axes.values()]
-        chunks = tuple(chunks or shapes.usual_chunks(counts))
-        shards = tuple(shards or shapes.usual_shards(counts, chunks))
+        chunks, shards = shapes.usual(counts, 2 + 4 * len(outline.scalar_docs), chunks, shards)
         shapes.check(counts, chunks, shards)
         _write(outline, place, chunks, shards)
         return Store(place, mode="r+", complete=False)

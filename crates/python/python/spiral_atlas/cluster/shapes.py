@@ -3,33 +3,58 @@
 from collections.abc import Sequence
 from math import ceil, prod
 
-CHUNK_NODES = 1 << 18
-"""Most nodes of a chunk, which is what a lookup reads: 256 KiB of flags before compression."""
-SHARD_NODES = 1 << 22
-"""Most nodes of a shard, which is what a task computes and a file holds."""
+CHUNK_NODES = 1 << 20
+"""Most nodes of a chunk, which is what a lookup reads: a mebibyte of flags, some ten kilobytes compressed."""
+SHARD_BYTES = 1 << 25
+"""Most bytes of a shard before compression. A shard is what a task computes and what a file holds, for each field."""
+SHARDS = 16
+"""Of small atlases shards are smaller, so that there are as many and all cores have work, but no smaller than these."""
+LEAST_NODES = 1 << 18
+PLANE = 16
+"""How much longer the last two sides are. A family proves whole blocks of nodes in these two axes, and what it computes
+for the other coordinates once is then shared by more nodes."""
 
 
-def usual_chunks(counts: Sequence[int]) -> tuple[int, ...]:
-    """Chunks of nearly equal sides, the later ones longer."""
+def usual(
+    counts: Sequence[int], node: int, chunks: Sequence[int] | None = None, shards: Sequence[int] | None = None
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Chunks and shards of a grid whose nodes have so many bytes; what is given stays."""
+    most = min(SHARD_BYTES // node, max(LEAST_NODES, prod(counts) // SHARDS))
+    if chunks is None:
+        chunks = _divided(counts, min(CHUNK_NODES, most)) if shards is None else _halved(shards)
+    return tuple(chunks), tuple(shards or _doubled(counts, chunks, most))
+
+
+def _divided(counts: Sequence[int], most: int) -> tuple[int, ...]:
+    """Sides of at most so many nodes that are nearly equal, apart from the last two."""
     sides = list(counts)
-    while prod(sides) > CHUNK_NODES:
-        longest = sides.index(max(sides))
+    while prod(sides) > most:
+        longest = max(range(len(sides)), key=lambda axis: sides[axis] / _weight(axis, sides))
         sides[longest] = ceil(sides[longest] / 2)
     return tuple(sides)
 
 
-def usual_shards(counts: Sequence[int], chunks: Sequence[int]) -> tuple[int, ...]:
-    """Shards of whole chunks, of nearly equal sides, the later ones longer."""
+def _halved(shards: Sequence[int]) -> tuple[int, ...]:
+    """Whole parts of shards that somebody chose."""
+    sides = list(shards)
+    while prod(sides) > CHUNK_NODES and (even := [axis for axis, side in enumerate(sides) if side % 2 == 0]):
+        sides[max(even, key=lambda axis: sides[axis] / _weight(axis, sides))] //= 2
+    return tuple(sides)
+
+
+def _doubled(counts: Sequence[int], chunks: Sequence[int], most: int) -> tuple[int, ...]:
+    """Whole chunks, again of nearly equal sides, apart from the last two."""
     sides = list(chunks)
     while True:
         # The shortest side that does not reach the end of its axis yet; of equal ones the last.
         open_axes = [axis for axis in reversed(range(len(sides))) if sides[axis] < counts[axis]]
-        if not open_axes:
+        if not open_axes or 2 * prod(sides) > most:
             return tuple(sides)
-        axis = min(open_axes, key=lambda axis: sides[axis])
-        if 2 * prod(sides) > SHARD_NODES:
-            return tuple(sides)
-        sides[axis] *= 2
+        sides[min(open_axes, key=lambda axis: sides[axis] / _weight(axis, sides))] *= 2
+
+
+def _weight(axis: int, sides: Sequence[int]) -> int:
+    return PLANE if axis >= len(sides) - 2 else 1
 
 
 def check(counts: Sequence[int], chunks: Sequence[int], shards: Sequence[int]) -> None:

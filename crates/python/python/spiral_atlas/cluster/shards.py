@@ -83,15 +83,19 @@ def look_at(store: Store, number: int) -> Shard:
 
 def put(store: Store, number: int, fields: Mapping[str, NDArray[Any]]) -> None:
     """Writes the fields of a shard and, once they are there, their digests."""
+    sync(_put(store, number, fields))
+
+
+async def _put(store: Store, number: int, fields: Mapping[str, NDArray[Any]]) -> None:
+    # In one piece, since each call from outside wakes zarr's thread, and waits for it.
     box = store.box(number)
     index = tuple(int(i) for i in np.unravel_index(number, store.shard_counts))
     for name, array in store.fields.items():
         # What is there may be damaged, and zarr would read it to see whether parts of it must be kept.
-        key = f"{name}/{array.metadata.encode_chunk_key(index)}"
-        sync(store.group.store.delete(key))
+        await store.group.store.delete(f"{name}/{array.metadata.encode_chunk_key(index)}")
         # Else zarr compares every chunk with the fill value, which none is made of; that takes as long as to write it.
-        array.with_config({"write_empty_chunks": True})[box] = fields[name]
-    store.digests[index] = store.digest_of(fields)
+        await array.async_array.with_config({"write_empty_chunks": True}).setitem(box, fields[name])
+    await store.digests.async_array.setitem(index, store.digest_of(fields))
 
 
 def finish(store: Store) -> None:

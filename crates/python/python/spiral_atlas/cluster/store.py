@@ -66,7 +66,8 @@ class Store:
     def array(self, name: str) -> Any:
         """An array of the store."""
         try:
-            return zarr.open_array(self.group.store, path=name, mode="r" if self.group.read_only else "r+")
+            mode = "r" if self.group.read_only else "r+"
+            return zarr.open_array(self.group.store, path=name, mode=mode, zarr_format=3)
         except (ArrayNotFoundError, FileNotFoundError):
             raise AtlasError(f"{self.path}: it has no array `{name}`") from None
 
