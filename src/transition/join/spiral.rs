@@ -171,7 +171,7 @@ impl Spiral {
             Family::Cubic | Family::PhQuintic if self.from == 0.0 || self.to == 0.0 => {
                 self.straight_ended(family, at, scale_by)?
             }
-            _ => return self.from_ends(family, at, scale_by),
+            _ => return self.with_ends(family, at, scale_by),
         };
         Ok(placed.map(|piece| {
             let end = piece.end();
@@ -180,7 +180,7 @@ impl Spiral {
     }
 
     /// As [`Spiral::piece`], by the family's own answer to both ends.
-    fn from_ends(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
+    fn with_ends(&self, family: Family, at: Pose, scale_by: f64) -> Result<Option<(Piece, Pose)>> {
         let direction = at.direction + self.angle();
         let end = add(at.at, scale(turn(at.along(), self.step(family)), 1.0 / scale_by));
         let ends = Ends {
