@@ -3,7 +3,7 @@
 use super::region::clip_side;
 use crate::error::{Error, Result, finite, written};
 use crate::grid::Grid;
-use crate::num::sines::sum_below_pi;
+use crate::num::sines::{PI_LOW, sum_below_pi};
 use std::f64::consts::PI;
 
 /// An angle must be positive and below π, which lies just above the double [`PI`]; the sum is checked by
@@ -47,8 +47,9 @@ pub(super) fn holds_box(sides: &[[f64; 2]; 4]) -> bool {
 pub(super) fn clip(low: &mut [f64], high: &mut [f64]) -> bool {
     let least = f64::from_bits(1);
     for side in 0..2 {
-        // What the other angle leaves, rounded up and then down to the last that fits.
-        let mut most = (PI - low[1 - side].max(least)).next_up().min(PI);
+        // What the other angle leaves: π less that angle, with what the double of π lacks, up to two roundings. So the
+        // double above is too large, and the last that fits is a step or two below.
+        let mut most = ((PI - low[1 - side].max(least)) + PI_LOW).next_up().min(PI);
         while most > 0.0 && !sum_below_pi(most, low[1 - side].max(least)) {
             most = most.next_down();
         }
@@ -67,4 +68,23 @@ pub(super) fn check_grid(grid: &Grid) -> Result<()> {
     }
     let last = |axis: &crate::grid::Axis| axis.values()[axis.values().len() - 1];
     check_angles(last(phi0), last(phi1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::Noise;
+
+    #[test]
+    fn what_is_clipped_holds_every_datum() {
+        let mut noise = Noise(3);
+        let others = (0..2000).map(|_| PI * noise.signed().abs());
+        let near_pi = (0..60).map(|i| PI - 2f64.powi(-i)).chain([PI, PI.next_down()]);
+        for other in others.chain(near_pi) {
+            let (mut low, mut high) = ([0.0, other], [4.0, other]);
+            assert!(clip(&mut low, &mut high), "{other:?}");
+            // The last double that fits, and none above.
+            assert!(sum_below_pi(high[0], other) && !sum_below_pi(high[0].next_up(), other), "{other:?}");
+        }
+    }
 }

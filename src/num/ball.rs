@@ -42,8 +42,8 @@ impl Ball {
 
     /// From the smallest to the largest of its numbers, a little widened.
     fn ends(&self) -> (f64, f64) {
-        // One more unit for the rounding of the ends themselves.
-        let error = self.error + self.value.abs() * f64::EPSILON;
+        // Two units of each for the roundings of this sum and of the ends themselves.
+        let error = self.error * GROW + self.value.abs() * f64::EPSILON;
         (self.value - error, self.value + error)
     }
 }

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
 /// π - [`PI`], to 2^-106 relative.
-const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
+pub(crate) const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 /// π/2 - [`FRAC_PI_2`].
 const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
 

@@ -246,8 +246,10 @@ impl Real for Twin {
     fn approx(&self) -> f64 {
         self.high
     }
+    /// All numbers beyond the normal range.
     fn power_of_two(exponent: i32, _bits: usize) -> Twin {
-        Twin::of(2f64.powi(exponent), TWIN_BITS)
+        let power = 2f64.powi(exponent);
+        if power.is_normal() { Twin::of(power, TWIN_BITS) } else { Twin { high: 0.0, low: 0.0, error: f64::INFINITY } }
     }
     fn ln(&self) -> f64 {
         self.high.ln()

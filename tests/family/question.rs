@@ -4,6 +4,7 @@ use crate::oracle::random::Random;
 use crate::oracle::{in_domain, judge};
 use spiral_atlas::family::{self, verdict};
 use spiral_atlas::question::{Property, boundary, nearest, ranges};
+use std::f64::consts::PI;
 
 /// Whether a property holds at a point.
 type Holds = Box<dyn Fn(&[f64]) -> bool>;
@@ -33,6 +34,25 @@ fn with(point: &[f64], axis: usize, x: f64) -> Vec<f64> {
     let mut point = point.to_vec();
     point[axis] = x;
     point
+}
+
+/// Where the other angle is near π, this one is less than what the double of π leaves: none of its doubles is lost.
+#[test]
+fn no_datum_at_the_end_of_the_domain_is_lost() {
+    for (family, flag, point, within, probes) in [
+        ("cubic", "SOLVABLE", [0.0, PI, 1e-17, 1e18], [4e-17, 1e-16], &[5e-17][..]),
+        ("cubic", "ANY_SPIRAL", [0.0, 3.0, 0.01, 100.0], [0.14, 0.15], &[0.141, 0.14159265358979323]),
+        ("cubic", "ANY_SPIRAL", [0.0, 3.0, 0.01, 100.0], [0.14159265358979318, 0.15], &[0.14159265358979323]),
+        ("ph-quintic", "ANY_SPIRAL", [0.0, 3.0, 0.01, 100.0], [0.14, 0.15], &[0.141, 0.14159265358979323]),
+    ] {
+        let Asked { property, holds } = asked(family, 0, flag);
+        let answer = ranges(&property, &point, 0, within).unwrap();
+        for x in probes {
+            assert!(holds(&with(&point, 0, *x)), "{family} {flag} {x:?}");
+            let told = answer.ranges.iter().any(|s| s.outer[0] <= *x && *x <= s.outer[1]);
+            assert!(told || answer.open.iter().any(|s| s[0] <= *x && *x <= s[1]), "{family} {flag} {x:?}: {answer:?}");
+        }
+    }
 }
 
 /// Inside it holds, outside it fails, the ends are where it changes, and the work is bounded.

@@ -101,13 +101,14 @@ pub(super) fn root<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, want
     let right = [equations.curves.right[0].0, equations.curves.right[1].0];
     let (half, minus_half, one) = (equations.splat(0.5), equations.splat(-0.5), equations.splat(1.0));
     let (mut r0, mut r1) = (one, one);
-    for _ in 0..MOST_STEPS {
+    for step in 0..=MOST_STEPS {
         let [first, second] = equations.curves.at(&Lanes(t));
         let (f0, k0, j0) = values(&first, z);
         let (f1, k1, j1) = values(&second, z);
         (r0, r1) = ((f0 - right[0]) / right[0], (f1 - right[1]) / right[1]);
         let near = r0.abs().max(r1.abs()).simd_lt(equations.splat(2f64.powi(-44)));
-        if near.to_bitmask() & wanted == wanted {
+        // The residuals are those of the place that is left.
+        if step == MOST_STEPS || near.to_bitmask() & wanted == wanted {
             break;
         }
         let (k0, j0, k1, j1) = (k0 / right[0], j0 / right[0], k1 / right[1], j1 / right[1]);
