@@ -1,6 +1,9 @@
 //! Cells of the cubic, then of `ph-quintic`, by hand: `cargo bench --bench cells -- [resolution] [MiB] [resolution of
 //! ph-quintic] [its MiB]`. What is MIXED, and what a lookup, a verdict and a solution cost.
 
+mod random;
+
+use random::Random;
 use spiral_atlas::cells::{Cells, Spec, build, write};
 use spiral_atlas::family::cubic::Datum;
 use spiral_atlas::family::{Family, by_name, cubic, ph_quintic};
@@ -53,11 +56,11 @@ fn measure(name: &str, resolution: usize, mib: usize, solve: &dyn Fn(&[f64; 4]))
     println!("{} bytes, opened in {:.3} s", cells.bytes(), started.elapsed().as_secs_f64());
 
     let mut random = Random(1);
-    let points: Vec<[f64; 4]> = (0..POINTS).map(|_| random.point()).collect();
+    let points: Vec<[f64; 4]> = (0..POINTS).map(|_| point(&mut random)).collect();
     // Uniform inside the outer bound: in angles and curvatures, not in cells.
     let mut within: Vec<[f64; 4]> = Vec::new();
     while within.len() < POINTS {
-        let point = random.point();
+        let point = point(&mut random);
         if cells.verdict(&point, any_spiral)? != 0 {
             within.push(point);
         }
@@ -112,19 +115,8 @@ fn measure(name: &str, resolution: usize, mib: usize, solve: &dyn Fn(&[f64; 4]))
     std::fs::remove_file(&path).map_err(|source| spiral_atlas::Error::Io { path, source })
 }
 
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Anywhere in the box, κ1 by its logarithm.
-    fn point(&mut self) -> [f64; 4] {
-        let [a, b, c, d] = [0; 4].map(|_| self.unit());
-        [0.05 + 1.45 * a, 0.06 + 1.49 * b, 0.01 + 0.99 * c, 0.1 * 1000f64.powf(d)]
-    }
+/// Anywhere in the box, κ1 by its logarithm.
+fn point(random: &mut Random) -> [f64; 4] {
+    let [a, b, c, d] = [0; 4].map(|_| random.unit());
+    [0.05 + 1.45 * a, 0.06 + 1.49 * b, 0.01 + 0.99 * c, 0.1 * 1000f64.powf(d)]
 }

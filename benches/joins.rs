@@ -5,6 +5,9 @@
 //!
 //! `peers/cc_dubins.cpp` reads the rows and compares.
 
+mod random;
+
+use random::Random;
 use serde_json::from_value;
 use spiral_atlas::transition::join::{Family, Request, State, join};
 use std::f64::consts::PI;
@@ -12,22 +15,10 @@ use std::time::Instant;
 
 const PAIRS: usize = 10_000;
 
-/// Uniform numbers in [0, 1), the same each time (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * (((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64)
-    }
-
-    fn state(&mut self) -> State {
-        let point = [0, 1].map(|_| self.between(-5.0, 5.0));
-        State { point, direction: self.between(-PI, PI), curvature: self.between(-1.0, 1.0) }
-    }
+fn state(random: &mut Random) -> State {
+    let mut between = |low: f64, high: f64| low + (high - low) * random.unit();
+    let point = [0, 1].map(|_| between(-5.0, 5.0));
+    State { point, direction: between(-PI, PI), curvature: between(-1.0, 1.0) }
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -38,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut random = Random(1);
     let mut times = Vec::new();
     for _ in 0..PAIRS {
-        let pair = [random.state(), random.state()];
+        let pair = [state(&mut random), state(&mut random)];
         for State { point: [x, y], direction, curvature } in pair {
             print!("{x:?},{y:?},{direction:?},{curvature:?},");
         }

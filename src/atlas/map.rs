@@ -18,9 +18,10 @@ pub(crate) type Map = Vec<u8>;
 pub(crate) fn map_path(path: &Path) -> Result<Map> {
     // Asked before opening, because opening a pipe would wait for its other end.
     if !std::fs::metadata(path).map_err(Error::io(path))?.is_file() {
-        let what = match path.join("zarr.json").is_file() {
-            true => "it is a Zarr store; `spiral-atlas-cluster` reads it: its `info`, `check` and `render`",
-            false => "it is not an ordinary file; an atlas is mapped into memory, and needs one",
+        let what = if path.join("zarr.json").is_file() {
+            "it is a Zarr store; `spiral-atlas-cluster` reads it: its `info`, `check` and `render`"
+        } else {
+            "it is not an ordinary file; an atlas is mapped into memory, and needs one"
         };
         return Err(Error::Atlas { path: path.to_owned(), what: what.into() });
     }

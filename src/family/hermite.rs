@@ -47,10 +47,11 @@ pub(super) fn holds_box(sides: &[[f64; 2]; 4]) -> bool {
 pub(super) fn clip(low: &mut [f64], high: &mut [f64]) -> bool {
     let least = f64::from_bits(1);
     for side in 0..2 {
+        let other = low[1 - side].max(least);
         // What the other angle leaves: π less that angle, with what the double of π lacks, up to two roundings. So the
         // double above is too large, and the last that fits is a step or two below.
-        let mut most = ((PI - low[1 - side].max(least)) + PI_LOW).next_up().min(PI);
-        while most > 0.0 && !sum_below_pi(most, low[1 - side].max(least)) {
+        let mut most = ((PI - other) + PI_LOW).next_up().min(PI);
+        while most > 0.0 && !sum_below_pi(most, other) {
             most = most.next_down();
         }
         if !clip_side(&mut low[side], &mut high[side], least, most) {

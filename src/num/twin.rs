@@ -42,16 +42,15 @@ fn two_product(x: f64, y: f64) -> (f64, f64) {
 }
 
 impl Twin {
+    /// All numbers.
+    const ANY: Twin = Twin { high: 0.0, low: 0.0, error: f64::INFINITY };
+
     /// The sum of two doubles, exactly, within an error.
     #[inline(always)]
     fn sum(x: f64, y: f64, error: f64) -> Twin {
         let (high, low) = two_sum(x, y);
         // Not for NaN either.
-        if low.abs() + error < f64::INFINITY {
-            Twin { high, low, error }
-        } else {
-            Twin { high: 0.0, low: 0.0, error: f64::INFINITY }
-        }
+        if low.abs() + error < f64::INFINITY { Twin { high, low, error } } else { Twin::ANY }
     }
 
     /// The same numbers.
@@ -70,8 +69,7 @@ impl Twin {
         let k = (size * 16.0).round();
         let r = size - k / 16.0;
         let Some(knot) = KNOTS.get(k as usize) else {
-            let any = Twin::sum(0.0, 0.0, f64::INFINITY);
-            return (any, any);
+            return (Twin::ANY, Twin::ANY);
         };
         let (sin, cos) = knot.get_or_init(|| {
             let (sin, cos) = Interval::sin_cos(k / 16.0, 160);
@@ -249,7 +247,7 @@ impl Real for Twin {
     /// All numbers beyond the normal range.
     fn power_of_two(exponent: i32, _bits: usize) -> Twin {
         let power = 2f64.powi(exponent);
-        if power.is_normal() { Twin::of(power, TWIN_BITS) } else { Twin { high: 0.0, low: 0.0, error: f64::INFINITY } }
+        if power.is_normal() { Twin::of(power, TWIN_BITS) } else { Twin::ANY }
     }
     fn ln(&self) -> f64 {
         self.high.ln()

@@ -100,8 +100,7 @@ impl Way {
             Piece::Line(line) => Way::quintic(PhQuintic::straight(line.start, line.end)),
             Piece::Arc(arc) => Way::round(Curve::Arc(*arc), arc.start, arc.start_direction, arc.curvature, arc.length),
             Piece::Clothoid(c) => {
-                let most = c.curvature.abs().max(c.end_curvature.abs());
-                Way::round(Curve::Clothoid(*c), c.start, c.start_direction, most, c.length)
+                Way::round(Curve::Clothoid(*c), c.start, c.start_direction, c.greatest_curvature(), c.length)
             }
             Piece::Cubic(cubic) => Way::integrated(Bezier::Cubic(*cubic)),
             Piece::TrigQuintic(part) => Way::integrated(Bezier::Trig(*part)),

@@ -33,9 +33,14 @@ impl Clothoid {
     /// Greatest product of the length and the greater curvature, radians: a point takes time in proportion to it.
     pub const MOST_ANGLE: f64 = 1000.0;
 
-    /// Greater curvature by size times the length.
+    /// The greatest |κ|: at one of the ends.
+    pub(crate) fn greatest_curvature(&self) -> f64 {
+        self.curvature.abs().max(self.end_curvature.abs())
+    }
+
+    /// That times the length.
     pub(crate) fn angle_bound(&self) -> f64 {
-        self.curvature.abs().max(self.end_curvature.abs()) * self.length
+        self.greatest_curvature() * self.length
     }
 
     /// The vector from the start after a share, from 0 to 1, of its length, and the direction there, radians.

@@ -151,7 +151,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
 
 /// What has these ends and is no spiral is drawn, too.
 fn other(piece: &Piece) -> Value {
-    json!({ "control_points": piece.control_points(), "samples": samples(piece, OTHER_STEPS, 0.0) })
+    json!({ "samples": samples(piece, OTHER_STEPS, 0.0) })
 }
 
 /// A curve, or why there is none and what else has these ends.

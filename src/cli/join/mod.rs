@@ -204,12 +204,12 @@ impl Args {
 }
 
 /// The line or circle that a join leaves or reaches at a point, as much of it as goes on from there for a length:
-/// backwards before the start.
-fn beyond(end: &End, at: [f64; 2], ahead: f64) -> figure::Line {
+/// backwards before the start. Of a state there is nothing.
+fn beyond(end: &End, at: [f64; 2], ahead: f64) -> Option<figure::Line> {
     let [x, y] = at;
     let steps = (0..=200).map(|i| ahead * f64::from(i) / 200.0);
-    match *end {
-        End::State(_) => Vec::new(),
+    Some(match *end {
+        End::State(_) => return None,
         End::Line { direction, .. } => steps.map(|s| [x + s * direction.cos(), y + s * direction.sin()]).collect(),
         End::Circle { centre: [a, b], radius, turn } => {
             let round = if turn == Turn::Left { 1.0 } else { -1.0 } / radius;
@@ -217,7 +217,7 @@ fn beyond(end: &End, at: [f64; 2], ahead: f64) -> figure::Line {
             let angles = steps.map(|s| first + (s * round).clamp(-TAU, TAU));
             angles.map(|angle| [a + radius * angle.cos(), b + radius * angle.sin()]).collect()
         }
-    }
+    })
 }
 
 /// The path, and its curvature over the length.
@@ -226,17 +226,16 @@ fn figure(request: &Request, join: &Join) -> Result<Drawing> {
     let kinds = |kind: &str| join.pieces.iter().filter(|p| p.kind().name() == kind).count();
     let (lines, arcs) = (kinds("line"), kinds("arc"));
     let spirals = join.pieces.len() - lines - arcs;
-    let ends = join.pieces.first().zip(join.pieces.last());
-    let given = ends.map_or(vec![], |(first, last)| {
-        let far = 0.3 * join.measures.length;
-        vec![beyond(&request.from, first.start(), -far), beyond(&request.to, last.end(), far)]
-    });
-    let more = if given.iter().all(Vec::is_empty) { "" } else { "; grey: what is joined" };
+    let far = 0.3 * join.measures.length;
+    let before = join.pieces.first().and_then(|piece| beyond(&request.from, piece.start(), -far));
+    let after = join.pieces.last().and_then(|piece| beyond(&request.to, piece.end(), far));
+    let given: Vec<_> = [before, after].into_iter().flatten().collect();
+    let more = if given.is_empty() { "" } else { "; grey: what is joined" };
     drawn(
         vec![all.iter().map(|s| [s.x, s.y]).collect()],
         vec![all.iter().map(|s| [s.station, s.curvature]).collect()],
         join.pieces.iter().skip(1).map(|piece| vec![piece.start()]).collect(),
-        given.into_iter().filter(|line| !line.is_empty()).collect(),
+        given,
         [
             &format!("A join of length {:.6}", join.measures.length),
             &format!(

@@ -153,9 +153,11 @@ impl Sought {
     /// Lengths of spirals between two curvatures.
     fn lengths(&self, from: f64, to: f64) -> Vec<f64> {
         let bend = 0.5 * (from.abs() + to.abs());
-        let short = [0.4, 0.8].into_iter().filter(|length| length * bend <= Spiral::most(self.family, from, to));
         match self.objective {
-            Objective::Length => short.collect(),
+            Objective::Length => {
+                let most = Spiral::most(self.family, from, to);
+                [0.4, 0.8].into_iter().filter(|length| length * bend <= most).collect()
+            }
             _ => ANGLES.into_iter().map(|angle| angle / bend).chain([0.4]).filter(|length| *length >= 0.4).collect(),
         }
     }

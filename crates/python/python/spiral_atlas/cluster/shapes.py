@@ -29,7 +29,7 @@ def _divided(counts: Sequence[int], most: int) -> tuple[int, ...]:
     """Sides of at most so many nodes that are nearly equal, apart from the last two."""
     sides = list(counts)
     while prod(sides) > most:
-        longest = max(range(len(sides)), key=lambda axis: sides[axis] / _weight(axis, sides))
+        longest = max(range(len(sides)), key=lambda axis: _weighed(axis, sides))
         sides[longest] = ceil(sides[longest] / 2)
     return tuple(sides)
 
@@ -38,7 +38,7 @@ def _halved(shards: Sequence[int]) -> tuple[int, ...]:
     """Whole parts of shards that somebody chose."""
     sides = list(shards)
     while prod(sides) > CHUNK_NODES and (even := [axis for axis, side in enumerate(sides) if side % 2 == 0]):
-        sides[max(even, key=lambda axis: sides[axis] / _weight(axis, sides))] //= 2
+        sides[max(even, key=lambda axis: _weighed(axis, sides))] //= 2
     return tuple(sides)
 
 
@@ -50,11 +50,12 @@ def _doubled(counts: Sequence[int], chunks: Sequence[int], most: int) -> tuple[i
         open_axes = [axis for axis in reversed(range(len(sides))) if sides[axis] < counts[axis]]
         if not open_axes or 2 * prod(sides) > most:
             return tuple(sides)
-        sides[min(open_axes, key=lambda axis: sides[axis] / _weight(axis, sides))] *= 2
+        sides[min(open_axes, key=lambda axis: _weighed(axis, sides))] *= 2
 
 
-def _weight(axis: int, sides: Sequence[int]) -> int:
-    return PLANE if axis >= len(sides) - 2 else 1
+def _weighed(axis: int, sides: Sequence[int]) -> float:
+    """A side by how long it is to be."""
+    return sides[axis] / (PLANE if axis >= len(sides) - 2 else 1)
 
 
 def check(counts: Sequence[int], chunks: Sequence[int], shards: Sequence[int]) -> None:
