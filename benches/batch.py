@@ -25,5 +25,7 @@ def best(name, work):
 
 
 for threads in [1, 2]:
-    best(f"Python: solve_batch, threads: {threads}", lambda: spiral_atlas.solve_batch("cubic", data, threads=threads))
+    for what, curves in [("", False), (", curves", True)]:
+        name = f"Python: solve_batch{what}, threads: {threads}"
+        best(name, lambda t=threads, c=curves: spiral_atlas.solve_batch("cubic", data, threads=t, curves=c))
 best("Python: lookup", lambda: atlas.lookup(data))

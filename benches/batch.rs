@@ -4,7 +4,7 @@
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, evaluate};
 use spiral_atlas::family::cubic::Cubic;
-use spiral_atlas::family::verdicts;
+use spiral_atlas::family::{solve_batch, verdicts};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
@@ -32,6 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     for threads in [1, 2] {
         time(&format!("Rust: verdicts, threads: {threads}"), || verdicts(&Cubic, 0, &data, threads));
+        time(&format!("Rust: solve_batch, threads: {threads}"), || solve_batch(&Cubic, 0, &data, threads));
     }
     time("Rust: nearest node", || {
         let found = data

@@ -65,7 +65,8 @@ fn call(given: &mut Unstructured) -> Result<()> {
     unsafe {
         match given.int_in_range(0..=4)? {
             0 => {
-                let (mut flags, mut solutions) = (0, 0);
+                let (mut flags, mut solutions, mut points) = (0, 0, [[0.0; 2]; 8]);
+                let room = if given.arbitrary()? { points.as_mut_ptr() } else { null_mut() };
                 let (chart, threads) = (Text::one(given, &["paper", "standard"])?, given.int_in_range(0..=2)?);
                 fine(spiral_solve_batch(
                     family.pointer(),
@@ -75,6 +76,7 @@ fn call(given: &mut Unstructured) -> Result<()> {
                     threads,
                     &mut flags,
                     &mut solutions,
+                    room,
                 ));
             }
             1 => {

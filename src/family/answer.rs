@@ -71,6 +71,14 @@ impl Answer {
         derived.or_else(|| self.solutions.iter().enumerate().find_map(of_solution))
     }
 
+    /// The control points of the chosen curve.
+    pub fn control_points(&self) -> Option<&[[f64; 2]]> {
+        self.solutions.get(self.chosen?)?.iter().find_map(|(name, value)| match value {
+            Value::Points(points) if *name == "control_points" => Some(points.as_slice()),
+            _ => None,
+        })
+    }
+
     /// A derived number by name.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.derived.iter().find_map(|(n, value)| match value {

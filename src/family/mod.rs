@@ -20,7 +20,7 @@ mod rows;
 pub mod trig_quintic;
 
 pub use answer::{Answer, Value, Values};
-pub use batch::{RowError, verdicts};
+pub use batch::{RowError, Solved, solve_batch, verdicts};
 pub use kernel::{Kernel, Shader, ShaderInputs};
 pub use region::{Facts, MOST_SIDES, Region};
 
@@ -133,6 +133,8 @@ pub struct About {
     pub counts: &'static [Count],
     /// The optional scalars.
     pub scalars: &'static [Scalar],
+    /// How many control points each curve of an answer has, which are its value `control_points`; 0 where it has none.
+    pub control_points: usize,
 }
 
 impl About {

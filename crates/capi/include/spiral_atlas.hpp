@@ -266,8 +266,34 @@ inline Verdicts solve_batch(const std::string &family, View<const double> data, 
     detail::check(spiral_family_axes(family.c_str(), which, &axes));
     const std::size_t count = detail::rows(data, axes);
     Verdicts all{std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count)};
-    detail::check(
-        spiral_solve_batch(family.c_str(), which, data.data(), count, threads, all.flags.data(), all.solutions.data()));
+    detail::check(spiral_solve_batch(family.c_str(), which, data.data(), count, threads, all.flags.data(),
+                                     all.solutions.data(), nullptr));
+    return all;
+}
+
+/// The proved verdicts of many data, and their curves.
+struct Curves : Verdicts {
+    /// `each` points for a datum: those of the chosen curve in the family's frame, or NaN where there is none.
+    std::vector<std::array<double, 2>> control_points;
+    std::size_t each = 0;
+};
+
+/// `solve_batch`, with curves; an Error where the curves of the family have no control points.
+inline Curves solve_batch_curves(const std::string &family, View<const double> data, std::size_t threads = 0,
+                                 const std::string &chart = {}) {
+    const char *which = chart.empty() ? nullptr : chart.c_str();
+    std::size_t axes = 0;
+    detail::check(spiral_family_axes(family.c_str(), which, &axes));
+    const std::size_t count = detail::rows(data, axes);
+    Curves all;
+    detail::check(spiral_family_control_points(family.c_str(), &all.each));
+    all.flags.resize(count), all.solutions.resize(count);
+    // One more, so that there is a place even for none.
+    all.control_points.resize(count * all.each + 1);
+    auto *room = reinterpret_cast<double(*)[2]>(all.control_points.data());
+    detail::check(spiral_solve_batch(family.c_str(), which, data.data(), count, threads, all.flags.data(),
+                                     all.solutions.data(), room));
+    all.control_points.pop_back();
     return all;
 }
 

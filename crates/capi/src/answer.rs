@@ -2,7 +2,7 @@
 
 use crate::atlas::mask;
 use crate::{Fault, Result, SpiralStatus, given, numbers, place, results, status::guard, text};
-use spiral_atlas::family::{self, Answer, Family, Value, Values, verdicts};
+use spiral_atlas::family::{self, Answer, Family, Solved, Value, Values, solve_batch, verdicts};
 use std::ffi::c_char;
 
 /// All that a family knows of a datum.
@@ -46,6 +46,20 @@ pub unsafe extern "C" fn spiral_family_axes(
     })
 }
 
+/// The number of control points of a family's curves; 0 where its curves have none.
+///
+/// # Safety
+/// `family` is null or a text that ends with a zero byte; `count` is null or valid for a write.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn spiral_family_control_points(family: *const c_char, count: *mut usize) -> SpiralStatus {
+    guard(|| {
+        // SAFETY: the caller's promises.
+        let ((family, _), slot) = unsafe { (known(family, std::ptr::null())?, place(count, "count")?) };
+        *slot = family.about().control_points;
+        Ok(())
+    })
+}
+
 /// The mask of a family's flag, by name.
 ///
 /// # Safety
@@ -67,10 +81,14 @@ pub unsafe extern "C" fn spiral_family_flag(family: *const c_char, name: *const 
 /// SPIRAL_DOMAIN and one that is not decided SPIRAL_UNDECIDED; the last error names the first such row, and no result
 /// is written.
 ///
+/// `control_points` receives the curves: for each datum as many points as spiral_family_control_points says, those of
+/// the chosen curve in the family's frame, or NaN where there is none.
+///
 /// # Safety
 /// `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `data`
 /// holds `count` rows of as many numbers as the chart has axes; `flags` and `solutions` are null, when they are not
-/// wanted, or have room for `count` values.
+/// wanted, or have room for `count` values; `control_points` is null, when no curves are wanted, or has room for
+/// `count` times the family's number of points.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn spiral_solve_batch(
     family: *const c_char,
@@ -80,6 +98,7 @@ pub unsafe extern "C" fn spiral_solve_batch(
     threads: usize,
     flags: *mut u8,
     solutions: *mut u8,
+    control_points: *mut [f64; 2],
 ) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
@@ -88,9 +107,19 @@ pub unsafe extern "C" fn spiral_solve_batch(
             let data = numbers(data, count, family.about().charts[chart].axes.len(), "data")?;
             (family, chart, data, results(flags, count, "flags")?, results(solutions, count, "solutions")?)
         };
+        let wanted = !control_points.is_null();
+        // SAFETY: the caller's promise.
+        let points =
+            unsafe { results(control_points, count.saturating_mul(family.about().control_points), "control_points")? };
         let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let threads = if threads == 0 { cores() } else { threads.min(4096) };
-        let codes = verdicts(family, chart, data, threads).map_err(|fault| Fault::of_row(fault.row, fault.error))?;
+        let found = if wanted {
+            solve_batch(family, chart, data, threads)
+        } else {
+            verdicts(family, chart, data, threads).map(|codes| Solved { codes, control_points: Vec::new() })
+        };
+        let Solved { codes, control_points } = found.map_err(|fault| Fault::of_row(fault.row, fault.error))?;
+        points.copy_from_slice(&control_points);
         flags.iter_mut().zip(&codes).for_each(|(slot, code)| *slot = code.flags());
         solutions.iter_mut().zip(&codes).for_each(|(slot, code)| *slot = code.counts());
         Ok(())

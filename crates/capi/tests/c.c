@@ -57,7 +57,7 @@ static void atlases(const char *path) {
 
     /* The nodes are what the family says of them. */
     uint8_t own_flags, own_solutions;
-    CHECK(spiral_solve_batch("cubic", NULL, point, 1, 0, &own_flags, &own_solutions) == SPIRAL_OK);
+    CHECK(spiral_solve_batch("cubic", NULL, point, 1, 0, &own_flags, &own_solutions, NULL) == SPIRAL_OK);
     CHECK(own_flags == flags[0] && own_solutions == solutions[0]);
     spiral_atlas_close(atlas);
     spiral_atlas_close(NULL);
@@ -73,7 +73,7 @@ static void cells(const char *path) {
     double points[8] = {0.7, 1.3, 0.4, 4, 0.7, 1.3, 0.4, 400};
     CHECK(spiral_cells_lookup(cells, points, 2, inside, outside) == SPIRAL_OK && inside[1] == 0 && outside[1] == 0);
     CHECK(spiral_cells_verdict(cells, points, 2, 255, holds) == SPIRAL_OK);
-    CHECK(spiral_solve_batch("cubic", NULL, points, 2, 1, truth, NULL) == SPIRAL_OK);
+    CHECK(spiral_solve_batch("cubic", NULL, points, 2, 1, truth, NULL, NULL) == SPIRAL_OK);
     CHECK(holds[0] == truth[0] && holds[1] == truth[1] && (inside[0] & ~truth[0]) == 0 && (outside[0] & truth[0]) == 0);
     points[4] = NAN;
     CHECK(spiral_cells_verdict(cells, points, 2, spiral, holds) == SPIRAL_DOMAIN && says("row 1") && says("phi0"));
@@ -176,7 +176,7 @@ static void questions(void) {
         memcpy(rows + 4 * i, datum, sizeof datum);
         rows[4 * i + 3] = edges[i];
     }
-    CHECK(spiral_solve_batch("cubic", NULL, rows, 4, 1, flags, NULL) == SPIRAL_OK);
+    CHECK(spiral_solve_batch("cubic", NULL, rows, 4, 1, flags, NULL, NULL) == SPIRAL_OK);
     for (size_t i = 0; i < 4; i++) CHECK(((flags[i] & mask) != 0) == (i == 1 || i == 2));
     CHECK(all[0].outer[0] <= all[0].inner[0] && all[0].inner[0] < all[0].inner[1] &&
           all[0].inner[1] <= all[0].outer[1]);
@@ -197,7 +197,7 @@ static void questions(void) {
     CHECK(spiral_nearest("cubic", NULL, NULL, outside, weights, nearest, &distance, &at_least) == SPIRAL_OK);
     CHECK(nearest[0] == 0.7 && nearest[1] == 1.4 && at_least > 0 && at_least <= distance && distance < 1.01 * at_least);
     CHECK(fabs(hypot(nearest[2] - 1, nearest[3] - 2) - distance) < 1e-12);
-    CHECK(spiral_solve_batch("cubic", NULL, nearest, 1, 1, flags, NULL) == SPIRAL_OK && (flags[0] & mask) != 0);
+    CHECK(spiral_solve_batch("cubic", NULL, nearest, 1, 1, flags, NULL, NULL) == SPIRAL_OK && (flags[0] & mask) != 0);
     CHECK(spiral_nearest("cubic", NULL, NULL, outside, NULL, NULL, &distance, NULL) == SPIRAL_OK && distance > 0);
     at_least = 0;
     CHECK(spiral_nearest("cubic", NULL, NULL, outside, fixed, nearest, &distance, &at_least) == SPIRAL_NONE &&

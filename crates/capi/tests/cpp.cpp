@@ -4,6 +4,7 @@
 
 #include "check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -54,6 +55,21 @@ int main(int, char **arguments) {
         CHECK(found.nodes[i] < 0 || found.flags[i] == atlas.flags()[static_cast<std::size_t>(found.nodes[i])]);
         CHECK(holds[i] == truth.flags[i] && (known.inside[i] & ~holds[i]) == 0 && (known.outside[i] & holds[i]) == 0);
     }
+
+    // Curves of many data are those of single answers.
+    const auto curves = sa::solve_batch_curves("cubic", data);
+    CHECK(curves.flags == truth.flags && curves.each == 4 && curves.control_points.size() == 8000);
+    for (std::size_t i = 0; i < 2000; i += 100) {
+        const sa::Answer single("cubic", sa::View<const double>(data.data() + 4 * i, 4));
+        if (!single.chosen()) {
+            CHECK(std::isnan(curves.control_points[4 * i][0]));
+            continue;
+        }
+        const auto own = single.points(*single.chosen(), "control_points");
+        CHECK(std::equal(own.begin(), own.end(), curves.control_points.begin() + 4 * static_cast<long>(i)));
+    }
+    throws(SPIRAL_DOMAIN, "no control points", [&] { sa::solve_batch_curves("any-spiral", data); });
+    CHECK(sa::solve_batch_curves("cubic", std::vector<double>()).control_points.empty());
 
     // Each thread has an error of its own, and all read the same handles.
     std::vector<std::thread> threads;

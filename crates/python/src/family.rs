@@ -1,12 +1,12 @@
 //! Families, and the exact answers for one datum or many.
 
 use crate::error::{raise, raise_row};
-use numpy::{AllowTypeChange, IntoPyArray, PyArrayLike2};
+use numpy::{AllowTypeChange, IntoPyArray, PyArrayLike2, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use serde::Serialize;
-use spiral_atlas::family::{self, Answer, Chart, Family, RowError, Value};
+use spiral_atlas::family::{self, Answer, Chart, Family, RowError, Solved, Value};
 use spiral_atlas::recipe::parse_coordinate;
 use std::num::NonZero;
 
@@ -20,6 +20,7 @@ struct About {
     flags: Vec<Named>,
     counts: Vec<Packed>,
     scalars: Vec<Named>,
+    control_points: usize,
 }
 
 #[derive(Serialize)]
@@ -43,7 +44,8 @@ struct Packed {
     bits: u32,
 }
 
-/// Every family: a list of dictionaries with `name`, `title`, `conventions`, `charts`, `flags`, `counts`, `scalars`.
+/// Every family: a list of dictionaries with `name`, `title`, `conventions`, `charts`, `flags`, `counts`, `scalars` and
+/// `control_points`, the number of those of a curve (0 where a curve has none).
 ///
 /// A chart is a set of coordinates that the family accepts, with its units. Bit `i` of a `flags` byte is `flags[i]`; a
 /// count is `solutions >> shift & (2**bits - 1)`.
@@ -64,6 +66,7 @@ fn about(family: &dyn Family) -> About {
         flags: family.about().flags.iter().map(|f| Named { name: f.name, doc: f.doc }).collect(),
         counts: family.about().counts.iter().map(packed).collect(),
         scalars: family.about().scalars.iter().map(|s| Named { name: s.name, doc: s.doc }).collect(),
+        control_points: family.about().control_points,
     }
 }
 
@@ -159,7 +162,7 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     }
 }
 
-/// The proved verdicts of many data.
+/// The proved verdicts of many data and, where they are asked for, their curves.
 ///
 /// Args:
 ///     family: its name.
@@ -167,23 +170,28 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 ///     axes.
 ///     chart: the name of the chart; by default the first with k axes.
 ///     threads: workers; by default as many as the machine has cores.
+///     curves: whether curves are wanted, too.
 ///
 /// Returns:
 ///     (flags, solutions): two uint8 arrays of shape (n,), as an atlas stores them; see `families()` for bits and
-///     counts.
+///     counts. With `curves`, (flags, solutions, control_points): the last is a float64 array of shape (n, m, 2), of the
+///     curve that `solve` calls `chosen`, in the family's frame, NaN where there is none. `m` is `control_points` of
+///     `families()`.
 ///
 /// Raises:
-///     ValueError: naming the row and the value, when a datum lies outside the family's domain.
+///     ValueError: naming the row and the value, when a datum lies outside the family's domain; or curves are asked for
+///     of a family whose curves have no control points.
 ///     UndecidedError: naming the row.
 #[pyfunction]
-#[pyo3(signature = (family, data, *, chart = None, threads = None))]
+#[pyo3(signature = (family, data, *, chart = None, threads = None, curves = false))]
 pub(crate) fn solve_batch<'py>(
     py: Python<'py>,
     family: &str,
     data: PyArrayLike2<'py, f64, AllowTypeChange>,
     chart: Option<&str>,
     threads: Option<NonZero<usize>>,
-) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+    curves: bool,
+) -> PyResult<Bound<'py, PyTuple>> {
     let family = known(family)?;
     let data = data.as_array();
     let fits = |c: &Chart| c.axes.len() == data.ncols() && chart.is_none_or(|name| c.name == name);
@@ -201,10 +209,21 @@ pub(crate) fn solve_batch<'py>(
     let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
     // The rows as they lie in memory, or a copy of them where they have strides.
     let rows = data.as_standard_layout();
+    let rows = rows.as_slice().unwrap_or_default();
     let solve = || {
-        let codes = family::verdicts(family, chart, rows.as_slice().unwrap_or_default(), threads)?;
-        Ok::<(Vec<u8>, Vec<u8>), RowError>(codes.iter().map(|code| (code.flags(), code.counts())).unzip())
+        let found = if curves {
+            family::solve_batch(family, chart, rows, threads)?
+        } else {
+            Solved { codes: family::verdicts(family, chart, rows, threads)?, control_points: Vec::new() }
+        };
+        let (flags, counts): (Vec<u8>, Vec<u8>) = found.codes.iter().map(|code| (code.flags(), code.counts())).unzip();
+        Ok::<_, RowError>((flags, counts, found.control_points))
     };
-    let (flags, counts) = py.detach(solve).map_err(|fault| raise_row(py, fault.row, fault.error))?;
-    Ok((flags.into_pyarray(py).into_any(), counts.into_pyarray(py).into_any()))
+    let (flags, counts, points) = py.detach(solve).map_err(|fault| raise_row(py, fault.row, fault.error))?;
+    let mut arrays = vec![flags.into_pyarray(py).into_any(), counts.into_pyarray(py).into_any()];
+    if curves {
+        let shape = [data.nrows(), family.about().control_points, 2];
+        arrays.push(points.into_flattened().into_pyarray(py).reshape(shape)?.into_any());
+    }
+    PyTuple::new(py, arrays)
 }

@@ -60,6 +60,30 @@ def test_a_batch_equals_single_answers():
     assert spiral_atlas.solve_batch("cubic", np.empty((0, 4)))[0].shape == (0,)
 
 
+@pytest.mark.parametrize("family", ["cubic", "ph-quintic"])
+def test_curves_of_a_batch_are_those_of_single_answers(family):
+    rng = np.random.default_rng(8)
+    data = np.column_stack(
+        [rng.uniform(0.3, 1, 40), rng.uniform(0.9, 1.5, 40), rng.uniform(0.05, 0.6, 40), rng.uniform(1, 20, 40)]
+    )
+    flags, solutions, points = spiral_atlas.solve_batch(family, data, curves=True)
+    assert all(map(np.array_equal, (flags, solutions), spiral_atlas.solve_batch(family, data)))
+    each = next(f["control_points"] for f in spiral_atlas.families() if f["name"] == family)
+    assert points.shape == (40, each, 2)
+    chosen = 0
+    for row, curve in zip(data, points, strict=True):
+        answer = spiral_atlas.solve(family, **dict(zip(DATUM, row, strict=True)))
+        if answer["chosen"] is None:
+            assert np.isnan(curve).all()
+        else:
+            chosen += 1
+            assert np.array_equal(curve, answer["solutions"][answer["chosen"]]["control_points"])
+    assert 0 < chosen < 40
+    assert spiral_atlas.solve_batch(family, np.empty((0, 4)), curves=True)[2].shape == (0, each, 2)
+    with pytest.raises(ValueError, match="no control points"):
+        spiral_atlas.solve_batch("any-spiral", data, curves=True)
+
+
 def test_a_batch_names_the_bad_row():
     data = np.tile(np.array(list(DATUM.values())), (5, 1))
     data[3, 1] = np.nan

@@ -113,6 +113,7 @@ impl Family for AnySpiral {
             nested: &["EXISTS", "INFLECTION"],
             counts: &[],
             scalars: SCALARS,
+            control_points: 0,
         }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {

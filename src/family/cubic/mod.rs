@@ -159,6 +159,7 @@ impl Family for Cubic {
             nested: &["ANY_SPIRAL", "SPIRAL", "THEOREM31_ANY", "THEOREM31"],
             counts: COUNTS,
             scalars: SCALARS,
+            control_points: 4,
         }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {

@@ -121,6 +121,7 @@ const EQUAL_LENGTH: About = About {
     nested: &["REGULAR", "ONE_WAY"],
     counts: &[],
     scalars: SCALARS,
+    control_points: 6,
 };
 
 const HERMITE: About = About {

@@ -126,6 +126,7 @@ impl Family for PhQuintic {
             nested: &["ANY_SPIRAL", "SPIRAL"],
             counts: COUNTS,
             scalars: SCALARS,
+            control_points: 6,
         }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {

@@ -151,6 +151,7 @@ const CUBIC: About = About {
     nested: &["CASE1_EXISTS", "CASE1_EXACT", "CASE1_THEOREM", "CASE1_PAPER"],
     counts: &[],
     scalars: SCALARS,
+    control_points: 0,
 };
 
 const PH: About = About {

@@ -114,6 +114,7 @@ impl Family for TrigQuintic {
             nested: &["END_RISES", "SPIRAL"],
             counts: &[],
             scalars: SCALARS,
+            control_points: 6,
         }
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
