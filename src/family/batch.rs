@@ -71,10 +71,10 @@ pub fn solve_batch(family: &dyn Family, chart: usize, data: &[f64], threads: usi
     spread(pieces, threads, |((codes, points), data)| {
         let rows = codes.iter_mut().zip(points.chunks_exact_mut(each)).zip(data.chunks_exact(axes));
         in_order(rows, |((code, points), datum)| {
-            let answer = family.answer(chart, datum)?;
-            *code = answer.code;
-            if let Some(curve) = answer.control_points() {
-                points.copy_from_slice(curve);
+            let (own, curve) = family.chosen(chart, datum)?;
+            *code = own;
+            if let Some(curve) = curve {
+                points.copy_from_slice(&curve);
             }
             Ok(())
         })

@@ -188,6 +188,15 @@ pub trait Family: Sync {
             }
         }
     }
+    /// The code and the control points of the chosen curve of [`Family::answer`], which is all that a table of many data
+    /// has room for.
+    ///
+    /// # Errors
+    /// As there.
+    fn chosen(&self, chart: usize, point: &[f64]) -> Result<(Code, Option<Vec<[f64; 2]>>)> {
+        let answer = self.answer(chart, point)?;
+        Ok((answer.code, answer.control_points().map(<[_]>::to_vec)))
+    }
     /// Proofs over whole boxes of data, where the family has them.
     fn region(&self) -> Option<&dyn Region> {
         None

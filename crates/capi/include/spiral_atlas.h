@@ -95,6 +95,12 @@ extern "C" {
 // `family` and `chart` are null or texts that end with a zero byte; `count` is null or valid for a write.
 SpiralStatus spiral_family_axes(const char *family, const char *chart, size_t *count);
 
+// The number of control points of a family's curves; 0 where its curves have none.
+//
+// # Safety
+// `family` is null or a text that ends with a zero byte; `count` is null or valid for a write.
+SpiralStatus spiral_family_control_points(const char *family, size_t *count);
+
 // The mask of a family's flag, by name.
 //
 // # Safety
@@ -107,17 +113,22 @@ SpiralStatus spiral_family_flag(const char *family, const char *name, uint8_t *m
 // SPIRAL_DOMAIN and one that is not decided SPIRAL_UNDECIDED; the last error names the first such row, and no result
 // is written.
 //
+// `control_points` receives the curves: for each datum as many points as spiral_family_control_points says, those of
+// the chosen curve in the family's frame, or NaN where there is none.
+//
 // # Safety
 // `family` and `chart` are null or texts that end with a zero byte (a null `chart` is the family's first); `data`
 // holds `count` rows of as many numbers as the chart has axes; `flags` and `solutions` are null, when they are not
-// wanted, or have room for `count` values.
+// wanted, or have room for `count` values; `control_points` is null, when no curves are wanted, or has room for
+// `count` times the family's number of points.
 SpiralStatus spiral_solve_batch(const char *family,
                                 const char *chart,
                                 const double *data,
                                 size_t count,
                                 size_t threads,
                                 uint8_t *flags,
-                                uint8_t *solutions);
+                                uint8_t *solutions,
+                                double (*control_points)[2]);
 
 // The exact answer for one datum, with its curves. Close it with spiral_answer_close.
 //

@@ -168,6 +168,9 @@ impl Family for Cubic {
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         solve::answer(chart, coordinates(point)?)
     }
+    fn chosen(&self, chart: usize, point: &[f64]) -> Result<(Code, Option<Vec<[f64; 2]>>)> {
+        solve::chosen(chart, coordinates(point)?)
+    }
     fn region(&self) -> Option<&dyn Region> {
         Some(self)
     }

@@ -114,12 +114,30 @@ fn solved(datum: &ExactDatum) -> Result<Solutions> {
 }
 
 /// [`solve`] for a datum of either chart.
-pub(super) fn answer(chart: usize, point: &[f64; 4]) -> Result<Answer> {
+fn at(chart: usize, point: &[f64; 4]) -> Result<Solutions> {
     let [phi0, phi1, u, v] = *point;
     let axes = super::CHARTS[chart].axes;
     check(std::array::from_fn(|i| (axes[i], point[i])))?;
     let ends = if chart == 0 { Ends::Curvature(u, v) } else { Ends::Normalised(u, v) };
-    let solved = solved(&ExactDatum { phi0, phi1, ends })?;
+    solved(&ExactDatum { phi0, phi1, ends })
+}
+
+fn code(solved: &Solutions) -> Code {
+    let spirals = solved.roots().iter().filter(|root| root.spiral).count();
+    Code::new(solved.flags, (solved.len | spirals << super::COUNTS[1].shift) as u8)
+}
+
+/// What [`answer`] has of code and chosen curve: the same numbers, without the others.
+pub(super) fn chosen(chart: usize, point: &[f64; 4]) -> Result<(Code, Option<Vec<[f64; 2]>>)> {
+    let solved = at(chart, point)?;
+    let curve = solved.chosen().map(|root| CubicBezier::from_ratios(point[0], point[1], root.f0, root.f1));
+    Ok((code(&solved), curve.map(|curve| curve.p.to_vec())))
+}
+
+/// All that `query` prints of a datum of either chart.
+pub(super) fn answer(chart: usize, point: &[f64; 4]) -> Result<Answer> {
+    let [phi0, phi1, u, v] = *point;
+    let solved = at(chart, point)?;
     // What turns the curvatures into a and k.
     let (a, k) = Datum { phi0, phi1, kappa0: 1.0, kappa1: 1.0 }.normalised();
     let derived = if chart == 0 { [("a", u * a), ("k", v * k)] } else { [("kappa0", u / a), ("kappa1", v / k)] };
@@ -135,9 +153,8 @@ pub(super) fn answer(chart: usize, point: &[f64; 4]) -> Result<Answer> {
             ("control_points", curve.p.into()),
         ]
     };
-    let spirals = solved.roots().iter().filter(|root| root.spiral).count();
     Ok(Answer {
-        code: Code::new(solved.flags, (solved.len | spirals << super::COUNTS[1].shift) as u8),
+        code: code(&solved),
         derived: derived.map(|(name, x)| (name, x.into())).to_vec(),
         solutions: solved.roots().iter().map(solution).collect(),
         chosen: solved.chosen,
