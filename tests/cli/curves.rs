@@ -163,7 +163,7 @@ fn turns_are_those_asked_for() {
     let no = turns(["83deg", "114deg"], ["0.65", "0.076"], &[]);
     assert!(no.code == Some(1) && no.out.contains("`curve involute --turns 1,0`"), "{}", no.out);
     // With a turn the circles of curvature still cross: the directions are no reason any more.
-    let no = turns(["0", "0"], ["-1", "0.5"], &["--turns", "0,1"]);
+    let no = turns(["0", "0"], ["0.1", "0.5"], &["--turns", "0,1"]);
     assert!(no.code == Some(1) && no.out.contains("with 1 turn: the circles of curvature"), "{}", no.out);
 }
 
