@@ -17,9 +17,9 @@ pub struct SpiralRange {
     /// Below the first and above the second it fails up to the next range or open interval, or to the end of the interval
     /// that was asked about: proved.
     pub outer: [f64; 2],
-    /// Which of `ends` are none of the property: the interval that was asked about ends there, and the property goes on
-    /// beyond.
-    pub cut: [bool; 2],
+    /// 1 for an end that is none of the property: the interval that was asked about ends there, and the property goes on
+    /// beyond. Otherwise 0.
+    pub cut: [u8; 2],
 }
 
 /// All that is known of a property along one coordinate.
@@ -79,7 +79,7 @@ pub unsafe extern "C" fn spiral_ranges(
         // SAFETY: the caller's promises.
         let ((property, datum), slot) = unsafe { (asked(family, chart, flag, datum)?, place(ranges, "ranges")?) };
         let Ranges { ranges, open, .. } = question::ranges(&property, datum, axis, [from, to])?;
-        let range = |r: Range| SpiralRange { ends: r.ends, inner: r.inner, outer: r.outer, cut: r.cut };
+        let range = |r: Range| SpiralRange { ends: r.ends, inner: r.inner, outer: r.outer, cut: r.cut.map(u8::from) };
         let ranges = ranges.into_iter().map(range).collect();
         *slot = Box::into_raw(Box::new(SpiralRanges { ranges, open }));
         Ok(())
