@@ -10,15 +10,15 @@ use std::ffi::c_char;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SpiralRange {
-    /// The property holds at these numbers, and at their neighbours outside it does not, unless the range is `cut` there.
+    /// The property holds at these numbers. At their neighbours outside it does not, unless the range is cut there.
     pub ends: [f64; 2],
     /// It holds at each number from the first to the second: proved.
     pub inner: [f64; 2],
-    /// Below the first and above the second it fails up to the next range or open interval, or to the end of the interval
-    /// that was asked about: proved.
+    /// Below the first and above the second it fails up to the next range or open interval, or to the end of the
+    /// interval that was asked about: proved.
     pub outer: [f64; 2],
-    /// 1 for an end that is none of the property: the interval that was asked about ends there, and the property goes on
-    /// beyond. Otherwise 0.
+    /// 1 for an end that is none of the property: the interval that was asked about ends there, and the property goes
+    /// on beyond. Otherwise 0.
     pub cut: [u8; 2],
 }
 
