@@ -14,16 +14,16 @@ const MOST_BOXES: usize = 4_000;
 /// An interval in which a property holds.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Range {
-    /// Its ends: it holds at these doubles, and at their neighbours outside it does not, unless an open interval is here
-    /// or the range is `cut`. Both by exact verdicts.
+    /// Its ends: it holds at these doubles, and at their neighbours outside it does not, unless an open interval is
+    /// here or the range is `cut`. Both by exact verdicts.
     pub ends: [f64; 2],
     /// Which of the ends are none of the property: the interval that was asked about ends there, and the property goes
     /// on beyond.
     pub cut: [bool; 2],
     /// It holds at each number from the first to the second, both included: proved.
     pub inner: [f64; 2],
-    /// Below the first and above the second it fails up to the next range or open interval, or to the end of the interval
-    /// that was asked about. Between `inner` and these it may change more than once.
+    /// Below the first and above the second it fails up to the next range or open interval, or to the end of the
+    /// interval that was asked about. Between `inner` and these it may change more than once.
     pub outer: [f64; 2],
 }
 
