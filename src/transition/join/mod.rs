@@ -35,6 +35,7 @@
 //! Lines and circles are joined by the same spirals, laid out by the centres of circles: see `link.rs` and `shapes.rs`.
 
 mod best;
+mod ease;
 mod link;
 mod measure;
 mod request;
