@@ -2,7 +2,7 @@
 
 use super::property::{Cell, Property};
 use crate::error::{Error, Result};
-use crate::num::Verdict;
+use crate::num::{Verdict, demand_ieee};
 use crate::queue::Queue;
 
 /// Parts are halved until they are as narrow as this share of their larger end.
@@ -52,6 +52,7 @@ pub struct Ranges {
 /// # Errors
 /// [`Error::Domain`] for a datum or an interval that is none; [`Error::Undecided`] at the precision cap.
 pub fn ranges(property: &Property, point: &[f64], axis: usize, within: [f64; 2]) -> Result<Ranges> {
+    demand_ieee()?;
     let mut point = point.to_vec();
     let Some(slot) = point.get_mut(axis) else {
         return Err(Error::invalid(format!("the coordinate is number {axis}; there are {}", point.len())));
