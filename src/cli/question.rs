@@ -157,10 +157,11 @@ fn ranges_text(property: &Property, name: &str, found: &Ranges) -> String {
     let mut text = String::new();
     for range in &found.ranges {
         let ([a, b], [c, d], [e, f]) = (range.ends, range.inner, range.outer);
-        text += &format!("{} holds for {name} from {a:?} to {b:?}\n", property.name());
-        // Beside what is not decided nothing is proved to fail.
+        let searched = range.cut.map(|cut| if cut { " (end of the searched range)" } else { "" });
+        text += &format!("{} holds for {name} from {a:?}{} to {b:?}{}\n", property.name(), searched[0], searched[1]);
+        // Nothing is proved to fail beyond the end of the search, and beside what is not decided.
         let beside = |end: f64| found.open.iter().any(|[low, high]| end == *low || end == *high);
-        let fails = match (beside(e), beside(f)) {
+        let fails = match (range.cut[0] || beside(e), range.cut[1] || beside(f)) {
             (false, false) => format!(", and to fail beyond {e:?} and {f:?}"),
             (true, false) => format!(", and to fail beyond {f:?}"),
             (false, true) => format!(", and to fail below {e:?}"),

@@ -8,6 +8,7 @@ use super::{Backend, Chunk, Job, Report};
 use crate::error::{Error, Result};
 use crate::family::{Code, Table};
 use crate::grid::Grid;
+use crate::num::demand_ieee;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -33,6 +34,7 @@ pub fn evaluate(
     stop: &AtomicBool,
     mut sink: impl FnMut(Chunk) -> Result<()>,
 ) -> Result<Report> {
+    demand_ieee()?;
     let table = job.family.table(job.grid)?;
     let started = Instant::now();
     let mut report = Report::new(job, backend, threads);

@@ -26,6 +26,7 @@ pub use region::{Facts, MOST_SIDES, Region};
 
 use crate::error::{Error, Result};
 use crate::grid::{Axis, Grid, Spacing};
+use crate::num::demand_ieee;
 
 /// The stored verdicts of one node: flags in the low byte, packed counts in the high byte.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -239,6 +240,7 @@ fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
 /// [`crate::Error::Domain`], naming the coordinate, outside the family's domain; [`crate::Error::Undecided`] at the
 /// precision cap.
 pub fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
+    demand_ieee()?;
     let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
     let grid = Grid::new(family.about().charts[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
     let table = family.table(&grid)?;
@@ -306,6 +308,7 @@ pub fn by_name(name: &str) -> Result<&'static dyn Family> {
 /// # Errors
 /// [`Error::Domain`] where the family has no such proofs, or none in a chart of these axes.
 pub(crate) fn proofs(family: &'static dyn Family, axes: &[&str]) -> Result<(&'static dyn Region, usize)> {
+    demand_ieee()?;
     let About { name, charts, .. } = family.about();
     let region = family.region().ok_or_else(|| {
         let able = names(|f| f.region().is_some());

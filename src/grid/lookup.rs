@@ -100,8 +100,8 @@ impl Lookup {
         let index = (nearest_integer(guess) as usize).min(self.count() - 1);
         if let [below, here, above] = self.padded[index..index + 3] {
             // With `x <= here` the second holds anyway, else the first; so no branch depends on which half of a step x
-            // is in.
-            if (here - x < x - below) & (x - here <= above - x) {
+            // is in. Differences that round alike are left to the search.
+            if (here - x < x - below) & (x - here < above - x) {
                 return Some(index);
             }
         }
@@ -181,6 +181,24 @@ mod tests {
     fn rough_logarithms_are_close_enough() {
         let worst = (1..4000).map(|i| i as f64 / 1000.0).map(|x| (rough_log2(x) - x.log2()).abs()).fold(0.0, f64::max);
         assert!((1e-5..1.31e-4).contains(&worst), "{worst}");
+    }
+
+    /// Beside the middle of two values, where differences round alike: the sum of the two against twice x, exactly.
+    #[test]
+    fn neighbouring_doubles_beside_a_middle_get_their_own_value() {
+        let mut alike = 0;
+        for (low, high) in [(-1e-20, 1.0), (-1e-17, 1.0), (0.1, 1.2), (-0.3, 0.7), (1e-20, 3.0), (-7.0, 1e-9)] {
+            let axis = Axis::new("x", Spacing::Values(vec![low, high])).unwrap();
+            let middle = 0.5 * low + 0.5 * high;
+            for x in [middle.next_down(), middle, middle.next_up()] {
+                let (sum, lost) = crate::num::sines::two_sum(low, high);
+                let upper = sum < 2.0 * x || sum == 2.0 * x && lost < 0.0;
+                assert_eq!(axis.nearest(x), Some(usize::from(upper)), "{low} {high} {x}");
+                assert_eq!(Lookup::new(&axis).nearest(x), Some(usize::from(upper)), "{low} {high} {x}");
+                alike += usize::from(upper && high - x == x - low);
+            }
+        }
+        assert!(alike > 0);
     }
 
     #[test]

@@ -6,6 +6,7 @@ pub(crate) use lookup::Lookup;
 
 use crate::error::{Error, Result, written};
 use crate::num::log_space;
+use crate::num::sines::two_sum;
 use serde::{Deserialize, Serialize};
 
 /// Most axes a grid may have.
@@ -141,6 +142,9 @@ impl Axis {
 }
 
 /// Index of the value nearest to `x` in a non-empty increasing slice; see [`Axis::nearest`].
+///
+/// Exact: a rounded difference that is less than another is less in truth. Where both round alike, what they lost
+/// tells (Knuth's two-sum); at most one of them can overflow.
 pub fn nearest(values: &[f64], x: f64) -> Option<usize> {
     if x.is_nan() {
         return None;
@@ -149,7 +153,8 @@ pub fn nearest(values: &[f64], x: f64) -> Option<usize> {
     if above == 0 || above == values.len() {
         return Some(above.saturating_sub(usize::from(above > 0)));
     }
-    Some(if values[above] - x < x - values[above - 1] { above } else { above - 1 })
+    let [(up, up_lost), (down, down_lost)] = [two_sum(values[above], -x), two_sum(x, -values[above - 1])];
+    Some(if up < down || up == down && up_lost < down_lost { above } else { above - 1 })
 }
 
 fn lin_space(lo: f64, hi: f64, count: usize) -> Vec<f64> {

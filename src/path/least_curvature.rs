@@ -5,6 +5,7 @@ use crate::curve::PhQuintic;
 use crate::curve::vector::finite_ends;
 use crate::error::{Error, Result};
 use crate::family::ph_path::{Candidate, Search};
+use crate::num::demand_ieee;
 use crate::queue::Queue;
 use crate::steps::step;
 use num_complex::Complex64;
@@ -96,6 +97,7 @@ const LEAST: f64 = 1e-2;
 /// # Ok::<(), spiral_atlas::Error>(())
 /// ```
 pub fn least_curvature(ends: &Directions) -> Result<LeastCurvature> {
+    demand_ieee()?;
     let (chord, search) = checked(ends)?;
     let distance = chord.norm();
     // By Farouki et al., (10), equal end derivatives of paths of a length S have at least 3/2 (S - 1), for S near 1.

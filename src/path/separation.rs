@@ -10,6 +10,7 @@
 use super::motion::{Motion, State};
 use super::{distance, finite};
 use crate::error::{Error, Result};
+use crate::num::demand_ieee;
 use crate::queue::Queue;
 use crate::steps::step;
 
@@ -66,6 +67,7 @@ pub struct Separation {
 /// # Errors
 /// [`Error::Domain`] for a minimum distance that is negative or not finite.
 pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
+    demand_ieee()?;
     check(minimum)?;
     let tolerance = tolerance(a, b);
     let mut search = Search::new(a, b);
@@ -82,6 +84,7 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
 /// # Errors
 /// Those of [`separation`].
 pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<(usize, usize, Separation)>> {
+    demand_ieee()?;
     check(minimum)?;
     let pairs = (0..motions.len()).flat_map(|i| (i + 1..motions.len()).map(move |j| (i, j)));
     let mut searches: Vec<(usize, usize, Search)> =

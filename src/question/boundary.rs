@@ -2,6 +2,7 @@
 
 use super::property::{Cell, Property};
 use crate::error::{Error, Result};
+use crate::num::demand_ieee;
 use std::collections::{HashMap, VecDeque};
 
 /// Most cells along a side.
@@ -64,6 +65,7 @@ pub fn boundary(
     within: [[f64; 2]; 2],
     cells: usize,
 ) -> Result<Boundary> {
+    demand_ieee()?;
     let mut slice = Slice::new(property, point, axes, within, cells)?;
     let (mixed, boxes) = slice.mixed(cells);
     let mut segments = Vec::new();

@@ -3,6 +3,7 @@
 use super::property::{Cell, Property};
 use crate::error::{Error, Result};
 use crate::family::MOST_SIDES;
+use crate::num::demand_ieee;
 use crate::queue::Queue;
 
 /// The search ends when the best distance is at most 1 + this times the proved lower bound.
@@ -78,6 +79,7 @@ impl Metric<'_> {
 /// # Errors
 /// [`Error::Domain`] for a datum or weights that are none; [`Error::Undecided`] at the precision cap.
 pub fn nearest(property: &Property, point: &[f64], weights: &[f64]) -> Result<Nearest> {
+    demand_ieee()?;
     let whole = searched(property, point, weights)?;
     let metric = Metric { point, weights };
     if property.at(point)? == Some(true) {

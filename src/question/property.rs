@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, finite};
 use crate::family::{self, Facts, Family, MOST_SIDES, Region};
-use crate::num::Verdict;
+use crate::num::{Verdict, demand_ieee};
 
 /// A flag of a family in one of its charts.
 #[derive(Clone, Copy)]
@@ -54,6 +54,7 @@ impl Property {
     /// # Errors
     /// [`Error::Undecided`] at the precision cap.
     pub fn at(&self, point: &[f64]) -> Result<Option<bool>> {
+        demand_ieee()?;
         match family::verdict(self.family, self.chart, point) {
             Ok(code) => Ok(Some(code.flags() & self.flag != 0)),
             Err(Error::Domain(_)) => Ok(None),

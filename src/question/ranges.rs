@@ -2,7 +2,7 @@
 
 use super::property::{Cell, Property};
 use crate::error::{Error, Result};
-use crate::num::Verdict;
+use crate::num::{Verdict, demand_ieee};
 use crate::queue::Queue;
 
 /// Parts are halved until they are as narrow as this share of their larger end.
@@ -14,13 +14,16 @@ const MOST_BOXES: usize = 4_000;
 /// An interval in which a property holds.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Range {
-    /// Its ends: it holds at these doubles, and at their neighbours outside it does not, unless an open interval or the
-    /// end of the interval that was asked about is here. Both by exact verdicts.
+    /// Its ends: it holds at these doubles, and at their neighbours outside it does not, unless an open interval is
+    /// here or the range is `cut`. Both by exact verdicts.
     pub ends: [f64; 2],
+    /// Which of the ends are none of the property: the interval that was asked about ends there, and the property goes
+    /// on beyond.
+    pub cut: [bool; 2],
     /// It holds at each number from the first to the second, both included: proved.
     pub inner: [f64; 2],
-    /// Below the first and above the second it fails up to the next range or open interval, or the interval that was
-    /// asked about ends there. Between `inner` and these it may change more than once.
+    /// Below the first and above the second it fails up to the next range or open interval, or to the end of the
+    /// interval that was asked about. Between `inner` and these it may change more than once.
     pub outer: [f64; 2],
 }
 
@@ -49,6 +52,7 @@ pub struct Ranges {
 /// # Errors
 /// [`Error::Domain`] for a datum or an interval that is none; [`Error::Undecided`] at the precision cap.
 pub fn ranges(property: &Property, point: &[f64], axis: usize, within: [f64; 2]) -> Result<Ranges> {
+    demand_ieee()?;
     let mut point = point.to_vec();
     let Some(slot) = point.get_mut(axis) else {
         return Err(Error::invalid(format!("the coordinate is number {axis}; there are {}", point.len())));
@@ -68,9 +72,16 @@ pub fn ranges(property: &Property, point: &[f64], axis: usize, within: [f64; 2])
     let (mut parts, boxes) = divided(property, whole, axis);
     parts.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
     let mut found = gathered(&parts, boxes);
+    let beyond = [low.next_down(), high.next_up()];
     for range in &mut found.ranges {
-        for (end, (holds, fails)) in range.ends.iter_mut().zip(range.inner.into_iter().zip(range.outer)) {
-            *end = last(property, &mut point, axis, holds, fails)?;
+        for side in 0..2 {
+            let end = last(property, &mut point, axis, range.inner[side], range.outer[side])?;
+            range.ends[side] = end;
+            if end == within[side] {
+                point[axis] = beyond[side];
+                // What is not decided there is no end that is known.
+                range.cut[side] = !matches!(property.at(&point), Ok(None | Some(false)));
+            }
         }
     }
     Ok(found)
@@ -150,7 +161,7 @@ fn gathered(parts: &[([f64; 2], Verdict)], boxes: usize) -> Ranges {
                 };
                 let low = edge(before, i.checked_sub(2)).map_or(side[0], |gap| gap[0]);
                 let high = edge(after, Some(i + 2)).map_or(side[1], |gap| gap[1]);
-                found.ranges.push(Range { ends: *side, inner: *side, outer: [low, high] });
+                found.ranges.push(Range { ends: *side, cut: [false; 2], inner: *side, outer: [low, high] });
             }
             Some(false) => {}
             // Undecided between a yes and a no: the end of a range, already told by its `outer`.

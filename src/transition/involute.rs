@@ -4,7 +4,8 @@ use super::none::NoSpiral;
 use super::placement::Ends;
 use crate::curve::vector::{Vector, add, length, turn};
 use crate::error::{Error, Result};
-use crate::family::any_spiral::{GREATEST, Involute, InvolutePoint, Spiral, involute};
+use crate::family::any_spiral::{GREATEST, Image, Involute, InvolutePoint, Spiral, Split, involute};
+use crate::plain::count;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -47,12 +48,38 @@ impl Frame {
     }
 }
 
-/// Why no spiral of any kind joins two ends, in a sentence; `None` where one does. In the user's units; within rounding
-/// of a boundary, in those of the chord's frame.
+/// Why there is no involute with the turns that were asked for, in a sentence; `None` where there is one. In the user's
+/// units; within rounding of a boundary, in those of the chord's frame.
 pub fn why_no_spiral(ends: &Ends, found: &Spiral) -> Option<String> {
-    let Err(why) = &found.outcome else { return None };
-    let why = NoSpiral::of(ends).ok().flatten().map_or_else(|| why.to_string(), |why| why.to_string());
-    Some(format!("no spiral of any kind joins these ends: {why}"))
+    let asked = found.turns;
+    let why = match &found.outcome {
+        Ok(Image { curve, split }) => return not_so(asked, curve.turns(), *split),
+        Err(why) => why,
+    };
+    let known = NoSpiral::with_turns(ends, asked[0] + asked[1]).ok().flatten();
+    let (why, these) = (known.map_or_else(|| why.to_string(), |why| why.to_string()), "no spiral of any kind joins");
+    Some(if asked == [0, 0] {
+        format!("{these} these ends: {why}")
+    } else {
+        format!("{these} these ends with {}: {why}", count(asked[0] as usize + asked[1] as usize, "turn"))
+    })
+}
+
+/// That a curve turns otherwise than asked.
+fn not_so(asked: [u32; 2], has: [u32; 2], split: Split) -> Option<String> {
+    let about = |[start, end]: [u32; 2]| {
+        format!("{} about its start and {} about its end", count(start as usize, "turn"), count(end as usize, "turn"))
+    };
+    let why = match split {
+        Split::Asked => return None,
+        Split::Other => format!("no involute has {}, though another kind of spiral has", about(asked)),
+        Split::Impossible { least, most } => {
+            let all = if least == most { least.to_string() } else { format!("{least} to {most}") };
+            let sum = asked[0] + asked[1];
+            format!("no spiral of any kind has {}: of {sum} in all, {all} must be about the start", about(asked))
+        }
+    };
+    Some(format!("{why}; ask for `--turns {},{}`", has[0], has[1]))
 }
 
 /// Points of a curve to draw it by, with the lengths up to them, in its own frame. Between neighbours it turns by a

@@ -5,7 +5,9 @@ use super::turn::Which;
 use super::words::{above, below, degrees};
 use crate::curve::vector::length;
 use crate::error::Result;
+use crate::family::any_spiral::{Involute, involute};
 use serde::Serialize;
+use std::f64::consts::PI;
 use std::fmt;
 
 /// Why no spiral of any kind joins two ends without going round one of them; the first condition that fails.
@@ -26,8 +28,8 @@ pub enum NoSpiral {
         end_angle: f64,
         /// Whether the curvature rises from start to end.
         rising: bool,
-        /// Whether a spiral exists that goes once round an end.
-        turned: bool,
+        /// The turns about start and end of an involute that goes once round one of them; none where none does.
+        turns: Option<[u32; 2]>,
     },
     /// The circles of curvature at the ends cross or touch; those of a spiral lie apart or one inside the other.
     CirclesCross {
@@ -137,13 +139,21 @@ impl NoSpiral {
     /// # Errors
     /// Those of [`super::Placement::normalise`].
     pub fn of(ends: &Ends) -> Result<Option<NoSpiral>> {
+        NoSpiral::with_turns(ends, 0)
+    }
+
+    /// The same of spirals with so many turns about both ends together, each of which adds π to ω.
+    pub(super) fn with_turns(ends: &Ends, turns: u32) -> Result<Option<NoSpiral>> {
         let Some(seen) = Seen::new(ends)? else {
             return Ok(Some(NoSpiral::EqualCurvatures { curvature: ends.start_curvature }));
         };
         let crossing = seen.crossing();
-        if seen.omega <= 0.0 {
+        if seen.omega + f64::from(turns) * PI <= 0.0 {
             let [start_angle, end_angle] = seen.angles;
-            return Ok(Some(NoSpiral::WrongSide { start_angle, end_angle, rising: seen.rising(), turned: !crossing }));
+            // Which end it goes round is for the curve to say.
+            let once = involute(&ends.chord()?.0, [0, 1]).ok().filter(|_| !crossing);
+            let turns = once.and_then(|found| found.curve().map(Involute::turns));
+            return Ok(Some(NoSpiral::WrongSide { start_angle, end_angle, rising: seen.rising(), turns }));
         }
         if !crossing {
             return Ok(None);
@@ -215,7 +225,7 @@ impl fmt::Display for NoSpiral {
                     "the curvature is {curvature:?} at both ends, so that it could neither rise nor fall between them"
                 )
             }
-            NoSpiral::WrongSide { start_angle, end_angle, rising, turned } => {
+            NoSpiral::WrongSide { start_angle, end_angle, rising, turns } => {
                 let (goes, sign) = if *rising { ("rises", "above") } else { ("falls", "below") };
                 write!(
                     f,
@@ -225,11 +235,9 @@ impl fmt::Display for NoSpiral {
                     degrees(*end_angle),
                     degrees(start_angle + end_angle)
                 )?;
-                if *turned {
-                    f.write_str("; only a spiral that goes round an end does: `curve involute --turns 0,1`")
-                } else {
-                    Ok(())
-                }
+                turns.map_or(Ok(()), |[start, end]| {
+                    write!(f, "; only a spiral that goes round an end does: `curve involute --turns {start},{end}`")
+                })
             }
             NoSpiral::CirclesCross { needs, alone } => {
                 f.write_str("the circles of curvature at the ends cross or touch, and those of a spiral do not")?;

@@ -20,7 +20,7 @@ use super::{Clothoid, Ends, Frame, involute_between};
 use crate::curve::vector::{Vector, add, length, lerp, scale, sub};
 use crate::curve::{CubicBezier, Jet, PhQuintic, TrigBezier, arc_length, casteljau};
 use crate::error::{Error, Result};
-use crate::family::any_spiral::{Image, Involute, Spiral};
+use crate::family::any_spiral::{Image, Involute, Spiral, Split};
 use raw::RawPiece;
 use serde::{Deserialize, Serialize};
 
@@ -135,9 +135,10 @@ impl InvoluteBetween {
         }
     }
 
-    /// The curve that [`involute_between`] has found between two ends with these turns asked for, if there is one.
+    /// The curve that [`involute_between`] has found between two ends, if there is one with the turns asked for.
     pub fn of(ends: &Ends, found: &Spiral, frame: &Frame) -> Option<InvoluteBetween> {
-        Some(InvoluteBetween { ends: *ends, turns: found.turns, curve: found.curve()?.clone(), frame: *frame })
+        let image = found.outcome.as_ref().ok().filter(|image| image.split == Split::Asked)?;
+        Some(InvoluteBetween { ends: *ends, turns: found.turns, curve: image.curve.clone(), frame: *frame })
     }
 
     /// What it joins.

@@ -138,6 +138,35 @@ fn involutes_join_any_ends_with_a_spiral() {
     assert!(none.code == Some(1) && none.out.contains("the curvature is -0.1 at both ends"), "{}", none.out);
 }
 
+/// Turns that the curve does not have are a no, which names those that it has.
+#[test]
+fn turns_are_those_asked_for() {
+    let turns = |angles: [&str; 2], curvatures: [&str; 2], more: &[&str]| {
+        let [from, to] = [angles[0], angles[1]].map(str::to_owned);
+        let ends = ["curve", "involute", "--from=-1,0", "--to=1,0", "--start-direction", &from, "--end-direction", &to];
+        run(ends.iter().chain(&["--start-curvature", curvatures[0], "--end-curvature", curvatures[1]]).chain(more))
+    };
+    for (angles, curvatures, asked, reason, advised) in [
+        (["-40deg", "80deg"], ["0.4", "4"], "1,0", "no spiral of any kind has 1 turn about its start and 0", "0,1"),
+        (["83deg", "114deg"], ["0.65", "0.076"], "0,2", "of 2 in all, 2 must be about the start", "2,0"),
+        (["114deg", "-8deg"], ["0.55", "-1.4"], "0,1", "no involute has 0 turns about its start and 1 turn", "1,0"),
+    ] {
+        let no = turns(angles, curvatures, &["--turns", asked]);
+        assert!(no.code == Some(1) && no.out.contains(reason), "{asked}: {}", no.out);
+        assert!(no.out.contains(&format!("ask for `--turns {advised}`")), "{asked}: {}", no.out);
+        let json = turns(angles, curvatures, &["--turns", asked, "--json"]).json();
+        assert!(json["paths"] == serde_json::json!([]) && json["reason"].is_string(), "{json}");
+        let yes = turns(angles, curvatures, &["--turns", advised]);
+        assert!(yes.code == Some(0) && yes.out.contains(", as asked\n"), "{advised}: {}", yes.out);
+    }
+    // What is advised where only a turn helps is had as advised.
+    let no = turns(["83deg", "114deg"], ["0.65", "0.076"], &[]);
+    assert!(no.code == Some(1) && no.out.contains("`curve involute --turns 1,0`"), "{}", no.out);
+    // With a turn the circles of curvature still cross: the directions are no reason any more.
+    let no = turns(["0", "0"], ["0.1", "0.5"], &["--turns", "0,1"]);
+    assert!(no.code == Some(1) && no.out.contains("with 1 turn: the circles of curvature"), "{}", no.out);
+}
+
 #[test]
 fn ph_quintics_join_straight_ends_too() {
     let folder = Folder::new("");

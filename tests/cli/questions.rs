@@ -48,6 +48,27 @@ fn questions_are_answered() {
     assert!(wrong.code == Some(2) && wrong.err.contains(".png or .svg"), "{}", wrong.err);
 }
 
+/// An end of `--within` is none of the property.
+#[test]
+fn ends_of_the_search_are_told_apart() {
+    let asked = |within: &str, more: &[&str]| {
+        let question = ["--ranges", "kappa1", "--within", within];
+        fine(DATUM.iter().chain(&question).chain(more))
+    };
+    let json = |within: &str| asked(within, &["--json"]).json()["ranges"][0]["cut"].clone();
+    assert_eq!(json("0,100"), serde_json::json!([false, false]));
+    assert_eq!(json("3,100"), serde_json::json!([true, false]));
+    assert_eq!(json("3,10"), serde_json::json!([true, true]));
+    let cut = asked("3,100", &[]).out;
+    assert!(cut.starts_with("SPIRAL holds for kappa1 from 3.0 (end of the searched range) to 15.6"), "{cut}");
+    assert!(cut.contains("proved all over 3.0 to 15.6") && cut.contains(", and to fail beyond 15.6"), "{cut}");
+    let all = asked("3,10", &[]).out;
+    assert!(all.contains("to 10.0 (end of the searched range)\n") && !all.contains("fail"), "{all}");
+    // Where the search ends just where the property does, that is its own end.
+    let low = asked("0,100", &["--json"]).json()["ranges"][0]["ends"][0].to_string();
+    assert_eq!(json(&format!("{low},10")), serde_json::json!([false, true]));
+}
+
 /// Where a range ends at what is not decided, nothing is said to fail there: only the number of solutions changes.
 #[test]
 fn what_is_open_is_not_said_to_fail() {

@@ -8,6 +8,8 @@ mod cubic_oracle;
 mod cubic_properties;
 mod cubic_region;
 mod cubic_vectors;
+#[cfg(target_arch = "x86_64")]
+mod ieee;
 mod oracle;
 mod ph_oracle;
 mod ph_path;

@@ -61,7 +61,7 @@ fn ranges_are_true_at_every_point() {
     let mut r = Random(71);
     let subjects =
         [("cubic", "SPIRAL", 60), ("cubic", "SOLVABLE", 30), ("any-spiral", "EXISTS", 40), ("ph-quintic", "SPIRAL", 6)];
-    let (mut found, mut wide) = (0, 0);
+    let (mut found, mut wide, mut cuts) = (0, 0, 0);
     for (family, flag, count) in subjects {
         let chart = usize::from(family == "any-spiral");
         let Asked { property, holds } = asked(family, chart, flag);
@@ -89,13 +89,16 @@ fn ranges_are_true_at_every_point() {
                     let (end, gap) = (range.ends[side], (range.outer[side] - range.inner[side]).abs());
                     wide += usize::from(gap > 1e-9 * end.abs().max(1e-100));
                     assert!(holds(&with(&point, axis, end)), "{end:?} {place}");
-                    assert!(end == range.outer[side] || !holds(&with(&point, axis, outwards(end))), "{end:?} {place}");
+                    let goes_on = holds(&with(&point, axis, outwards(end)));
+                    let cut = end == within[side] && goes_on;
+                    assert!(range.cut[side] == cut && (cut || end == range.outer[side] || !goes_on), "{end:?} {place}");
+                    cuts += usize::from(cut);
                     assert!(holds(&with(&point, axis, range.inner[side])), "{place}");
                 }
             }
         }
     }
-    assert!(found > 60 && wide * 10 < found, "{found} {wide}");
+    assert!(found > 60 && wide * 10 < found && cuts > 0, "{found} {wide} {cuts}");
 }
 
 /// The oracle knows nothing of boxes: some 50 digits at the ends' neighbours.

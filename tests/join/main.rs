@@ -3,6 +3,7 @@
 mod check;
 mod corner;
 mod dubins;
+mod gentle;
 #[cfg(feature = "export")]
 mod lattice;
 mod shapes;

@@ -77,12 +77,16 @@ typedef struct {
 
 // An interval of a coordinate in which a property holds.
 typedef struct {
-    // The property holds at these numbers, and at their neighbours outside it does not.
+    // The property holds at these numbers. At their neighbours outside it does not, unless the range is cut there.
     double ends[2];
     // It holds at each number from the first to the second: proved.
     double inner[2];
-    // Below the first and above the second it fails up to the next range or open interval: proved.
+    // Below the first and above the second it fails up to the next range or open interval, or to the end of the
+    // interval that was asked about: proved.
     double outer[2];
+    // 1 for an end that is none of the property: the interval that was asked about ends there, and the property goes
+    // on beyond. Otherwise 0.
+    uint8_t cut[2];
 } SpiralRange;
 
 #ifdef __cplusplus

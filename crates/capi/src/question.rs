@@ -3,19 +3,23 @@
 use crate::answer::known;
 use crate::{Fault, Result, SpiralStatus, given, numbers, place, results, status::guard, text};
 use spiral_atlas::family::MOST_SIDES;
-use spiral_atlas::question::{self, Boundary, Property, Ranges};
+use spiral_atlas::question::{self, Boundary, Property, Range, Ranges};
 use std::ffi::c_char;
 
 /// An interval of a coordinate in which a property holds.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SpiralRange {
-    /// The property holds at these numbers, and at their neighbours outside it does not.
+    /// The property holds at these numbers. At their neighbours outside it does not, unless the range is cut there.
     pub ends: [f64; 2],
     /// It holds at each number from the first to the second: proved.
     pub inner: [f64; 2],
-    /// Below the first and above the second it fails up to the next range or open interval: proved.
+    /// Below the first and above the second it fails up to the next range or open interval, or to the end of the
+    /// interval that was asked about: proved.
     pub outer: [f64; 2],
+    /// 1 for an end that is none of the property: the interval that was asked about ends there, and the property goes
+    /// on beyond. Otherwise 0.
+    pub cut: [u8; 2],
 }
 
 /// All that is known of a property along one coordinate.
@@ -75,7 +79,8 @@ pub unsafe extern "C" fn spiral_ranges(
         // SAFETY: the caller's promises.
         let ((property, datum), slot) = unsafe { (asked(family, chart, flag, datum)?, place(ranges, "ranges")?) };
         let Ranges { ranges, open, .. } = question::ranges(&property, datum, axis, [from, to])?;
-        let ranges = ranges.into_iter().map(|r| SpiralRange { ends: r.ends, inner: r.inner, outer: r.outer }).collect();
+        let range = |r: Range| SpiralRange { ends: r.ends, inner: r.inner, outer: r.outer, cut: r.cut.map(u8::from) };
+        let ranges = ranges.into_iter().map(range).collect();
         *slot = Box::into_raw(Box::new(SpiralRanges { ranges, open }));
         Ok(())
     })

@@ -178,6 +178,7 @@ static void questions(void) {
     }
     CHECK(spiral_solve_batch("cubic", NULL, rows, 4, 1, flags, NULL, NULL) == SPIRAL_OK);
     for (size_t i = 0; i < 4; i++) CHECK(((flags[i] & mask) != 0) == (i == 1 || i == 2));
+    CHECK(!all[0].cut[0] && !all[0].cut[1]);
     CHECK(all[0].outer[0] <= all[0].inner[0] && all[0].inner[0] < all[0].inner[1] &&
           all[0].inner[1] <= all[0].outer[1]);
     CHECK(spiral_ranges_data(ranges, NULL, NULL, NULL, NULL) == SPIRAL_OK);

@@ -45,8 +45,8 @@ fn asked(
 ///     coordinates: the other axes of a chart, by name; angles are radians, or text such as "40deg".
 ///
 /// Returns:
-///     A dictionary as `query --ranges --json` prints it: `ranges`, each with `ends`, `inner` and `outer`; `open`; and
-///     `boxes`.
+///     A dictionary as `query --ranges --json` prints it: `ranges`, each with `ends`, `cut` (true for an end that is
+///     only that of `within`), `inner` and `outer`; `open`; and `boxes`.
 ///
 /// Raises:
 ///     TypeError: coordinates that are no chart of the family.

@@ -4,7 +4,8 @@ use super::super::Outcome;
 use super::options::Between;
 use super::{Reportable, end_circles};
 use serde::Serialize;
-use spiral_atlas::family::any_spiral::{Image, Involute, InvolutePoint, Spiral, Split};
+use spiral_atlas::family::any_spiral::{Involute, InvolutePoint, Spiral};
+use spiral_atlas::plain::count;
 use spiral_atlas::plot::{CurveFigure, Graph};
 use spiral_atlas::transition::{Ends, Frame, InvoluteBetween, Kind, Piece, involute_between, polyline, why_no_spiral};
 use spiral_atlas::{Error, Result};
@@ -84,9 +85,8 @@ impl Reportable for Answer {
 
     fn text(&self) -> String {
         let Spiral { q, omega, turns, .. } = self.spiral;
-        let text = match &self.spiral.outcome {
-            Err(_) => self.spirals().err().unwrap_or_default() + "\n",
-            Ok(Image { curve, split }) => {
+        let text = match (self.spirals(), self.spiral.curve()) {
+            (Ok(_), Some(curve)) => {
                 let [rho, lambda] = curve.map();
                 let mut text = format!(
                     "spiral, the image of an involute, length {:?}; it has no control points: ask for points with \
@@ -96,30 +96,19 @@ impl Reportable for Answer {
                     curve.theta(),
                     curve.t0(),
                 );
-                let [n1, n2] = curve.turns();
-                text += &match split {
-                    Split::Asked if turns == [0, 0] => String::new(),
-                    Split::Asked => {
-                        format!("turns {n1} times about its start and {n2} times about its end, as asked\n")
-                    }
-                    Split::Other => format!(
-                        "turns {n1} times about its start and {n2} times about its end, not {},{}, which some other \
-                         spiral does\n",
-                        turns[0], turns[1]
-                    ),
-                    Split::Impossible { least, most } => format!(
-                        "turns {n1} times about its start and {n2} times about its end, not {},{}: any spiral turns \
-                         {least} to {most} times about its start\n",
-                        turns[0], turns[1]
-                    ),
-                };
+                if turns != [0, 0] {
+                    let [start, end] = turns.map(|n| count(n as usize, "turn"));
+                    text += &format!("{start} about its start and {end} about its end, as asked\n");
+                }
                 text
             }
+            (spirals, _) => spirals.err().unwrap_or_default() + "\n",
         };
         text + &format!("Q = {q:?}, omega = {omega:?}")
     }
 
     fn figure(&self) -> Result<CurveFigure> {
+        self.spirals().map_err(Error::invalid)?;
         let curve = self.spiral.curve().ok_or_else(|| Error::invalid("no spiral of any kind has these ends"))?;
         let (samples, q) = (self.drawn(curve), self.spiral.q);
         let slope = |w: &[Drawn]| [0.5 * (w[0].s + w[1].s), (w[1].curvature - w[0].curvature) / (w[1].s - w[0].s)];

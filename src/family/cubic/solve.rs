@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::family::Answer;
 use crate::family::hermite::check;
 use crate::num::bernstein::{exact_margin, margin};
-use crate::num::{Interval, climb};
+use crate::num::{Interval, climb, demand_ieee};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use std::cmp::Ordering;
 
@@ -101,6 +101,7 @@ impl Solutions {
 /// Habib & Sakai, (3.4), (A.9), (A.10) and Theorem 3.1; the exact test replaces the theorem by necessary and sufficient
 /// signs.
 pub fn solve(datum: &Datum) -> Result<Solutions> {
+    demand_ieee()?;
     let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
     check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
     solved(&ExactDatum { phi0, phi1, ends: Ends::Curvature(kappa0, kappa1) })

@@ -3,7 +3,7 @@
 use super::curves::{Curve, Curves, curves};
 use super::datum::{Datum, Turned};
 use super::{ONE_WAY, PAPER, PEAK_INSIDE, REGULAR};
-use crate::curve::hodograph::{Bound, Hodograph};
+use crate::curve::hodograph::{Bound, Complex, Hodograph};
 use crate::family::Code;
 use crate::num::Real;
 use crate::num::Verdict;
@@ -17,6 +17,33 @@ pub(super) enum Greatest<N> {
     None,
     /// Enclosed.
     Value(N),
+}
+
+/// The solutions that bend least.
+pub(super) enum Best {
+    /// Every solution stands still somewhere.
+    None,
+    /// A straight line.
+    Straight,
+    /// One, or several that tie.
+    Bent(Vec<Known>),
+}
+
+/// Which solution of a datum is meant.
+pub(super) struct Known {
+    pub paper: bool,
+    /// The middle of its pre-image, about.
+    pub middle: Complex<f64>,
+    /// The other one with this sign of w2 is its mirror image, or none.
+    pub alone: bool,
+}
+
+impl Known {
+    fn new<N: Real>(curve: &Curve<N>, all: &Curves<N>) -> Known {
+        let alike = all.bent.iter().filter(|other| other.paper == curve.paper).count();
+        let [x, y] = &curve.whole.w[1];
+        Known { paper: curve.paper, middle: [x.approx(), y.approx()], alone: alike == 1 }
+    }
 }
 
 /// A solution with the part that is looked at, from its greater end, and its guessed peak.
@@ -46,6 +73,12 @@ fn oriented<N: Real>(curve: &Curve<N>) -> Hodograph<N> {
     }
 }
 
+fn seen<N: Real>(curve: &Curve<N>) -> Seen<'_, N> {
+    let part = oriented(curve);
+    let (at, most) = part.guess();
+    Seen { curve, part, at, most }
+}
+
 fn exceeds<N: Real>(value: &N, limit: &N) -> bool {
     value.sub(limit).certain_sign(0.0) == Some(Greater)
 }
@@ -53,12 +86,7 @@ fn exceeds<N: Real>(value: &N, limit: &N) -> bool {
 /// The solutions among which the best is: all others are proved to bend more than the first. None where all stand
 /// still.
 fn contenders<N: Real>(curves: &Curves<N>, paper: bool, bits: usize) -> Option<Vec<Seen<'_, N>>> {
-    let one = |curve| {
-        let part = oriented(curve);
-        let (at, most) = part.guess();
-        Seen { curve, part, at, most }
-    };
-    let mut all: Vec<_> = curves.bent.iter().filter(|c| c.paper || !paper).map(one).collect();
+    let mut all: Vec<_> = curves.bent.iter().filter(|c| c.paper || !paper).map(seen).collect();
     // Each round begins with a peak that the last one found to have been missed.
     for _ in 0..16 {
         all.sort_by(|a, b| a.most.total_cmp(&b.most));
@@ -109,6 +137,23 @@ fn greatest<N: Real>(seen: &Seen<'_, N>, bits: usize) -> Option<N> {
     let halvings = if bits <= 53 { 36 } else { (bits / 2).min(1200) as i32 };
     let margin = N::of(2f64.powi(-halvings / 2), bits).times(2f64.powi(halvings / 2 - halvings));
     seen.part.greatest(seen.at, &margin)
+}
+
+/// The greatest |κ| of each solution that bends, mirror images left out; `None` where the precision does not suffice.
+pub(super) fn greatest_of_each<N: Turned>(datum: &Datum, bits: usize) -> Option<Vec<(Known, Option<N>)>> {
+    let curves = curves::<N>(datum, bits)?;
+    Some(curves.bent.iter().map(|curve| (Known::new(curve, &curves), greatest(&seen(curve), bits))).collect())
+}
+
+/// The solutions that bend least; `None` where the precision does not suffice.
+pub(super) fn best<N: Turned>(datum: &Datum, bits: usize) -> Option<Best> {
+    let curves = curves::<N>(datum, bits)?;
+    if curves.straight {
+        return Some(Best::Straight);
+    }
+    let best = winners(contenders(&curves, false, bits)?, datum, bits)?;
+    let known = |seen: &Seen<N>| Known::new(seen.curve, &curves);
+    Some(if best.is_empty() { Best::None } else { Best::Bent(best.iter().map(known).collect()) })
 }
 
 /// The flags; `None` where the precision does not suffice.

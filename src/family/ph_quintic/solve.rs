@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::family::cubic::Datum;
 use crate::family::hermite::check;
 use crate::family::{Answer, Code};
-use crate::num::{Ball, Real, climb};
+use crate::num::{Ball, Real, climb, demand_ieee};
 
 /// One PH quintic with the ends of a datum, in its frame: from (-1, 0) to (1, 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +75,7 @@ impl Solutions {
 /// # Source
 /// Pythagorean-hodograph quintics in complex form (Farouki), (2)-(9); the two equations are in the module's `curves`.
 pub fn solve(datum: &Datum) -> Result<Solutions> {
+    demand_ieee()?;
     let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
     check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
     let by_doubles = Pair::<Ball>::new(phi0, phi1).and_then(|pair| described(datum, &pair));
@@ -108,6 +109,7 @@ fn within_range(datum: &Datum, quintic: &Quintic) -> Result<()> {
 /// # Errors
 /// Those of [`solve`].
 pub fn flags(datum: &Datum) -> Result<u8> {
+    demand_ieee()?;
     let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
     check([("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)])?;
     let kappa = [kappa0, kappa1];

@@ -6,7 +6,7 @@ use super::filter::{Near, shape, sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::error::{Error, Result, finite, positive};
 use crate::family::{Code, NO_VALUE};
-use crate::num::{Interval, Twin, climb};
+use crate::num::{Interval, Twin, climb, demand_ieee};
 use fearless_simd::{Level as SimdLevel, Simd, SimdBase, dispatch};
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -88,6 +88,7 @@ pub struct Reached {
 /// # Source
 /// Habib & Sakai (CGIV 2004), (7) and (20); the exact test replaces the sufficient one.
 pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
+    demand_ieee()?;
     let Datum { theta, xi, eta } = *datum;
     check(kind, theta)?;
     finite("xi", xi)?;
@@ -135,6 +136,7 @@ fn segment<N: Rooted>(
 /// [`Error::Domain`] for an angle outside the family's range or a shape that is not finite and positive;
 /// [`Error::Undecided`] at the precision cap.
 pub fn level_of_shape(kind: Kind, theta: f64, m: f64, q: f64) -> Result<Level> {
+    demand_ieee()?;
     check(kind, theta)?;
     positive("m", m)?;
     positive("q", q)?;

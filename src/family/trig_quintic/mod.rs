@@ -26,6 +26,7 @@ pub use exact::Shape;
 use super::{About, Answer, Chart, Family, Flag, NO_VALUE, Scalar, Table, coordinates, verdict};
 use crate::error::Result;
 use crate::grid::Grid;
+use crate::num::{Angle, Interval, TWIN_BITS, Twin, climb, demand_ieee};
 
 /// The family of quintic trigonometric curves with the control points (3), (9).
 #[derive(Debug, Clone, Copy)]
@@ -93,6 +94,7 @@ pub fn flags(shape: &Shape) -> Result<u8> {
 /// # Errors
 /// As [`flags`].
 pub fn least_ratio(shape: &Shape) -> Result<Option<f32>> {
+    demand_ieee()?;
     let Shape { ratio, theta, m, p, q } = *shape;
     [ratio, theta, m, p, q].into_iter().enumerate().try_for_each(|(which, value)| frame::check(which, value))?;
     let value = threshold::least_ratio(shape)?;
@@ -124,8 +126,8 @@ impl Family for TrigQuintic {
         let code = verdict(self, chart, point)?;
         let shape = Shape::from(*coordinates(point)?);
         let mut derived = vec![
-            ("s", (shape.ratio * (0.5 * shape.theta).tan()).into()),
-            ("scale", (15.0 / (4.0 + shape.q).powi(2)).into()),
+            ("s", nearest(&shape, s::<Twin>, s::<Interval>)?.into()),
+            ("scale", nearest(&shape, scale::<Twin>, scale::<Interval>)?.into()),
         ];
         if let Some(threshold) = least_ratio(&shape)? {
             derived.push(("threshold", f64::from(threshold).into()));
@@ -142,6 +144,30 @@ impl Family for TrigQuintic {
             ]],
             chosen: spiral.then_some(0),
         })
+    }
+}
+
+/// s of (9): `ratio tan(θ/2)`, where halving is exact but for the least subnormal numbers.
+fn s<N: Angle>(shape: &Shape, bits: usize) -> Option<N> {
+    let (sin, cos) = N::of(shape.theta, bits).times(0.5).sine_cosine();
+    sin.times(shape.ratio).over(&cos)
+}
+
+/// `15/(4 + q)²`.
+fn scale<N: Angle>(shape: &Shape, bits: usize) -> Option<N> {
+    let side = N::of(shape.q, bits).plus(4.0);
+    N::of(15.0, bits).over(&side.mul(&side))
+}
+
+/// The double nearest to a number of a shape: by two doubles, or else by intervals.
+fn nearest(
+    shape: &Shape,
+    twin: impl Fn(&Shape, usize) -> Option<Twin>,
+    interval: impl Fn(&Shape, usize) -> Option<Interval>,
+) -> Result<f64> {
+    match twin(shape, TWIN_BITS).and_then(|x| x.to_f64()) {
+        Some(x) => Ok(x),
+        None => Ok(climb(shape, "a number of the shape", |bits| interval(shape, bits)?.to_f64())?.0),
     }
 }
 

@@ -68,6 +68,20 @@ fn a_tie_at_the_end_is_decided() {
     assert_eq!(flags, Some(END_RISES));
 }
 
+/// The numbers of an answer are the nearest doubles.
+#[test]
+fn sides_and_scales_are_nearest_doubles() {
+    for i in 0..400 {
+        let shape =
+            shape(0.01 + 0.37 * f64::from(i), 0.1 + 0.22 * f64::from(i), 1.0, 0.0, -3.99 + 0.0124 * f64::from(i));
+        let answer = TrigQuintic.answer(0, &[shape.ratio, shape.theta, shape.m, shape.p, shape.q]).unwrap();
+        let (sin, cos) = Interval::new(shape.theta, 300).scale(0.5).sine_cosine();
+        let side = Interval::new(shape.q, 300).plus(4.0).square();
+        let truths = [sin.scale(shape.ratio).over(&cos), Interval::new(15.0, 300).over(&side)];
+        assert_eq!(["s", "scale"].map(|name| answer.number(name)), truths.map(|x| x.unwrap().to_f64()), "{shape:?}");
+    }
+}
+
 /// All of them: ratio and m of any size, angles down to the least and up to the double below π/2, shape parameters up
 /// to both ends.
 #[test]

@@ -85,7 +85,7 @@ impl Link {
 }
 
 /// A line shorter than this would not show its direction to 1e-12 by its ends.
-const LEAST_LINE: f64 = 2e-3;
+pub(super) const LEAST_LINE: f64 = 2e-3;
 
 /// A zero between two arguments, if the signs differ there.
 pub(super) fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {

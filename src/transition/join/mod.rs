@@ -35,6 +35,7 @@
 //! Lines and circles are joined by the same spirals, laid out by the centres of circles: see `link.rs` and `shapes.rs`.
 
 mod best;
+mod ease;
 mod link;
 mod measure;
 mod request;
@@ -48,6 +49,7 @@ use super::piece::principal;
 use crate::curve::vector::{length, scale, sub};
 use crate::error::written;
 use crate::error::{Error, Result};
+use crate::num::demand_ieee;
 use crate::plain::count;
 use best::Best;
 use std::f64::consts::TAU;
@@ -71,6 +73,7 @@ const FARTHEST: f64 = 1e12;
 /// line or a circle, where the ends are more than 1e12 least radii apart or from the origin or circles are larger than
 /// that, and where lengths leave the range of doubles. That there is no join is no error.
 pub fn join(request: &Request) -> Result<std::result::Result<Join, String>> {
+    demand_ieee()?;
     request.check()?;
     let limit = request.greatest_curvature;
     if let Some(why) = beyond(request) {

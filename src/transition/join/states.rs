@@ -3,6 +3,7 @@
 use super::super::piece::{Arc, Line, Piece, principal};
 use super::super::placement::Ends;
 use super::best::Best;
+use super::ease::{Easing, eased, tangent};
 use super::link::{SHORTEST, add_arc, root};
 use super::request::{Family, Objective, Request, State};
 use super::spiral::{Pose, Spiral, between, pinned, reversed};
@@ -11,8 +12,6 @@ use crate::curve::vector::{Vector, add, angle_of, cross, dot, length, scale, sub
 use crate::error::Result;
 use std::f64::consts::PI;
 
-/// A line shorter than this, in least radii, would not show its direction to 1e-12 by its ends.
-const LEAST_LINE: f64 = 2e-3;
 /// A way is built where the model has it no longer than this times the greatest length; it is off by a few hundredths.
 const LONGER: f64 = 1.1;
 /// The middle turn of three.
@@ -46,13 +45,14 @@ pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best
     let across = scale(sub(to.point, from.point), most);
     let here = Pose { at: [0.0, 0.0], direction: from.direction };
     let there = Pose { at: across, direction: to.direction + PI };
-    let starts = turns(family, here, from.curvature / most, objective);
-    let ends = turns(family, there, -to.curvature / most, objective);
+    let given = [(here, from.curvature / most), (there, -to.curvature / most)];
+    let apart = length(across);
+    let [mut starts, mut ends] = given.map(|(at, k)| turns(family, at, k, objective, apart));
     let middles = [1.0, -1.0].map(|side| Middle::new(family, side));
     let mut ways = Vec::new();
     for (i, a) in starts.iter().enumerate() {
         for (j, b) in ends.iter().enumerate() {
-            ways.extend(by_line(a, b, objective).map(|way| Way { first: i, last: j, ..way }));
+            ways.extend(by_line([a, b], objective).map(|way| Way { first: i, last: j, ..way }));
             if a.exit == b.exit || (a.curvature.abs() == 1.0 && b.curvature.abs() == 1.0) {
                 ways.extend(by_turn(objective, &middles, a, b).into_iter().flatten().map(|way| Way {
                     first: i,
@@ -61,6 +61,14 @@ pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best
                 }));
             }
         }
+    }
+    let easings = given.map(|(at, k)| Easing::all(family, at, k, objective, apart));
+    for eased in eased(family, [&starts, &ends], &easings) {
+        let [a, b] = &eased.turns;
+        let way = along([a, b], eased.arcs, eased.line, objective);
+        ways.push(Way { first: starts.len(), last: ends.len(), ..way });
+        starts.push(*a);
+        ends.push(*b);
     }
     // Those that are much too long are not built, each of which takes the proofs of a few spirals.
     ways.retain(|way| way.length / most <= LONGER * request.longest);
@@ -173,19 +181,17 @@ fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece
 }
 
 /// Two turns with a line between.
-fn by_line(a: &Turn, b: &Turn, objective: Objective) -> Option<Way> {
-    let (across, reach) = (sub(b.centre, a.centre), add(a.reach, b.reach));
-    let along = (dot(across, across) - reach[1] * reach[1]).max(-1.0).sqrt();
-    let line = along - reach[0];
-    if line.is_nan() || line < LEAST_LINE {
-        return None;
-    }
-    let direction = angle_of(across) - reach[1].atan2(along);
-    let arcs = [a.arc(direction), b.arc(direction + PI)];
+fn by_line(turns: [&Turn; 2], objective: Objective) -> Option<Way> {
+    let (direction, line) = tangent(turns)?;
+    Some(along(turns, [turns[0].arc(direction), turns[1].arc(direction + PI)], line, objective))
+}
+
+/// The same with arcs and a line of known lengths.
+fn along([a, b]: [&Turn; 2], arcs: [f64; 2], line: f64, objective: Objective) -> Way {
     let length = a.length(arcs[0]) + line + b.length(arcs[1]);
     let cost = together(objective, [a.cost(arcs[0], objective), b.cost(arcs[1], objective)]);
     let cost = if objective == Objective::Length { length } else { cost };
-    Some(Way { cost, length, first: 0, last: 0, arcs, middle: None })
+    Way { cost, length, first: 0, last: 0, arcs, middle: None }
 }
 
 /// Costs of parts in one.
@@ -200,6 +206,8 @@ fn together<const N: usize>(objective: Objective, costs: [f64; N]) -> f64 {
 struct Middle {
     side: f64,
     exit: Spiral,
+    /// Length of its spirals, nearly.
+    long: f64,
     /// As of a [`Turn`]: ahead, and seen backwards, where it turns the other way.
     ahead: Vector,
     behind: Vector,
@@ -208,7 +216,8 @@ struct Middle {
 impl Middle {
     fn new(family: Family, side: f64) -> Middle {
         let exit = Spiral { from: side, ..MIDDLE };
-        Middle { side, exit, ahead: reach(family, &exit), behind: reach(family, &Spiral { from: -side, ..exit }) }
+        let long = 2.0 * exit.long(family);
+        Middle { side, exit, long, ahead: reach(family, &exit), behind: reach(family, &Spiral { from: -side, ..exit }) }
     }
 }
 
@@ -219,7 +228,7 @@ fn by_turn(objective: Objective, middles: &[Middle; 2], a: &Turn, b: &Turn) -> [
     let apart = length(across);
     for (n, way) in ways.iter_mut().enumerate() {
         let flank = if n % 2 == 0 { 1.0 } else { -1.0 };
-        let Middle { side, exit, ahead, behind } = middles[n / 2];
+        let Middle { side, exit, long, ahead, behind } = middles[n / 2];
         let (into, out) = (add(a.reach, behind), add(ahead, b.reach));
         let (r, s) = (length(into), length(out));
         if apart == 0.0 || apart >= r + s || apart <= (r - s).abs() {
@@ -233,7 +242,7 @@ fn by_turn(objective: Objective, middles: &[Middle; 2], a: &Turn, b: &Turn) -> [
         let arc = wrapped(side * (second - first) - 2.0 * exit.angle().abs());
         let arcs = [a.arc(first), b.arc(second + PI)];
         let model = Turn { before: [Some(exit), None], curvature: side, ..*a };
-        let model = Turn { exit, ..model };
+        let model = Turn { exit: Some(exit), long, ..model };
         let costs = [a.cost(arcs[0], objective), model.cost(arc, objective), b.cost(arcs[1], objective)];
         let length = a.length(arcs[0]) + model.length(arc) + b.length(arcs[1]);
         *way =
@@ -282,7 +291,10 @@ fn built(request: &Request, turn: &Turn, start: Pose, arc: f64) -> Result<Option
         at = next;
     }
     at = add_arc(&mut pieces, at, turn.curvature * most, arc);
-    let Some((piece, end)) = turn.exit.piece(family, at, most)? else { return Ok(None) };
-    pieces.push(piece);
-    Ok(Some((pieces, end)))
+    if let Some(exit) = turn.exit {
+        let Some((piece, end)) = exit.piece(family, at, most)? else { return Ok(None) };
+        pieces.push(piece);
+        at = end;
+    }
+    Ok(Some((pieces, at)))
 }

@@ -20,6 +20,10 @@ const GENTLE: &[(f64, f64)] = &[
     (0.125, 2.4),
     (0.125, 4.8),
 ];
+/// So near, spirals of the usual length may have no room.
+const NEAR: f64 = 2.0;
+/// The length of the spirals there.
+pub(super) const LEAST: f64 = 0.1;
 /// Below this an arc goes on about a centre too far away to be of use.
 const HELD: f64 = 1.0 / 64.0;
 /// An arc of less than this, radians, is a rounding.
@@ -36,8 +40,10 @@ pub(super) struct Turn {
     pub heading: f64,
     /// Centre of the arc.
     pub centre: Vector,
-    /// From the arc to curvature 0.
-    pub exit: Spiral,
+    /// From the arc to curvature 0; a turn by nothing has none.
+    pub exit: Option<Spiral>,
+    /// Length of its spirals, nearly.
+    pub long: f64,
     /// From the centre to where it ends, for the direction (1, 0) there.
     pub reach: Vector,
 }
@@ -45,29 +51,35 @@ pub(super) struct Turn {
 impl Turn {
     /// Left in a direction, how far its arc goes round, radians from 0 to a full turn.
     pub(super) fn arc(&self, direction: f64) -> f64 {
-        wrapped(self.curvature.signum() * (direction - self.exit.angle() - self.heading))
+        let exit = self.exit.map_or(0.0, |exit| exit.angle());
+        wrapped(self.curvature.signum() * (direction - exit - self.heading))
+    }
+
+    fn spirals(&self) -> impl Iterator<Item = &Spiral> {
+        self.before.iter().chain([&self.exit]).flatten()
     }
 
     /// Left after an arc, its length, nearly.
     pub(super) fn length(&self, arc: f64) -> f64 {
-        let spirals = self.before.iter().flatten().chain([&self.exit]);
-        spirals.map(|s| s.length).sum::<f64>() + arc / self.curvature.abs()
+        let round = if arc == 0.0 { 0.0 } else { arc / self.curvature.abs() };
+        self.long + round
     }
 
     /// What it costs, nearly.
     pub(super) fn cost(&self, arc: f64, objective: Objective) -> f64 {
-        let spirals = || self.before.iter().flatten().chain([&self.exit]);
         match objective {
             Objective::Length => self.length(arc),
             Objective::GreatestCurvature => self.curvature.abs(),
-            Objective::GreatestRate => spirals().map(Spiral::rate).fold(0.0, f64::max),
-            Objective::BendingEnergy => spirals().map(Spiral::bending_energy).sum::<f64>() + arc * self.curvature.abs(),
+            Objective::GreatestRate => self.spirals().map(Spiral::rate).fold(0.0, f64::max),
+            Objective::BendingEnergy => {
+                self.spirals().map(Spiral::bending_energy).sum::<f64>() + arc * self.curvature.abs()
+            }
         }
     }
 
     /// How many pieces it has.
     pub(super) fn pieces(&self, arc: f64) -> usize {
-        self.before.iter().flatten().count() + 1 + usize::from(arc > 0.0)
+        self.spirals().count() + usize::from(arc > 0.0)
     }
 }
 
@@ -84,10 +96,10 @@ pub(super) fn reach(family: Family, exit: &Spiral) -> Vector {
     turn([cos, -sin], [x, y - 1.0 / exit.from])
 }
 
-/// All turns from a pose with a curvature, both in units of the least radius.
-pub(super) fn turns(family: Family, at: Pose, curvature: f64, objective: Objective) -> Vec<Turn> {
+/// All turns from a pose with a curvature, both in units of the least radius, towards a place at a distance.
+pub(super) fn turns(family: Family, at: Pose, curvature: f64, objective: Objective, apart: f64) -> Vec<Turn> {
     let rungs = if objective == Objective::Length { SHORT } else { GENTLE };
-    let mut all = Vec::with_capacity(3 * rungs.len());
+    let mut all = Vec::with_capacity(4 * rungs.len());
     let mut add_turn = |before: [Option<Spiral>; 2], k: f64, length: f64| {
         let (mut place, mut heading) = (at.at, at.direction);
         for spiral in before.iter().flatten() {
@@ -96,9 +108,12 @@ pub(super) fn turns(family: Family, at: Pose, curvature: f64, objective: Objecti
         }
         let centre = add(place, scale([-heading.sin(), heading.cos()], 1.0 / k));
         let exit = Spiral { from: k, to: 0.0, length };
-        all.push(Turn { before, curvature: k, heading, centre, exit, reach: reach(family, &exit) });
+        let long = before.iter().flatten().chain([&exit]).map(|spiral| spiral.long(family)).sum();
+        let reach = reach(family, &exit);
+        all.push(Turn { before, curvature: k, heading, centre, exit: Some(exit), long, reach });
     };
-    for (peak, length) in rungs.iter().copied() {
+    let near = (apart < NEAR).then_some((1.0, LEAST));
+    for (peak, length) in rungs.iter().copied().chain(near) {
         for k in [peak, -peak] {
             let to_arc = |from: f64| Spiral { from, to: k, length };
             if curvature == 0.0 {
@@ -108,7 +123,7 @@ pub(super) fn turns(family: Family, at: Pose, curvature: f64, objective: Objecti
             if Spiral::between_round(family, k, curvature) {
                 add_turn([Some(to_arc(curvature)), None], k, length);
             }
-            let to_line = Spiral { from: curvature, to: 0.0, length: rungs[0].1.max(0.5 * length) };
+            let to_line = Spiral { from: curvature, to: 0.0, length: length.min(rungs[0].1).max(0.5 * length) };
             add_turn([Some(to_line), Some(to_arc(0.0))], k, length);
         }
         if curvature.abs() >= HELD && curvature.abs() * length <= 1.2 {

@@ -2,6 +2,7 @@
 
 use super::sides::ends;
 use crate::oracle::random::Random;
+use spiral_atlas::family::any_spiral::Split;
 use spiral_atlas::transition::{Bound, Ends, NoSpiral, Remedy, Which, Why, involute_between, ph_spiral, spiral};
 
 /// Ends anywhere: `alpha` and `beta` against the chord, curvatures by half of it.
@@ -61,9 +62,14 @@ fn curvatures_past_the_printed_bound_give_a_spiral() {
         let text = none.to_string();
         let kind = match &none {
             NoSpiral::EqualCurvatures { .. } => panic!("{ends:?}"),
-            NoSpiral::WrongSide { turned, .. } => {
-                assert_eq!(any_spiral(&ends, [0, 1]), *turned, "{none}: {ends:?}");
-                assert_eq!(text.contains("--turns 0,1"), *turned);
+            NoSpiral::WrongSide { turns, .. } => {
+                // Advised is what the involute does.
+                let (found, _) = involute_between(&ends, turns.unwrap_or([0, 1])).unwrap();
+                let asked = found.outcome.as_ref().is_ok_and(|image| image.split == Split::Asked);
+                assert_eq!((found.curve().is_some(), asked), (turns.is_some(), turns.is_some()), "{none}: {ends:?}");
+                let [start, end] = turns.unwrap_or([0, 0]);
+                assert_eq!(text.contains(&format!("--turns {start},{end}`")), turns.is_some(), "{none}");
+                *seen.entry(format!("turns {start},{end}")).or_insert(0) += 1;
                 "side"
             }
             NoSpiral::CirclesCross { needs, alone } => {
@@ -89,7 +95,7 @@ fn curvatures_past_the_printed_bound_give_a_spiral() {
         };
         *seen.entry(format!("{kind} {}", if rising { "rising" } else { "falling" })).or_insert(0) += 1;
     }
-    assert!(seen.len() == 10 && seen.values().all(|n| *n >= 50), "{seen:?}");
+    assert!(seen.len() == 13 && seen.values().all(|n| *n >= 50), "{seen:?}");
 }
 
 /// The bound of some spiral of any kind, at which curvatures instead are measured: where the circles of curvature

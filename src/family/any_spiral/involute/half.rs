@@ -129,6 +129,7 @@ impl Half {
     }
 
     /// Direction at u, followed from the end.
+    #[cfg(test)]
     pub(super) fn direction(&self, u: f64) -> f64 {
         self.angle - self.side * self.theta * u - 2.0 * self.argument(u)
     }

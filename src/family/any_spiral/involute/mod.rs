@@ -27,6 +27,7 @@ pub use turns::Split;
 
 use super::Datum;
 use crate::error::{Error, Result};
+use crate::num::demand_ieee;
 use serde::{Serialize, Serializer};
 use std::f64::consts::PI;
 use std::fmt;
@@ -116,6 +117,7 @@ impl Spiral {
 /// # Source
 /// Kurnosenko, arXiv 2603.29596, (2) to (6), with the sign of z0 in (6) corrected.
 pub fn involute(chord: &Datum, turns: [u32; 2]) -> Result<Spiral> {
+    demand_ieee()?;
     for (name, angle) in [("alpha", chord.alpha), ("beta", chord.beta)] {
         if angle.is_nan() || angle.abs() > PI {
             return Err(Error::angle(name, angle, "-pi to pi", "radians"));

@@ -36,10 +36,12 @@ fn thin(x: &Interval, bits: usize) -> bool {
 }
 
 /// Numbers of which doubles are made.
-trait Rounded: Angle {
+pub(super) trait Rounded: Angle {
     /// Whether it is known well enough to go on.
     fn is_known(&self) -> bool;
-    /// The nearest double.
+    /// The nearest double, proved; `None` where more digits must tell.
+    fn nearest(&self) -> Option<f64>;
+    /// A double next to it.
     fn rounded(&self) -> Option<f64>;
 }
 
@@ -47,6 +49,9 @@ impl Rounded for Twin {
     /// The roundings tell.
     fn is_known(&self) -> bool {
         true
+    }
+    fn nearest(&self) -> Option<f64> {
+        self.to_f64()
     }
     fn rounded(&self) -> Option<f64> {
         self.to_f64()
@@ -57,6 +62,9 @@ impl Rounded for Interval {
     fn is_known(&self) -> bool {
         thin(self, 80)
     }
+    fn nearest(&self) -> Option<f64> {
+        self.to_f64()
+    }
     /// That of its middle: sums that cancel are known absolutely, not relatively.
     fn rounded(&self) -> Option<f64> {
         Some(self.approx())
@@ -64,7 +72,7 @@ impl Rounded for Interval {
 }
 
 /// `r e^(ix)`.
-fn polar<N: Angle>(r: &N, x: &N) -> [N; 2] {
+pub(super) fn polar<N: Angle>(r: &N, x: &N) -> [N; 2] {
     let (sin, cos) = x.sine_cosine();
     [r.mul(&cos), r.mul(&sin)]
 }
@@ -97,56 +105,85 @@ impl Wanted<Interval> {
     }
 }
 
+/// The arc and the map (6) that takes it to the chord, whose factor is `m = ρ e^(iλ)`.
+pub(super) struct Map<N> {
+    pub arc: Arc<N>,
+    half_chord: N,
+    /// ω with its half turns.
+    omega: N,
+    /// `ω + θ`.
+    ahead: N,
+    pub rho: N,
+    pub lambda: N,
+}
+
+impl<N: Rounded> Map<N> {
+    fn new(datum: &Datum, arc: Arc<N>, wanted: &Wanted<N>) -> Option<Map<N>> {
+        let (Arc { theta, sin, p, a, t0, t1, .. }, bits) = (&arc, arc.theta.bits());
+        let half_chord = formula!(t0 * sin * (t0 * sin) + p * p).sqrt()?;
+        // ρ = (k1* + sin α*)/(k1 + sin α), both negative.
+        let rho = formula!(t0 * a + p * sin).over(&formula!(half_chord * t1 * wanted.room))?;
+        [theta, t1, &rho, &half_chord].into_iter().all(N::is_known).then_some(())?;
+        // λ = α - α*, α* = ω + θ; any full turns do.
+        let omega = formula!(wanted.rest + N::pi(bits) * { f64::from(wanted.half_turns) });
+        let ahead = omega.add(theta);
+        let lambda = N::of(datum.alpha, bits).sub(&ahead);
+        Some(Map { arc, half_chord, omega, ahead, rho, lambda })
+    }
+}
+
+impl Map<Interval> {
+    /// At a precision, with how often the equation was evaluated; `None` where it does not suffice.
+    pub(super) fn by_intervals(datum: &Datum, half_turns: u32, bits: usize) -> Option<(Map<Interval>, usize)> {
+        // Differences of the data may take far more bits than the arc does, but sines of two angles only.
+        let wanted = |b| if b < bits { None } else { Wanted::new(datum, half_turns, b, bits) };
+        let wanted = climb(datum, "Q", wanted).ok()?.0;
+        let equation = Equation::new(wanted.q.clone(), wanted.rest.clone(), half_turns);
+        Some((Map::new(datum, equation.solve()?, &wanted)?, equation.evaluations()))
+    }
+}
+
 impl Numbers {
     /// In sums of two doubles, with how often the equation was evaluated; `None` where they leave a rounding open.
     pub(super) fn by_twins(datum: &Datum, half_turns: u32) -> Option<(Numbers, usize)> {
-        let Wanted { q, room, rest, half_turns } = Wanted::twins(datum, half_turns)?;
-        let equation = Equation::new(q, rest, half_turns);
-        let numbers = Numbers::new(datum, &equation.solve()?, &room, &rest, half_turns)?;
-        Some((numbers, equation.evaluations()))
+        let wanted = Wanted::twins(datum, half_turns)?;
+        let equation = Equation::new(wanted.q, wanted.rest, half_turns);
+        let map = Map::new(datum, equation.solve()?, &wanted)?;
+        Some((Numbers::new(datum, &map)?, equation.evaluations()))
     }
 
     /// In intervals, with how often the equation was evaluated and the precision.
     pub(super) fn by_intervals(datum: &Datum, half_turns: u32) -> Result<((Numbers, usize), usize)> {
         climb(datum, "the arc of the involute", |bits| {
-            // Differences of the data may take far more bits than the arc does, but sines of two angles only.
-            let wanted = |b| if b < bits { None } else { Wanted::new(datum, half_turns, b, bits) };
-            let Wanted { q, room, rest, half_turns } = climb(datum, "Q", wanted).ok()?.0;
-            let equation = Equation::new(q, rest.clone(), half_turns);
-            let numbers = Numbers::new(datum, &equation.solve()?, &room, &rest, half_turns)?;
-            Some((numbers, equation.evaluations()))
+            let (map, evaluations) = Map::by_intervals(datum, half_turns, bits)?;
+            Some((Numbers::new(datum, &map)?, evaluations))
         })
     }
 
-    fn new<N: Rounded>(datum: &Datum, arc: &Arc<N>, room: &N, rest: &N, half_turns: u32) -> Option<Numbers> {
-        let (Arc { theta, sin, cos: _, p, a, t0, t1 }, bits) = (arc, arc.theta.bits());
-        let half_chord = formula!(t0 * sin * (t0 * sin) + p * p).sqrt()?;
-        // ρ = (k1* + sin α*)/(k1 + sin α), both negative.
-        let rho = formula!(t0 * a + p * sin).over(&formula!(half_chord * t1 * room))?;
-        [theta, t1, &rho, &half_chord].into_iter().all(N::is_known).then_some(())?;
-        // λ = α - α*, α* = ω + θ; any full turns do.
+    fn new<N: Rounded>(datum: &Datum, map: &Map<N>) -> Option<Numbers> {
+        let Map { arc: Arc { theta, t0, t1, .. }, half_chord, omega, ahead, rho, lambda } = map;
+        let bits = theta.bits();
         let [alpha, beta] = [datum.alpha, datum.beta].map(|x| N::of(x, bits));
-        let omega = formula!(rest + N::pi(bits) * { f64::from(half_turns) });
-        let ahead = omega.add(theta);
         let one = N::of(1.0, bits);
-        let inverse = one.over(&rho)?;
+        let inverse = one.over(rho)?;
         // q = (1 - 1/m) e^(iα) at the start, and (1 - m) e^(iβ) at the end, where λ + β = ω - θ up to full turns.
         let factor = |angle: &N, by: &N, other: &N| {
             let ([x, y], [u, v]) = (polar(&one, angle), polar(by, other));
             [x.sub(&u), y.sub(&v)]
         };
-        let scale = rho.over(&half_chord)?;
-        let start = End { side: 1.0, t: t1, scale, q: factor(&alpha, &inverse, &ahead) };
-        let (last, scale) = (t0.add(theta), inverse.over(&half_chord)?);
-        let end = End { side: -1.0, t: &last, scale, q: factor(&beta, &rho, &omega.sub(theta)) };
+        let scale = rho.over(half_chord)?;
+        let start = End { side: 1.0, t: t1, scale, q: factor(&alpha, &inverse, ahead) };
+        let (last, scale) = (t0.add(theta), inverse.over(half_chord)?);
+        let end = End { side: -1.0, t: &last, scale, q: factor(&beta, rho, &omega.sub(theta)) };
         // θ from the nearest multiple of π.
-        let turns = (theta.approx() / PI).round();
+        let nearest = theta.nearest()?;
+        let turns = (nearest / PI).round();
         Some(Numbers {
-            theta: theta.rounded()?,
-            beyond: formula!(theta - N::pi(bits) * { turns }).rounded()?,
-            t0: t0.rounded()?,
-            rho: rho.rounded()?.clamp(f64::MIN_POSITIVE, f64::MAX),
-            lambda: alpha.sub(&ahead).rounded()?,
+            theta: nearest,
+            beyond: formula!(theta - N::pi(bits) * { turns }).nearest()?,
+            t0: t0.nearest()?,
+            rho: rho.nearest()?.clamp(f64::MIN_POSITIVE, f64::MAX),
+            lambda: lambda.nearest()?,
             halves: [start.half(theta, [datum.alpha, datum.k1])?, end.half(theta, [datum.beta, datum.k2])?],
         })
     }
@@ -259,5 +296,26 @@ mod tests {
         }
         println!("{compared:?}");
         assert!(compared.all > 2_500 && compared.by_twins * 3 > compared.all, "{compared:?}");
+    }
+
+    /// The map is nearly the identity where the ends are those of an arc of the involute itself: λ cancels.
+    #[test]
+    fn numbers_that_cancel_are_nearest_doubles() {
+        let bits = 400;
+        let mut small = 0;
+        for i in 1..40 {
+            let (theta, t0) = (0.03 * f64::from(i), 2.0 + 0.1 * f64::from(i));
+            let p = theta.sin() - theta * theta.cos();
+            let half = (t0 * theta.sin()).hypot(p);
+            let omega = p.atan2(t0 * theta.sin());
+            let [k1, k2] = [t0 - theta, t0 + theta].map(|t| -half / t);
+            let datum = Datum { alpha: omega + theta, beta: omega - theta, k1, k2 };
+            let (numbers, _) = Numbers::by_intervals(&datum, 0).unwrap().0;
+            let map = Map::by_intervals(&datum, 0, bits).unwrap().0;
+            let truths = [&map.arc.theta, &map.arc.t0, &map.rho, &map.lambda].map(|x| x.to_f64().unwrap());
+            assert_eq!([numbers.theta, numbers.t0, numbers.rho, numbers.lambda], truths, "{datum:?}");
+            small += usize::from(numbers.lambda.abs() < 1e-14 && numbers.lambda != 0.0);
+        }
+        assert!(small > 10, "{small}");
     }
 }

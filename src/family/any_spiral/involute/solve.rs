@@ -3,7 +3,7 @@
 use super::super::Datum;
 use super::numbers::Numbers;
 use super::track::Track;
-use super::turns::{Split, range};
+use super::turns::{Split, about_start, range};
 use super::{Image, Spiral, WhyNone};
 use crate::error::{Result, samples};
 use crate::num::bernstein::Certain;
@@ -86,24 +86,19 @@ pub(super) fn solve(chord: &Datum, turns: [u32; 2]) -> Result<(Spiral, Option<Wo
         (_, Equal) => WhyNone::CirclesTouch,
         (Greater, Less) => {
             let (curve, work) = found(&datum, half_turns, turns[0] + turns[1], !rising)?;
-            let split = split(&datum, turns, &curve);
+            let split = split(&datum, turns, &curve)?;
             return Ok((answer(Ok(Image { curve, split })), Some(work)));
         }
     };
     Ok((answer(Err(why)), None))
 }
 
-fn split(datum: &Datum, turns: [u32; 2], curve: &Involute) -> Split {
-    let Datum { alpha, beta, k1, k2 } = *datum;
-    let up = |x: f64| if x == -PI { PI } else { x };
-    let (least, most) = range(&Datum { alpha: up(alpha), beta: up(beta), k1, k2 }, turns[0] + turns[1]);
+fn split(datum: &Datum, turns: [u32; 2], curve: &Involute) -> Result<Split> {
     if curve.turns == turns {
-        Split::Asked
-    } else if (least..=most).contains(&turns[0]) {
-        Split::Other
-    } else {
-        Split::Impossible { least, most }
+        return Ok(Split::Asked);
     }
+    let (least, most) = range(datum, turns[0] + turns[1])?;
+    Ok(if (least..=most).contains(&turns[0]) { Split::Other } else { Split::Impossible { least, most } })
 }
 
 /// The curve of rising curvature with `turns` in all, to be mirrored or not.
@@ -112,7 +107,8 @@ fn found(datum: &Datum, half_turns: u32, turns: u32, mirrored: bool) -> Result<(
         Some(found) => (found, TWIN_BITS),
         None => Numbers::by_intervals(datum, half_turns)?,
     };
-    let curve = Involute::new(datum, numbers, turns, mirrored);
+    let first = about_start(datum, half_turns, turns)?;
+    let curve = Involute::new(numbers, [first, turns - first], mirrored);
     let pieces = curve.tracks.iter().map(Track::pieces).sum();
     Ok((curve, Work { bits, evaluations, pieces }))
 }
@@ -123,14 +119,8 @@ fn total(datum: &Datum, half_turns: u32, bits: usize) -> Interval {
 }
 
 impl Involute {
-    fn new(datum: &Datum, n: Numbers, turns: u32, mirrored: bool) -> Involute {
+    fn new(n: Numbers, turns: [u32; 2], mirrored: bool) -> Involute {
         let Numbers { theta, beyond, t0, rho, lambda, halves } = n;
-        // Both halves have the same direction where they meet, which tells the difference of the turns.
-        let meet = halves.map(|half| half.direction(1.0));
-        let up = |x: f64| if x == -PI { 1.0 } else { 0.0 };
-        let difference = (meet[1] - meet[0]) / TAU - up(datum.alpha) + up(datum.beta);
-        let first = (0.5 * (f64::from(turns) + difference)).round().clamp(0.0, f64::from(turns)) as u32;
-        let turns = [first, turns - first];
         Involute { theta, beyond, t0, rho, lambda, turns, mirrored, tracks: halves.map(Track::new) }
     }
 
@@ -139,7 +129,7 @@ impl Involute {
         self.theta
     }
 
-    /// θ less the nearest multiple of π, to full accuracy where θ itself shows little of it (small |Q|).
+    /// θ less the nearest multiple of π, the nearest double too, where θ itself shows little of it (small |Q|).
     pub fn theta_beyond(&self) -> f64 {
         self.beyond
     }

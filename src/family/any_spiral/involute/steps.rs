@@ -3,8 +3,9 @@
 //!
 //! Bounds, for doubles with at most 2150 bits between the largest and the smallest digit of what is added, and at most
 //! 2000 turns:
-//! - Precision doubles from 128 bits. Only digits that the data share cost any: where Q is small against its
-//!   terms, or nearly 3ω² for small ω.
+//! - Precision doubles from 128 bits. Digits that the data share cost some: where Q is small against its terms, or
+//!   nearly 3ω² for small ω. So does a number of the curve that is next to the middle between two doubles: data from
+//!   1e-300 to 1e100 let it come nearer than 1e-600.
 //! - The equation is solved by Newton's method from a start with at least 10 right bits, so that each step doubles
 //!   them: log2(bits/10) evaluations, two for the bracket, two for the proof at the first δ, and as many again where
 //!   rounding asks for a wider one.
@@ -88,7 +89,7 @@ fn few_steps_near_every_limit_of_the_angles() {
     }
     println!("{most:?}");
     assert!(most.curves > 3_000, "{most:?}");
-    assert!(most.bits <= 512 && most.evaluations <= 16 && most.pieces <= 800, "{most:?}");
+    assert!(most.bits <= 4096 && most.evaluations <= 16 && most.pieces <= 800, "{most:?}");
 }
 
 /// Where Q is next to 0: k2 is the last double of a curve, and those before it.
