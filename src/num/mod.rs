@@ -11,7 +11,7 @@ mod number;
 pub(crate) mod roots;
 pub(crate) mod sines;
 mod twin;
-pub(crate) mod verdict;
+mod verdict;
 mod ziv;
 
 pub(crate) use ball::Ball;
@@ -21,7 +21,7 @@ pub(crate) use formula::{Letter, formula};
 pub(crate) use interval::Interval;
 pub(crate) use number::{Angle, Lanes, Number, Real};
 pub(crate) use twin::{TWIN_BITS, Twin};
-pub(crate) use verdict::Verdict;
+pub use verdict::Verdict;
 pub(crate) use ziv::climb;
 
 /// Covers the roundings of an error bound's own computation, in doubles and in singles.
