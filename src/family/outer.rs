@@ -32,12 +32,10 @@ pub(super) fn lanes<S: Simd>(simd: S, sines: &Sines<f64>, kappa0: S::f64s, kappa
     (yes.to_bitmask(), no.to_bitmask())
 }
 
-/// The same for enclosed numbers; `None` when the precision does not suffice.
+/// The same for enclosed numbers; undecided when the precision does not suffice.
 pub(super) fn holds<N: Certain>(sines: &Sines<N>, kappa0: &N, kappa1: &N) -> Verdict {
-    let positive = |x: &N| x.certain_sign(0.0).map(|sign| sign == Greater);
+    let positive = |x: &N| Verdict::from(x.certain_sign(0.0).map(|sign| sign == Greater));
     let (room0, room1) = (sines[0].sub(kappa0), kappa1.sub(&sines[1]));
-    if !positive(&room0)? || !positive(&room1)? {
-        return Some(false);
-    }
-    positive(&formula!(room0 * room1 - sines[2]))
+    let rooms = positive(&room0).and(positive(&room1));
+    if rooms.is_yes() { positive(&formula!(room0 * room1 - sines[2])) } else { rooms }
 }

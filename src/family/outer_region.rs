@@ -21,7 +21,6 @@ use super::hermite::holds_box;
 use super::region::{Facts, MOST_SIDES, add_pull, positive, sides};
 use crate::num::bernstein::Certain;
 use crate::num::sines::{SIN_ERROR, sin};
-use crate::num::verdict::and;
 use crate::num::{Ball, Form, Number, Verdict, formula};
 use std::cmp::Ordering::{Greater, Less};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -69,7 +68,7 @@ fn fails_within_domain([phi0, phi1, kappa0, kappa1]: &[[f64; 2]; 4]) -> bool {
     let angles = phi0[0] > 0.0 && phi1[0] > 0.0 && phi1[1] <= PI;
     let most = phi0[1].min(FRAC_PI_2.next_up());
     let finite = [kappa0, kappa1].into_iter().flatten().all(|x| x.is_finite());
-    angles && finite && (phi0[0] > most || any(&[[phi0[0], most], *phi1, *kappa0, *kappa1]).0 == Some(false))
+    angles && finite && (phi0[0] > most || any(&[[phi0[0], most], *phi1, *kappa0, *kappa1]).0.is_no())
 }
 
 /// [`super::Region::facts`] of a family with the domain of [`super::hermite`]: what `prove` says of a box in it, and of
@@ -78,7 +77,7 @@ pub(super) fn facts(low: &[f64], high: &[f64], none: u8, prove: impl FnOnce(&[[f
     let mut facts = Facts::default();
     match sides(low, high) {
         Some(sides) if holds_box(&sides) => return prove(&sides),
-        Some(sides) if fails_within_domain(&sides) => facts.note(none, Some(false)),
+        Some(sides) if fails_within_domain(&sides) => facts.note(none, Verdict::No),
         _ => {}
     }
     facts
@@ -88,31 +87,31 @@ pub(super) fn facts(low: &[f64], high: &[f64], none: u8, prove: impl FnOnce(&[[f
 pub(super) fn any(box_: &[[f64; 2]; 4]) -> (Verdict, [f64; 4]) {
     let [phi0, phi1, kappa0, kappa1] = *box_;
     if phi0[0] >= phi1[1] {
-        return (Some(false), [0.0; 4]);
+        return (Verdict::No, [0.0; 4]);
     }
     let exact = |value| Ball { value, error: 0.0 };
     let below = phi0[1] < phi1[0];
     let corner = |p0: f64, p1: f64, k0: f64, k1: f64| compare(&sine(p0).plus(-k0), &exact(k1).sub(&sine(p1)), p1 - p0);
     if below && (kappa0[0] >= 0.0 || phi1[1] <= FRAC_PI_2) {
         if corner(phi0[0], phi1[1], kappa0[1], kappa1[0]).0 {
-            return (Some(true), [0.0; 4]);
+            return (Verdict::Yes, [0.0; 4]);
         }
         if corner(phi0[1], phi1[0], kappa0[0], kappa1[1]).1 {
-            return (Some(false), [0.0; 4]);
+            return (Verdict::No, [0.0; 4]);
         }
     }
     let ([s0, s0_most], [s1, s1_most]) = (sines([phi0[0], phi0[1].min(FRAC_PI_2.max(phi0[0]))]), sines(phi1));
     let (u, u_most) = (s0.plus(-kappa0[1]), s0_most.plus(-kappa0[0]));
     let (v, v_most) = (exact(kappa1[0]).sub(&s1_most), exact(kappa1[1]).sub(&s1));
     if below && compare(&u, &v, phi1[1] - phi0[0]).0 {
-        return (Some(true), [0.0; 4]);
+        return (Verdict::Yes, [0.0; 4]);
     }
     if compare(&u_most, &v_most, phi1[0] - phi0[1]).1 {
-        return (Some(false), [0.0; 4]);
+        return (Verdict::No, [0.0; 4]);
     }
     let (u, v) = (u_most.value.max(0.0), v_most.value.max(0.0));
     let width = |side: [f64; 2]| side[1] - side[0];
-    (None, [width(phi0) * v, width(phi1) * u, width(kappa0) * v, width(kappa1) * u])
+    (Verdict::Undecided, [width(phi0) * v, width(phi1) * u, width(kappa0) * v, width(kappa1) * u])
 }
 
 /// Whether a spiral of rising curvature exists, wherever `φ0 < φ1`, for forms of φ0, φ1, κ0, κ1.
@@ -121,9 +120,9 @@ pub(super) fn rising([phi0, phi1, kappa0, kappa1]: &[Form<4, 10>; 4], pull: &mut
     // Halving is exact but for what underflows, which the forms' errors cover.
     let half = phi1.times(0.5).sine_of_sum(&phi0.times(-0.5));
     let f = formula!(u * v - half * half);
-    let known = and(and(positive(&u), positive(&v)), positive(&f));
-    if known.is_none() {
-        [u, v, f].iter().filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));
+    let known = Verdict::all([positive(&u), positive(&v), positive(&f)]);
+    if known.is_open() {
+        [u, v, f].iter().filter(|form| positive(form).is_open()).for_each(|form| add_pull(pull, form));
     }
     known
 }

@@ -53,13 +53,7 @@ pub(super) fn clip_side(low: &mut f64, high: &mut f64, least: f64, most: f64) ->
 
 /// Whether a form is positive, or negative, all over the box.
 pub(super) fn positive<const K: usize, const H: usize>(form: &Form<K, H>) -> Verdict {
-    if form.low() > 0.0 {
-        Some(true)
-    } else if form.high() < 0.0 {
-        Some(false)
-    } else {
-        None
-    }
+    Verdict::proved(form.low() > 0.0, form.high() < 0.0)
 }
 
 /// Adds how much each coordinate moves a form, for its size.
@@ -74,9 +68,9 @@ impl Facts {
     /// Notes what is known of some flags.
     pub(super) fn note(&mut self, flags: u8, known: Verdict) {
         match known {
-            Some(true) => self.inside |= flags,
-            Some(false) => self.outside |= flags,
-            None => {}
+            Verdict::Yes => self.inside |= flags,
+            Verdict::No => self.outside |= flags,
+            Verdict::Undecided => {}
         }
     }
 }
@@ -88,10 +82,10 @@ pub(super) fn unit_sign<const K: usize, const H: usize>(quintic: &Quintic<Form<K
     let (value, t) = least(&middle);
     let lowest = at(quintic, t);
     if value < 0.0 {
-        return (lowest.high() < 0.0).then_some(false);
+        return Verdict::proved(false, lowest.high() < 0.0);
     }
     // Where it is not positive even there, no halving helps. Elsewhere pieces stay open near its least value alone.
-    (lowest.low() > 0.0 && above(quintic, MOST_HALVINGS)).then_some(true)
+    Verdict::proved(lowest.low() > 0.0 && above(quintic, MOST_HALVINGS), false)
 }
 
 /// Halvings of [0, 1] at most: a least value of 2^-50 of the coefficients, below which their errors are, needs half as

@@ -102,7 +102,7 @@ pub(crate) fn halve<N: Number, const K: usize>(c: &[N; K]) -> ([N; K], [N; K]) {
     (left, right)
 }
 
-/// Whether the polynomial is positive on [0, 1] (`Some(true)`), negative somewhere (`Some(false)`), or not decided.
+/// Whether the polynomial is positive on [0, 1] (yes), negative somewhere (no), or not decided.
 ///
 /// # Arguments
 /// - `error`: how far each coefficient may be from the truth (0 for intervals).
@@ -124,26 +124,23 @@ fn largest<N: Certain, const K: usize>(c: &[N; K]) -> f64 {
 
 fn positive_piece<N: Certain, const K: usize>(c: &[N; K], error: f64, unit: f64, depth: u32) -> Verdict {
     if [&c[0], &c[K - 1]].iter().any(|v| v.certain_sign(error) == Some(Ordering::Less)) {
-        return Some(false);
+        return Verdict::No;
     }
     if c.iter().all(|v| v.certain_sign(error) == Some(Ordering::Greater)) {
-        return Some(true);
+        return Verdict::Yes;
     }
     // Where nothing is certain, halving cannot help; this also keeps the recursion from branching at a tie.
     if depth == 0 || c.iter().all(|v| v.certain_sign(error).is_none()) {
-        return None;
+        return Verdict::Undecided;
     }
     let balanced = N::balanced(c);
     let (left, right) = halve(balanced.as_ref().unwrap_or(c));
     let error = error + unit * largest(c);
     match positive_piece(&left, error, unit, depth - 1) {
-        Some(false) => Some(false),
-        Some(true) => positive_piece(&right, error, unit, depth - 1),
+        Verdict::No => Verdict::No,
+        Verdict::Yes => positive_piece(&right, error, unit, depth - 1),
         // One half may still prove it negative.
-        None => match positive_piece(&right, error, unit, depth - 1) {
-            Some(false) => Some(false),
-            _ => None,
-        },
+        Verdict::Undecided => positive_piece(&right, error, unit, depth - 1).only_no(),
     }
 }
 
@@ -295,11 +292,11 @@ mod tests {
                 // The tie itself and anything within the error must be withheld; clear cases must be decided.
                 for (height, truth) in [(height, true), (-height, false)] {
                     let verdict = positive(&parabola(z, height), 1e-15, 1e-15, 24);
-                    assert!(verdict.is_none_or(|v| v == truth), "z {z} height {height}");
-                    assert!(exponent > 12 || verdict == Some(truth), "z {z} height {height} is undecided");
+                    assert!(verdict != Verdict::of(!truth), "z {z} height {height}");
+                    assert!(exponent > 12 || verdict == Verdict::of(truth), "z {z} height {height} is undecided");
                 }
             }
-            assert_eq!(positive(&parabola(z, 0.0), 1e-15, 1e-15, 24), None, "a tie at {z}");
+            assert_eq!(positive(&parabola(z, 0.0), 1e-15, 1e-15, 24), Verdict::Undecided, "a tie at {z}");
         }
     }
 
@@ -322,7 +319,7 @@ mod tests {
                 let mut back = c.clone();
                 back.reverse();
                 for c in [c, back] {
-                    assert_eq!(positive(&c, 0.0, 0.0, 16), Some(verdict), "2^-{exponent}, {height}");
+                    assert_eq!(positive(&c, 0.0, 0.0, 16), Verdict::of(verdict), "2^-{exponent}, {height}");
                 }
             }
         }

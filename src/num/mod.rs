@@ -12,7 +12,7 @@ mod number;
 pub(crate) mod roots;
 pub(crate) mod sines;
 mod twin;
-pub(crate) mod verdict;
+mod verdict;
 mod ziv;
 
 pub(crate) use ball::Ball;
@@ -23,7 +23,7 @@ pub(crate) use ieee::demand_ieee;
 pub(crate) use interval::Interval;
 pub(crate) use number::{Angle, Lanes, Number, Real};
 pub(crate) use twin::{TWIN_BITS, Twin};
-pub(crate) use verdict::Verdict;
+pub use verdict::Verdict;
 pub(crate) use ziv::climb;
 
 /// Covers the roundings of an error bound's own computation, in doubles and in singles.

@@ -49,12 +49,14 @@ mod spline;
 mod tridiagonal;
 mod way;
 
+pub use crate::num::Verdict;
 pub use corner::Turn;
 pub use course::{Course, OffsetCurve, Spot, Summary};
 pub use least_curvature::{Directions, Free, LeastCurvature, least_curvature};
 pub use motion::Motion;
 pub use plan::{Clearance, Corner, Plan, Proof, Scene, plan, prove};
-pub use separation::{Closest, Separation, Verdict, separation, separations};
+pub(crate) use separation::kept;
+pub use separation::{Closest, Separation, separation, separations};
 pub use spline::{Spline, spline};
 
 use crate::curve::PhQuintic;

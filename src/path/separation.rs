@@ -10,7 +10,7 @@
 use super::motion::{Motion, State};
 use super::{distance, finite};
 use crate::error::{Error, Result};
-use crate::num::demand_ieee;
+use crate::num::{Verdict, demand_ieee};
 use crate::queue::Queue;
 use crate::steps::step;
 
@@ -20,18 +20,6 @@ const STRETCHES: usize = 100_000;
 const ALL_STRETCHES: usize = 1_000_000;
 /// The least separation is enclosed to this share of the greatest length and coordinate, or as rounding allows.
 const TOLERANCE: f64 = 1e-10;
-
-/// Whether a minimum distance is kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// At all times: proved.
-    Kept,
-    /// At some time it is not: proved.
-    Violated,
-    /// The least separation is too close to the minimum to tell in doubles.
-    Undecided,
-}
 
 /// The closest approach.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -49,10 +37,21 @@ pub struct Closest {
 /// What is known of two motions.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Separation {
-    /// Whether the minimum distance is kept.
+    /// Whether the minimum distance is kept at all times. It is undecided where the least separation is too close to the
+    /// minimum to tell in doubles. JSON says `kept`, `violated` or `undecided`.
+    #[serde(serialize_with = "kept")]
     pub verdict: Verdict,
     /// The closest approach.
     pub closest: Closest,
+}
+
+/// Writes whether a minimum distance is kept.
+pub(crate) fn kept<S: serde::Serializer>(verdict: &Verdict, to: S) -> std::result::Result<S::Ok, S::Error> {
+    to.serialize_str(match verdict {
+        Verdict::Yes => "kept",
+        Verdict::No => "violated",
+        Verdict::Undecided => "undecided",
+    })
 }
 
 /// Whether two vehicles keep a minimum distance, and how near they come.
@@ -60,7 +59,7 @@ pub struct Separation {
 /// At all times: before its start time a vehicle stands at its start, and once it has arrived at its end.
 ///
 /// # Accuracy
-/// [`Verdict::Kept`] and [`Verdict::Violated`] are proved for the curves given, roundings included. The least
+/// [`Verdict::Yes`] and [`Verdict::No`] are proved for the curves given, roundings included. The least
 /// separation is enclosed to 1e-10 of the size of the scene (lengths and coordinates) where 100,000 stretches suffice;
 /// the enclosure holds in any case.
 ///
@@ -71,7 +70,7 @@ pub fn separation(a: &Motion, b: &Motion, minimum: f64) -> Result<Separation> {
     check(minimum)?;
     let tolerance = tolerance(a, b);
     let mut search = Search::new(a, b);
-    search.run(STRETCHES, |least, most| decided(minimum, least, most) && most - least <= tolerance);
+    search.run(STRETCHES, |least, most| !verdict(minimum, least, most).is_open() && most - least <= tolerance);
     Ok(search.found(minimum))
 }
 
@@ -90,7 +89,7 @@ pub fn separations(motions: &[Motion], minimum: f64) -> Result<Vec<(usize, usize
     let mut searches: Vec<(usize, usize, Search)> =
         pairs.map(|(i, j)| (i, j, Search::new(&motions[i], &motions[j]))).collect();
     for (_, _, search) in &mut searches {
-        search.run(STRETCHES, |least, most| decided(minimum, least, most));
+        search.run(STRETCHES, |least, most| !verdict(minimum, least, most).is_open());
     }
     let mut order: Vec<usize> = (0..searches.len()).collect();
     order.sort_by(|i, j| searches[*i].2.best.0.total_cmp(&searches[*j].2.best.0));
@@ -111,8 +110,8 @@ fn check(minimum: f64) -> Result<()> {
     Ok(())
 }
 
-fn decided(minimum: f64, at_least: f64, at_most: f64) -> bool {
-    at_least >= minimum || at_most < minimum
+fn verdict(minimum: f64, at_least: f64, at_most: f64) -> Verdict {
+    Verdict::proved(at_least >= minimum, at_most < minimum)
 }
 
 fn tolerance(a: &Motion, b: &Motion) -> f64 {
@@ -169,11 +168,7 @@ impl Search<'_> {
     /// What is known by now.
     fn found(&self, minimum: f64) -> Separation {
         let ((at_most, time, points), at_least) = (self.best, self.at_least);
-        let verdict = match () {
-            () if at_least >= minimum => Verdict::Kept,
-            () if at_most < minimum => Verdict::Violated,
-            () => Verdict::Undecided,
-        };
+        let verdict = verdict(minimum, at_least, at_most);
         Separation { verdict, closest: Closest { time, points, at_least, at_most } }
     }
 
@@ -289,7 +284,7 @@ mod tests {
                     (closest.at_most - apart).abs() < 1e-9 && apart - closest.at_least < 1e-9,
                     "{i} {j}: {found:?}"
                 );
-                assert_eq!(found.verdict == Verdict::Kept, apart > 1.000001 * minimum, "{i} {j}: {found:?}");
+                assert_eq!(found.verdict == Verdict::Yes, apart > 1.000001 * minimum, "{i} {j}: {found:?}");
             }
         }
         // On circles around one centre, as fast as they are wide.
@@ -305,7 +300,7 @@ mod tests {
         };
         let motions: Vec<Motion> = (0..30).map(circle).collect();
         let (steps, found) = counted(|| separations(&motions, 0.005).unwrap());
-        assert!(found.iter().all(|(_, _, found)| found.verdict == Verdict::Kept), "{found:?}");
+        assert!(found.iter().all(|(_, _, found)| found.verdict == Verdict::Yes), "{found:?}");
         assert!(steps < ALL_STRETCHES + 100 * found.len(), "{steps}");
         let [first, ..] = &found[..] else { panic!() };
         assert!(first.2.closest.at_most - first.2.closest.at_least < 1e-7, "{first:?}");

@@ -2,7 +2,7 @@
 
 use super::property::{Cell, Property};
 use crate::error::{Error, Result};
-use crate::num::demand_ieee;
+use crate::num::{Verdict, demand_ieee};
 use std::collections::{HashMap, VecDeque};
 
 /// Most cells along a side.
@@ -160,8 +160,8 @@ impl<'p> Slice<'p> {
             }
             boxes += 1;
             match self.property.over(&cell) {
-                Some(false) => {}
-                Some(true) if cell == whole => {}
+                Verdict::No => {}
+                Verdict::Yes if cell == whole => {}
                 _ if size == 1 => mixed.push(at),
                 _ => {
                     let half = size / 2;
@@ -221,13 +221,13 @@ impl<'p> Slice<'p> {
         if !self.property.clip(&mut cell) {
             return (false, 0);
         }
-        let holds = self.corners.get(&at).copied();
+        let holds = Verdict::from(self.corners.get(&at).copied());
         let (mut boxes, mut waiting) = (0, VecDeque::from([cell]));
         while let Some(cell) = waiting.pop_front() {
             boxes += 1;
             match self.property.over(&cell) {
-                Some(known) if Some(known) == holds => {}
-                None if boxes < MOST_PARTS => {
+                known if known == holds && !known.is_open() => {}
+                Verdict::Undecided if boxes < MOST_PARTS => {
                     let relative = |axis: &usize| {
                         (cell.high[*axis] - cell.low[*axis]) / (self.whole_side(*axis)).max(f64::MIN_POSITIVE)
                     };

@@ -3,7 +3,7 @@
 use super::property::{Cell, Property};
 use crate::error::{Error, Result};
 use crate::family::MOST_SIDES;
-use crate::num::demand_ieee;
+use crate::num::{Verdict, demand_ieee};
 use crate::queue::Queue;
 
 /// The search ends when the best distance is at most 1 + this times the proved lower bound.
@@ -139,17 +139,17 @@ impl Search<'_> {
             self.boxes += 1;
             let facts = self.property.facts(&cell);
             match self.property.verdict(&facts) {
-                Some(false) => continue,
+                Verdict::No => continue,
                 // Its nearest point is the nearest of all that are left.
-                Some(true) => {
+                Verdict::Yes => {
                     self.offer(self.metric.clamped(&cell))?;
                     return Ok(distance);
                 }
-                None if self.boxes.is_multiple_of(OFFERS) || self.best.is_none() => {
+                Verdict::Undecided if self.boxes.is_multiple_of(OFFERS) || self.best.is_none() => {
                     let middle = |i: usize| 0.5 * cell.low[i] + 0.5 * cell.high[i];
                     self.offer((0..self.metric.point.len()).map(middle).collect())?;
                 }
-                None => {}
+                Verdict::Undecided => {}
             }
             if let Some(parts) = divided(&self.metric, &cell, facts.pull) {
                 parts.into_iter().for_each(|part| self.push(&mut waiting, part));

@@ -73,11 +73,7 @@ impl Property {
     }
 
     pub(super) fn verdict(&self, facts: &Facts) -> Verdict {
-        match (facts.inside & self.flag != 0, facts.outside & self.flag != 0) {
-            (true, _) => Some(true),
-            (_, true) => Some(false),
-            _ => None,
-        }
+        Verdict::proved(facts.inside & self.flag != 0, facts.outside & self.flag != 0)
     }
 
     /// Shrinks a box to its part in the family's domain. False where there is none.

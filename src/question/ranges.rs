@@ -123,14 +123,14 @@ fn divided(property: &Property, whole: Cell, axis: usize) -> (Vec<([f64; 2], Ver
     while let Some((_, cell)) = waiting.pop() {
         let side = [cell.low[axis], cell.high[axis]];
         if boxes == MOST_BOXES {
-            parts.push((side, None));
+            parts.push((side, Verdict::Undecided));
             continue;
         }
         boxes += 1;
         let known = property.over(&cell);
         let narrow = side[1] - side[0] <= NARROW * side[0].abs().max(side[1].abs());
         match cell.middle(axis) {
-            Some(middle) if known.is_none() && !narrow => {
+            Some(middle) if known.is_open() && !narrow => {
                 cell.parts(axis, middle).into_iter().for_each(|part| push(&mut waiting, part));
             }
             _ => parts.push((side, known)),
@@ -149,24 +149,24 @@ fn gathered(parts: &[([f64; 2], Verdict)], boxes: usize) -> Ranges {
         }
     }
     let part = |i: Option<usize>| i.and_then(|i| merged.get(i));
-    let known = |i: Option<usize>| part(i).and_then(|(_, known)| *known);
+    let known = |i: Option<usize>| part(i).map_or(Verdict::Undecided, |(_, known)| *known);
     let mut found = Ranges { ranges: Vec::new(), open: Vec::new(), boxes };
     for (i, (side, verdict)) in merged.iter().enumerate() {
         let (before, after) = (i.checked_sub(1), Some(i + 1));
         match verdict {
-            Some(true) => {
+            Verdict::Yes => {
                 // An open interval beside it is its edge, unless another range begins beyond that.
                 let edge = |next: Option<usize>, beyond: Option<usize>| {
-                    part(next).filter(|(_, open)| open.is_none() && known(beyond) != Some(true)).map(|(gap, _)| gap)
+                    part(next).filter(|(_, open)| open.is_open() && !known(beyond).is_yes()).map(|(gap, _)| gap)
                 };
                 let low = edge(before, i.checked_sub(2)).map_or(side[0], |gap| gap[0]);
                 let high = edge(after, Some(i + 2)).map_or(side[1], |gap| gap[1]);
                 found.ranges.push(Range { ends: *side, cut: [false; 2], inner: *side, outer: [low, high] });
             }
-            Some(false) => {}
+            Verdict::No => {}
             // Undecided between a yes and a no: the end of a range, already told by its `outer`.
-            None if matches!((known(before), known(after)), (Some(a), Some(b)) if a != b) => {}
-            None => found.open.push(*side),
+            Verdict::Undecided if !known(before).is_open() && known(after) == !known(before) => {}
+            Verdict::Undecided => found.open.push(*side),
         }
     }
     found

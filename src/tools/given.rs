@@ -3,7 +3,7 @@
 use super::Tool;
 use super::input::objects;
 use crate::error::{Error, Result};
-use crate::path::{Course, Motion, OffsetCurve, Separation, Spot, Summary, Verdict, separations};
+use crate::path::{Course, Motion, OffsetCurve, Separation, Spot, Summary, Verdict, kept, separations};
 use crate::plain::count;
 use crate::transition::{Piece, Station};
 use serde::{Deserialize, Serialize};
@@ -68,6 +68,7 @@ pub struct Separations {
     /// The distance to keep.
     pub minimum: f64,
     /// Of all pairs: the worst.
+    #[serde(serialize_with = "kept")]
     pub verdict: Verdict,
     /// Each two.
     pub pairs: Vec<Pair>,
@@ -92,8 +93,7 @@ impl Separations {
     /// [`Error::Domain`] for a minimum that is negative or not finite.
     pub fn new(motions: &[Motion], minimum: f64) -> Result<Separations> {
         let found = separations(motions, minimum)?;
-        let worst = |verdict| found.iter().any(|(_, _, f)| f.verdict == verdict);
-        let verdict = [Verdict::Violated, Verdict::Undecided].into_iter().find(|v| worst(*v)).unwrap_or(Verdict::Kept);
+        let verdict = Verdict::all(found.iter().map(|(_, _, found)| found.verdict));
         let pairs = found.into_iter().map(|(first, second, found)| Pair { first, second, found }).collect();
         Ok(Separations { minimum, verdict, pairs })
     }

@@ -171,6 +171,6 @@ fn in_step_with_a_line_or_a_circle() {
         let (a, b) = (Motion::new([one.clone()], v1, 0.0).unwrap(), Motion::new([two], v2, 0.0).unwrap());
         let verdict = |minimum: f64| separation(&a, &b, minimum).unwrap().verdict;
         let near = [verdict(1.0 - 1e-7), verdict(1.0), verdict(1.0 + 1e-7)];
-        assert_eq!(near, [Verdict::Kept, Verdict::Undecided, Verdict::Violated], "{one:?}");
+        assert_eq!(near, [Verdict::Yes, Verdict::Undecided, Verdict::No], "{one:?}");
     }
 }

@@ -46,7 +46,7 @@ fn published_closest_approaches() {
         let verdict = |minimum: f64| separation(&a, &b, minimum).unwrap().verdict;
         assert_eq!(
             (verdict(least * (1.0 - 1e-9)), verdict(least * (1.0 + 1e-9))),
-            (Verdict::Kept, Verdict::Violated),
+            (Verdict::Yes, Verdict::No),
             "{case}"
         );
         assert!(!enclosed(&found, least * 1.001 + 1e-6, 1e-8));
@@ -138,11 +138,11 @@ fn samples_that_miss_the_meeting_fool_nobody() {
     assert!((0..1000).map(|k| sampled(f64::from(k) * 1.9997)).all(|d| d > 0.05));
     let verdict = |minimum: f64| separation(&a, &b, minimum).unwrap();
     assert!(enclosed(&verdict(1e-4), 1e-4, 1e-6), "{:?}", verdict(1e-4));
-    assert_eq!((verdict(1.001e-4).verdict, verdict(0.999e-4).verdict), (Verdict::Violated, Verdict::Kept));
+    assert_eq!((verdict(1.001e-4).verdict, verdict(0.999e-4).verdict), (Verdict::No, Verdict::Yes));
     // Dead on time: they meet, which keeps no distance at all.
     let b = Motion::new(line([0.0, -777.0], [0.0, 1111.0]), 1.0, 223.0).unwrap();
     let met = separation(&a, &b, 1e-9).unwrap();
-    assert!(met.verdict == Verdict::Violated && met.closest.at_least == 0.0);
+    assert!(met.verdict == Verdict::No && met.closest.at_least == 0.0);
 }
 
 #[test]
@@ -150,26 +150,26 @@ fn moving_in_step_and_behind_each_other() {
     let a = Motion::new(line([0.0, 0.0], [10.0, 0.0]), 2.0, 0.0).unwrap();
     let beside = Motion::new(line([0.0, 1.0], [10.0, 1.0]), 2.0, 0.0).unwrap();
     let verdict = |b: &Motion, minimum: f64| separation(&a, b, minimum).unwrap().verdict;
-    assert_eq!((verdict(&beside, 1.0 - 1e-9), verdict(&beside, 1.0 + 1e-9)), (Verdict::Kept, Verdict::Violated));
+    assert_eq!((verdict(&beside, 1.0 - 1e-9), verdict(&beside, 1.0 + 1e-9)), (Verdict::Yes, Verdict::No));
     // Exactly the minimum: doubles cannot tell, and it says so.
     assert_eq!(verdict(&beside, 1.0), Verdict::Undecided);
     // The same path half a unit of time later: it waits where the other one starts.
     let behind = Motion::new(line([0.0, 0.0], [10.0, 0.0]), 2.0, 0.5).unwrap();
-    assert_eq!((verdict(&behind, 1e-9), verdict(&behind, 0.0)), (Verdict::Violated, Verdict::Kept));
+    assert_eq!((verdict(&behind, 1e-9), verdict(&behind, 0.0)), (Verdict::No, Verdict::Yes));
     let behind = Motion::new(line([-1.0, 0.0], [9.0, 0.0]), 2.0, 0.0).unwrap();
-    assert_eq!((verdict(&behind, 0.999_999), verdict(&behind, 1.000_001)), (Verdict::Kept, Verdict::Violated));
+    assert_eq!((verdict(&behind, 0.999_999), verdict(&behind, 1.000_001)), (Verdict::Yes, Verdict::No));
     // The same motion.
-    assert_eq!((verdict(&a.clone(), 1e-6), verdict(&a.clone(), 0.0)), (Verdict::Violated, Verdict::Kept));
+    assert_eq!((verdict(&a.clone(), 1e-6), verdict(&a.clone(), 0.0)), (Verdict::No, Verdict::Yes));
     // One moment in common.
     let relay = Motion::new(line([13.0, 4.0], [20.0, 0.0]), 2.0, 5.0).unwrap();
     let found = separation(&a, &relay, 4.9).unwrap();
-    assert!(found.verdict == Verdict::Kept && enclosed(&found, 5.0, 1e-11), "{found:?}");
+    assert!(found.verdict == Verdict::Yes && enclosed(&found, 5.0, 1e-11), "{found:?}");
     // Bent curves in step.
     let bent = PhQuintic::new([0.0, 0.0], [[1.0, 0.0], [1.0, 0.7], [0.5, 1.0]]);
     let moved = PhQuintic::new([0.3, 0.4], bent.preimage);
     let pair = [bent, moved].map(|c| Motion::new(vec![c], 1.0, 0.0).unwrap());
     let found = separation(&pair[0], &pair[1], 0.5 - 1e-8).unwrap();
-    assert!(found.verdict == Verdict::Kept && enclosed(&found, 0.5, 1e-8), "{found:?}");
+    assert!(found.verdict == Verdict::Yes && enclosed(&found, 0.5, 1e-8), "{found:?}");
 }
 
 #[test]
@@ -187,28 +187,28 @@ fn vehicles_that_wait_or_have_arrived_are_in_the_way() {
     // there yet.
     let waits = found([7.0, 0.1], [7.0, 5.0], 100.0);
     assert!(
-        waits.verdict == Verdict::Violated && enclosed(&waits, 0.1, 1e-8) && (waits.closest.time - 3.5).abs() < 1e-3,
+        waits.verdict == Verdict::No && enclosed(&waits, 0.1, 1e-8) && (waits.closest.time - 3.5).abs() < 1e-3,
         "{waits:?}"
     );
     let leaves = found([7.0, 0.1], [7.0, 5.0], -10.0);
-    assert!(leaves.verdict == Verdict::Kept && enclosed(&leaves, 5.0, 1e-7), "{leaves:?}");
+    assert!(leaves.verdict == Verdict::Yes && enclosed(&leaves, 5.0, 1e-7), "{leaves:?}");
     let arrived = found([7.0, 5.0], [7.0, 0.1], -100.0);
-    assert!(arrived.verdict == Verdict::Violated && enclosed(&arrived, 0.1, 1e-8), "{arrived:?}");
+    assert!(arrived.verdict == Verdict::No && enclosed(&arrived, 0.1, 1e-8), "{arrived:?}");
     let late = found([7.0, 5.0], [7.0, 0.1], 100.0);
-    assert!(late.verdict == Verdict::Kept && enclosed(&late, (3f64 * 3.0 + 0.1 * 0.1).sqrt(), 1e-8), "{late:?}");
+    assert!(late.verdict == Verdict::Yes && enclosed(&late, (3f64 * 3.0 + 0.1 * 0.1).sqrt(), 1e-8), "{late:?}");
     // Neither moves while the other does: the nearest is where one stood and the other one stands.
     let relay = found([10.0, 0.25], [20.0, 0.25], 5.1);
-    assert!(relay.verdict == Verdict::Violated && enclosed(&relay, 0.25, 1e-8), "{relay:?}");
+    assert!(relay.verdict == Verdict::No && enclosed(&relay, 0.25, 1e-8), "{relay:?}");
     let apart = found([10.0, 4.0], [20.0, 4.0], 5.1);
     assert!(
-        apart.verdict == Verdict::Kept && enclosed(&apart, 4.0, 1e-8) && !enclosed(&apart, 4.001, 1e-8),
+        apart.verdict == Verdict::Yes && enclosed(&apart, 4.0, 1e-8) && !enclosed(&apart, 4.001, 1e-8),
         "{apart:?}"
     );
     // A corner on its way does not matter to one that stands.
     let corner = [line([7.0, 1.0], [7.0, 2.0]), line([7.0, 2.0], [9.0, 2.0])].concat();
     let b = Motion::new(corner, 1.0, 50.0).unwrap();
     let found = separation(&a, &b, 0.9999).unwrap();
-    assert!(found.verdict == Verdict::Kept && enclosed(&found, 1.0, 1e-8), "{found:?}");
+    assert!(found.verdict == Verdict::Yes && enclosed(&found, 1.0, 1e-8), "{found:?}");
 }
 
 #[test]
@@ -221,7 +221,7 @@ fn curves_that_stand_still_and_corners_are_bounded_by_speed() {
     let a = Motion::new(corner, 1.0, 0.0).unwrap();
     let b = Motion::new(line([2.0, 0.0], [0.0, 0.0]), 1.0, 0.0).unwrap();
     let found = separation(&a, &b, 1e-3).unwrap();
-    assert!(found.verdict == Verdict::Violated && found.closest.at_most < 1e-7, "{found:?}");
+    assert!(found.verdict == Verdict::No && found.closest.at_most < 1e-7, "{found:?}");
 }
 
 #[test]

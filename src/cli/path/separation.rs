@@ -33,5 +33,5 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
     let pairs = count(found.pairs.len(), "pair");
     let title = format!("{} vehicles, {pairs}, least separation {:.6}", motions.len(), found.least());
     let done = args.files.finish(&found, || figure::separations(&motions, &found, title))?;
-    Ok(if found.verdict == Verdict::Kept { done } else { Outcome::Bad })
+    Ok(if found.verdict == Verdict::Yes { done } else { Outcome::Bad })
 }

@@ -58,6 +58,7 @@ impl Datum {
         let (exists, bits) = climb(self, "the existence of a spiral", |bits| {
             let (sin0, sin1, square) = this.sines(bits);
             outer::holds(&[-&sin0, sin1, square], &Interval::new(this.k1, bits), &Interval::new(this.k2, bits))
+                .decided()
         })?;
         Ok((code(exists), bits))
     }

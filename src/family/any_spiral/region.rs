@@ -15,7 +15,6 @@ use crate::family::outer_region::rising;
 use crate::family::region::{Facts, MOST_SIDES, Region, clip_side, sides};
 use crate::num::Form;
 use crate::num::Verdict;
-use crate::num::verdict::and;
 use std::f64::consts::PI;
 
 /// A form in φ0, φ1, κ0, κ1.
@@ -33,24 +32,13 @@ fn side(data: [[f64; 2]; 4], pull: &mut [f64; MOST_SIDES]) -> Verdict {
 
 /// Whether `a < b`, for every a and b of two ranges.
 fn below(a: [f64; 2], b: [f64; 2]) -> Verdict {
-    if a[1] < b[0] {
-        Some(true)
-    } else if a[0] >= b[1] {
-        Some(false)
-    } else {
-        None
-    }
+    Verdict::proved(a[1] < b[0], a[0] >= b[1])
 }
 
 /// Whether two numbers have opposite signs.
 fn opposite(a: [f64; 2], b: [f64; 2]) -> Verdict {
-    if a[1] < 0.0 && b[0] > 0.0 || a[0] > 0.0 && b[1] < 0.0 {
-        Some(true)
-    } else if (a[0] >= 0.0 || b[1] <= 0.0) && (a[1] <= 0.0 || b[0] >= 0.0) {
-        Some(false)
-    } else {
-        None
-    }
+    let differ = a[1] < 0.0 && b[0] > 0.0 || a[0] > 0.0 && b[1] < 0.0;
+    Verdict::proved(differ, (a[0] >= 0.0 || b[1] <= 0.0) && (a[1] <= 0.0 || b[0] >= 0.0))
 }
 
 impl Region for AnySpiral {
@@ -77,30 +65,29 @@ impl Region for AnySpiral {
         let order = below(kappa0, kappa1);
         facts.note(wanted & RISING, order);
         let signs = opposite(kappa0, kappa1);
-        facts.note(wanted & INFLECTION, signs.filter(|differ| !differ));
+        facts.note(wanted & INFLECTION, signs.only_no());
         if wanted & (EXISTS | INFLECTION) & !facts.outside != 0 {
             let data = [phi0, phi1, kappa0, kappa1];
             let mut pull = [0.0; MOST_SIDES];
             let exists = match (below(phi0, phi1), below(phi1, phi0)) {
-                (Some(true), _) => side(data, &mut pull),
-                (_, Some(true)) => side(data.map(negative), &mut pull),
+                (Verdict::Yes, _) => side(data, &mut pull),
+                (_, Verdict::Yes) => side(data.map(negative), &mut pull),
                 (up, down) => {
-                    let refuted =
-                        |sign: Verdict, data, pull: &mut _| sign == Some(false) || side(data, pull) == Some(false);
+                    let refuted = |sign: Verdict, data, pull: &mut _| sign.is_no() || side(data, pull).is_no();
                     let none = refuted(up, data, &mut pull) && refuted(down, data.map(negative), &mut pull);
                     if !none {
                         // The angles alone may part the two.
                         pull[0] += width(phi0);
                         pull[1] += width(phi1);
                     }
-                    none.then_some(false)
+                    Verdict::proved(false, none)
                 }
             };
             facts.note(wanted & EXISTS, exists);
-            facts.note(wanted & INFLECTION & !facts.outside, and(exists, signs));
+            facts.note(wanted & INFLECTION & !facts.outside, exists.and(signs));
             facts.pull = pull;
         }
-        if wanted & RISING != 0 && order.is_none() || wanted & INFLECTION != 0 && signs.is_none() {
+        if wanted & RISING != 0 && order.is_open() || wanted & INFLECTION != 0 && signs.is_open() {
             let size = [kappa0, kappa1].iter().flatten().fold(f64::MIN_POSITIVE, |size, x| size.max(x.abs()));
             facts.pull[2] += width(kappa0) / size;
             facts.pull[3] += width(kappa1) / size;

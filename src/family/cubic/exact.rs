@@ -7,7 +7,6 @@ use crate::error::Result;
 use crate::family::outer;
 use crate::num::bernstein::{MOST_HALVINGS, Quintic, positive};
 use crate::num::roots::{Curve, bracketed, enclose};
-use crate::num::verdict;
 use crate::num::{Interval, Number, Verdict, climb, formula};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
@@ -65,7 +64,7 @@ pub(super) fn at_precision(datum: &ExactDatum, bits: usize) -> Option<Truth> {
         Ends::Curvature(kappa0, kappa1) => (scale0.scale(kappa0), scale1.scale(kappa1), number(kappa0), number(kappa1)),
         Ends::Normalised(a, k) => (number(a), number(k), number(a).over(&scale0)?, number(k).over(&scale1)?),
     };
-    let any = datum.phi0 < datum.phi1 && outer::holds(&angles.outer, &kappa0, &kappa1)?;
+    let any = datum.phi0 < datum.phi1 && outer::holds(&angles.outer, &kappa0, &kappa1).decided()?;
     let (solvable, parabolas) = match a.sign()? == Greater && k.sign()? == Greater {
         true => isolate(&a, &k)?,
         false => (false, Vec::new()),
@@ -223,21 +222,17 @@ fn judge(angles: &Angles, x: Interval, y: Interval, any: bool) -> Option<ExactRo
         &x * &end[1],
         formula!(5.0 * (x.square() * end[0])),
     ];
-    let theorem = any && verdict::all(x_or_y.iter().map(|(b, w)| half_theorem(b, w)))?;
-    let spiral = theorem || any && positive(&quintic, 0.0, 0.0, MOST_HALVINGS)?;
+    let theorem = any && Verdict::all(x_or_y.iter().map(|(b, w)| half_theorem(b, w))).decided()?;
+    let spiral = theorem || any && positive(&quintic, 0.0, 0.0, MOST_HALVINGS).decided()?;
     Some(ExactRoot { x, y, theorem, spiral, quintic })
 }
 
 /// One half of Theorem 3.1; see `filter::half_theorem`. Exact zeros count as holding, as in the paper.
 fn half_theorem(b: &[Interval; 3], w: &Interval) -> Verdict {
-    let not_negative = |v: &Interval| v.sign().map(|s| s != Less);
+    let not_negative = |v: &Interval| Verdict::from(v.sign().map(|s| s != Less));
     let root = || {
         let over = formula!(8.0 * (b[0] * b[2] * w) - b[1].square());
-        match (not_negative(&b[1]), not_negative(&over)) {
-            (Some(true), _) | (_, Some(true)) => Some(true),
-            (Some(false), Some(false)) => Some(false),
-            _ => None,
-        }
+        not_negative(&b[1]).or(not_negative(&over))
     };
-    verdict::all([not_negative(&b[0]), not_negative(&b[2]), root()])
+    Verdict::all([not_negative(&b[0]), not_negative(&b[2]), root()])
 }

@@ -303,9 +303,9 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
             unclear &= unclear - 1;
             let (c, error) = bernstein(&start, &end, &root, lane);
             match spiral(&c, error) {
-                Some(true) => spirals |= 1 << lane,
-                Some(false) => not_spirals |= 1 << lane,
-                None => {}
+                Verdict::Yes => spirals |= 1 << lane,
+                Verdict::No => not_spirals |= 1 << lane,
+                Verdict::Undecided => {}
             }
         }
         // Theorem 3.1 is sufficient: no spiral, no theorem.

@@ -67,7 +67,7 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
         let ends = given.ends(paper)?;
         // With both angles 0 a real w1 makes a line that runs along the chord.
         if let (Symmetry::Line, Root::Real(_)) = (given.symmetry, &ends.root) {
-            all.straight |= paper && straight::moves_on(datum.size, bits)?;
+            all.straight |= paper && straight::moves_on(datum.size, bits).decided()?;
             continue;
         }
         // With w0 = a, w2 = -b and w1 = (iv - 3(a - b))/4 the slope at the end of b is in proportion to `a - 2b`.

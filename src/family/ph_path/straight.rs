@@ -8,8 +8,7 @@
 use crate::num::{Interval, Verdict, formula};
 use std::cmp::Ordering::{self, Equal, Greater};
 
-/// Whether some line with these end speeds, in chords, moves on throughout; `None` where the precision does not
-/// suffice.
+/// Whether some line with these end speeds, in chords, moves on throughout.
 ///
 /// Z must not be negative.
 pub(super) fn moves_on(size: [f64; 2], bits: usize) -> Verdict {
@@ -18,12 +17,14 @@ pub(super) fn moves_on(size: [f64; 2], bits: usize) -> Verdict {
     let less = sum.plus(-5.0);
     let number = |x: f64| Interval::new(x, bits);
     // 5 - l0 - l1 - ab >= 0: the rest is positive.
-    if sign(&-&less, &number(-1.0), &product)? != Ordering::Less {
-        return Some(true);
+    match sign(&-&less, &number(-1.0), &product) {
+        None => return Verdict::Undecided,
+        Some(Ordering::Less) => {}
+        Some(_) => return Verdict::Yes,
     }
     // (a + b)² m² against its square.
-    let whole = sign(&(&product - &less.square()), &formula!(-sum + 10.0), &product)?;
-    Some(whole == Greater)
+    let whole = sign(&(&product - &less.square()), &formula!(-sum + 10.0), &product);
+    whole.map(|whole| whole == Greater).into()
 }
 
 /// The sign of `x + y √product`.
@@ -45,7 +46,7 @@ mod tests {
     use crate::num::climb;
 
     fn decided(l0: f64, l1: f64) -> bool {
-        climb(&[l0, l1], "a line", |bits| moves_on([l0, l1], bits)).unwrap().0
+        climb(&[l0, l1], "a line", |bits| moves_on([l0, l1], bits).decided()).unwrap().0
     }
 
     /// Against the least value of w, and at the tie l0 = l1 = 5.

@@ -168,8 +168,8 @@ pub(super) fn verdict<N: Turned>(datum: &Datum, bits: usize) -> Option<Code> {
     }
     let best = winners(close, datum, bits)?;
     let flag = |holds: bool, bit: u8| if holds { bit } else { 0 };
-    let ways = best.iter().map(|seen| one_way(&seen.curve.whole)).collect::<Option<Vec<_>>>()?;
-    let inside = flag(peak_inside(&best[0])?, PEAK_INSIDE);
+    let ways = best.iter().map(|seen| one_way(&seen.curve.whole).decided()).collect::<Option<Vec<_>>>()?;
+    let inside = flag(peak_inside(&best[0]).decided()?, PEAK_INSIDE);
     let paper = flag(best[0].curve.paper, PAPER);
     Some(Code::new(REGULAR | flag(ways.contains(&true), ONE_WAY) | inside | paper, 0))
 }
@@ -185,7 +185,7 @@ fn winners<'c, N: Real>(mut close: Vec<Seen<'c, N>>, datum: &Datum, bits: usize)
         return Some(close);
     }
     let alike = datum.theta[0] == datum.theta[1] && others.len() == 1 && others[0].curve.paper == first.curve.paper;
-    if alike && close.iter().all(|seen| peak_inside(seen) == Some(false)) {
+    if alike && close.iter().all(|seen| peak_inside(seen).is_no()) {
         return Some(close);
     }
     let values = close.iter().map(|seen| greatest(seen, bits)).collect::<Option<Vec<_>>>()?;
@@ -199,7 +199,7 @@ fn one_way<N: Real>(curve: &Hodograph<N>) -> Verdict {
     let depth = if turn[0].bits() <= 53 { 20 } else { 100 };
     let [first, _, last] = [0, 1, 2].map(|i| turn[i].certain_sign(0.0));
     match (first, last) {
-        (Some(Greater), Some(Less)) | (Some(Less), Some(Greater)) => Some(false),
+        (Some(Greater), Some(Less)) | (Some(Less), Some(Greater)) => Verdict::No,
         (Some(Less), _) | (_, Some(Less)) => positive(&turn.clone().map(|h| h.times(-1.0)), 0.0, 0.0, depth),
         _ => positive(turn, 0.0, 0.0, depth),
     }
@@ -208,8 +208,12 @@ fn one_way<N: Real>(curve: &Hodograph<N>) -> Verdict {
 /// Whether |κ| is greatest strictly inside, and greater there than at both ends.
 fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Verdict {
     if seen.curve.tied {
-        return Some(false);
+        return Verdict::No;
     }
+    above_ends(seen).into()
+}
+
+fn above_ends<N: Real>(seen: &Seen<'_, N>) -> Option<bool> {
     let part = &seen.part;
     let at = |t: f64| part.curvature(&N::of(t, part.turn[0].bits()));
     // The end of half a curve is no end.

@@ -69,7 +69,7 @@ fn bent<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Option<Res
         }
     }
     if let Some(bent) = side(&second) {
-        return Some(convex([from, to], &slopes, gaps, bent, length).ok_or(Open::Fold));
+        return Some(convex([from, to], &slopes, gaps, bent, length).decided().ok_or(Open::Fold));
     }
     let bent = side(&third)?;
     // From here on signs are those for D''' > 0.
@@ -93,15 +93,15 @@ fn bent<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Option<Res
         () if side(&p).is_some() && q.is_positive() => return Some(Err(Open::Fork)),
         () => return Some(Err(Open::Vague)),
     };
-    Some(convex([from, to], &slopes, gaps, convexity, length).ok_or(Open::Fold))
+    Some(convex([from, to], &slopes, gaps, convexity, length).decided().ok_or(Open::Fold))
 }
 
 /// The same where D'' has one sign.
 fn convex<N: Real>(knots: [&Knot<N>; 2], slopes: &[N; 2], gaps: [Ordering; 2], bent: Ordering, length: &N) -> Verdict {
     if gaps[0] != gaps[1] || gaps[0] != bent {
-        return Some(gaps[0] != gaps[1]);
+        return Verdict::of(gaps[0] != gaps[1]);
     }
     let up = |x: &N| if bent == Less { x.times(-1.0) } else { x.clone() };
     let ([a, b], [p, q]) = (knots.map(|knot| up(&knot.gap)), slopes.each_ref().map(up));
-    above([&a, &b], [&p, &q], length).then_some(false)
+    Verdict::proved(false, above([&a, &b], [&p, &q], length))
 }

@@ -100,7 +100,7 @@ impl<N: Real> March<N> {
         let mut waiting = vec![last];
         for _ in 0..most_looks(self.bits()) {
             let Some(b) = waiting.last() else { return Some(brackets) };
-            let told = meets(&a, b).or_else(|| narrow::meets(&self.curves, &a, b));
+            let told = meets(&a, b).decided().or_else(|| narrow::meets(&self.curves, &a, b).decided());
             match told.map_or_else(|| fork::meets(&self.curves, &a, b), Ok) {
                 Ok(once) => {
                     let b = waiting.pop()?;
@@ -246,20 +246,22 @@ impl<N: Real> March<N> {
     }
 }
 
-/// Whether the curves meet once (`true`) or not (`false`) between two knots, when a certificate tells.
+/// Whether the curves meet, and then once, or do not between two knots, when a certificate tells.
 fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Verdict {
-    let (at_a, at_b) = (a.gap.certain_sign(0.0)?, b.gap.certain_sign(0.0)?);
+    let (Some(at_a), Some(at_b)) = (a.gap.certain_sign(0.0), b.gap.certain_sign(0.0)) else {
+        return Verdict::Undecided;
+    };
     if at_a == at_b {
         // The lower curve's tent.
         let lower = usize::from(at_a == Greater);
         let reach = formula!((b.s[lower] - a.s[lower]) * { 0.25 * length(&a.t, &b.t) });
         let apart = |gap: &N| if at_a == Greater { gap.sub(&reach) } else { formula!(-(gap + reach)) };
         if apart(&a.gap).is_positive() && apart(&b.gap).is_positive() {
-            return Some(false);
+            return Verdict::No;
         }
     }
     let monotone = a.s[1].sub(&b.s[0]).is_positive() || a.s[0].sub(&b.s[1]).is_positive();
-    monotone.then_some(at_a != at_b && at_a != Ordering::Equal)
+    if monotone { Verdict::of(at_a != at_b && at_a != Ordering::Equal) } else { Verdict::Undecided }
 }
 
 /// `t exp(x)`, about; `None` when x is too large or no number.

@@ -28,7 +28,6 @@ use crate::family::hermite::clip;
 use crate::family::outer_region::{any, facts};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
 use crate::num::bernstein::Certain;
-use crate::num::verdict::{and, or};
 use crate::num::{Form, Number, Real, Verdict, formula};
 
 /// A form in φ0, φ1, κ0, κ1.
@@ -40,7 +39,7 @@ fn curves([phi0, phi1, kappa0, kappa1]: &[[f64; 2]; 4]) -> Option<Curves<Four>> 
     let (half0, half1) = (first.times(0.5), second.times(0.5));
     let ((s0, c0), (s1, c1)) = ((half0.sine(), half0.cosine()), (half1.sine(), half1.cosine()));
     let (sin, cos) = (half0.sine_of_sum(&half1), formula!(c0 * c1 - s0 * s1));
-    (positive(&cos) == Some(true)).then_some(())?;
+    positive(&cos).is_yes().then_some(())?;
     let inverse = sin.inverse()?;
     let over = |x: &Four, k: f64| formula!(x * inverse * { k });
     let bend = [over(&Four::centred(*kappa0, 2), 0.25), over(&Four::centred(*kappa1, 3), 0.25)];
@@ -78,13 +77,13 @@ fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four
 
 /// Whether the curvature of a solution rises all along, over the box.
 fn rises(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>, pull: &mut [f64; MOST_SIDES]) -> Verdict {
-    let root = root(march, a, b)?;
-    let quintic = CurveShape::new(&march.curves, &root)?.quintic();
+    let found = root(march, a, b).and_then(|root| Some((CurveShape::new(&march.curves, &root)?.quintic(), root)));
+    let Some((quintic, root)) = found else { return Verdict::Undecided };
     let known = unit_sign(&quintic);
-    if known.is_none() {
+    if known.is_open() {
         quintic
             .iter()
-            .filter(|form| positive(form).is_none())
+            .filter(|form| positive(form).is_open())
             .chain([&root.t, &root.z])
             .for_each(|form| add_pull(pull, form));
     }
@@ -95,14 +94,14 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     let mut facts = Facts::default();
     let (any, pull) = any(sides);
     facts.note(wanted & ANY_SPIRAL, any);
-    if any == Some(false) {
+    if any.is_no() {
         facts.note(wanted & SPIRAL, any);
     }
     let [_, _, kappa0, kappa1] = sides;
     if kappa0[1] < 0.0 || kappa1[1] < 0.0 {
-        facts.note(wanted & (SOLVABLE | SPIRAL), Some(false));
+        facts.note(wanted & (SOLVABLE | SPIRAL), Verdict::No);
     }
-    if any.is_none() && wanted & ANY_SPIRAL != 0 {
+    if any.is_open() && wanted & ANY_SPIRAL != 0 {
         facts.pull = pull;
     }
     let open = wanted & (SOLVABLE | SPIRAL) & !facts.outside;
@@ -116,13 +115,13 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
         facts.pull = widths;
         return facts;
     };
-    facts.note(open & SOLVABLE, Some(!brackets.is_empty()));
+    facts.note(open & SOLVABLE, Verdict::of(!brackets.is_empty()));
     if open & SPIRAL != 0 {
-        let mut spiral = Some(false);
+        let mut spiral = Verdict::No;
         for (a, b) in &brackets {
-            spiral = or(spiral, rises(&march, a, b, &mut facts.pull));
+            spiral = spiral.or(rises(&march, a, b, &mut facts.pull));
         }
-        facts.note(SPIRAL, and(any, spiral));
+        facts.note(SPIRAL, any.and(spiral));
         if facts.pull == [0.0; MOST_SIDES] {
             facts.pull = widths;
         }

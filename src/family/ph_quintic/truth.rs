@@ -41,7 +41,10 @@ fn code(any: bool, solutions: usize, spirals: usize) -> Code {
 
 fn any_spiral<N: Real>(pair: &Pair<N>, [kappa0, kappa1]: [f64; 2]) -> Verdict {
     let bits = pair.sin.bits();
-    Some(pair.rising && kappa0 < kappa1 && outer::holds(&pair.outer, &N::of(kappa0, bits), &N::of(kappa1, bits))?)
+    if !(pair.rising && kappa0 < kappa1) {
+        return Verdict::No;
+    }
+    outer::holds(&pair.outer, &N::of(kappa0, bits), &N::of(kappa1, bits))
 }
 
 fn march<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Option<March<N>>> {
@@ -53,7 +56,7 @@ fn march<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Option<March<N>>> {
 
 /// The code alone: where no spiral is possible the solutions are counted, not found.
 pub(super) fn verdict<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Code> {
-    let any = any_spiral(pair, kappa)?;
+    let any = any_spiral(pair, kappa).decided()?;
     if any {
         return solve(pair, kappa).map(|truth| truth.code);
     }
@@ -66,14 +69,14 @@ pub(super) fn verdict<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Code> 
 
 /// All solutions; `None` when something is undecided at this precision.
 pub(super) fn solve<N: Real>(pair: &Pair<N>, kappa: [f64; 2]) -> Option<Truth<N>> {
-    let any = any_spiral(pair, kappa)?;
+    let any = any_spiral(pair, kappa).decided()?;
     let Some(march) = march(pair, kappa)? else {
         return Some(Truth { code: code(any, 0, 0), solutions: Vec::new(), curves: None });
     };
     let mut solutions = Vec::new();
     for root in march.roots()? {
         let shape = CurveShape::new(&march.curves, &root)?;
-        let spiral = any && positive(&shape.quintic(), 0.0, 0.0, depth(pair.sin.bits()))?;
+        let spiral = any && positive(&shape.quintic(), 0.0, 0.0, depth(pair.sin.bits())).decided()?;
         solutions.push(Solution { root, shape, spiral });
     }
     let spirals = solutions.iter().filter(|s| s.spiral).count();

@@ -90,7 +90,7 @@ pub(super) fn judge_shape<N: Real>(kind: Kind, angle: &ExactAngle<N>, shape: &Se
     for (c, factor) in bernstein.iter_mut().zip(BERNSTEIN) {
         *c = c.times(factor);
     }
-    let exact = theorem || positive(&bernstein, 0.0, 0.0, MOST_HALVINGS)?;
+    let exact = theorem || positive(&bernstein, 0.0, 0.0, MOST_HALVINGS).decided()?;
     Some(EXISTS | if exact { EXACT } else { 0 } | if theorem { THEOREM } else { 0 })
 }
 

@@ -308,9 +308,9 @@ pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Segmen
         unclear &= unclear - 1;
         let at = |c: &[Lanes<S>; 6], i: usize| c[i].0.as_slice()[lane];
         match spiral(std::array::from_fn(|i| at(&value, i)), std::array::from_fn(|i| at(&error, i))) {
-            Some(true) => exact |= 1 << lane,
-            Some(false) => not_exact |= 1 << lane,
-            None => {}
+            Verdict::Yes => exact |= 1 << lane,
+            Verdict::No => not_exact |= 1 << lane,
+            Verdict::Undecided => {}
         }
     }
     // The drawn region lies inside the theorem's, and that among the spirals.
@@ -329,10 +329,8 @@ fn spiral(value: [f64; 6], error: [f64; 6]) -> Verdict {
         let rounding = c.iter().fold(0.0f64, |most, v| most.max(v.abs())) * (5.0 * P.unit);
         positive(&c, rounding, rounding, DEPTH)
     };
-    match sign(1.0) {
-        Some(false) => Some(false),
-        _ => sign(-1.0).filter(|positive| *positive),
-    }
+    let fails = sign(1.0).is_no();
+    Verdict::proved(!fails && sign(-1.0).is_yes(), fails)
 }
 
 /// The codes of a vector of nodes that share θ and ξ.

@@ -22,7 +22,6 @@ use super::filter::least_drawn_m;
 use super::poly::{BERNSTEIN, LEAST_M, MONOTONE_M, coefficients, ph_m, ph_sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, Reach, THEOREM};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, clip_side, positive, sides, unit_sign};
-use crate::num::verdict::{and, or};
 use crate::num::{Ball, Form, Number, Real, Verdict, formula};
 
 /// A form in θ, ξ, η.
@@ -69,9 +68,9 @@ fn cubic(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> C
     let side = formula!(2.0 * (b * square));
     let room = formula!(side - 3.0 * a2);
     let first = formula!(27.0 * (g * (a2 * a)) - square * (9.0 * a2 + side));
-    let exists = and(positive(a), positive(&room));
-    if exists.is_none() {
-        [a, &room].into_iter().filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));
+    let exists = positive(a).and(positive(&room));
+    if exists.is_open() {
+        [a, &room].into_iter().filter(|form| positive(form).is_open()).for_each(|form| add_pull(pull, form));
     }
     let first = positive(&first);
     let shape = a.times(3.0).inverse().map(|inverse| {
@@ -84,12 +83,12 @@ fn cubic(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> C
 fn ph(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> Case {
     let Angle { g, square, over } = angle;
     let above = positive(a);
-    let bound = positive(&formula!(60.0 * (a * over) - 27.0 * square)).filter(|holds| !holds);
-    if above == Some(false) || positive(b) == Some(false) {
-        return Case { exists: Some(false), first: Some(false), shape: None };
+    let bound = positive(&formula!(60.0 * (a * over) - 27.0 * square)).only_no();
+    if above.is_no() || positive(b).is_no() {
+        return Case { exists: Verdict::No, first: Verdict::No, shape: None };
     }
     let whole = || {
-        (above == Some(true)).then_some(())?;
+        above.is_yes().then_some(())?;
         let scale = over.over(square)?;
         let (alpha, beta) = (formula!(60.0 * (a * scale)), formula!(120.0 * (b * scale)));
         let twelve = g.times(12.0);
@@ -102,14 +101,17 @@ fn ph(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> Case
     let Some((room, shape)) = whole() else {
         add_pull(pull, a);
         add_pull(pull, square);
-        return Case { exists: None, first: bound, shape: None };
+        return Case { exists: Verdict::Undecided, first: bound, shape: None };
     };
     let exists = positive(&room);
-    if exists.is_none() || shape.is_none() {
+    if exists.is_open() || shape.is_none() {
         add_pull(pull, &room);
     }
-    let first = shape.as_ref().and_then(|[m, u]| positive(&formula!(2.0 - (m + 6.0) * u)));
-    Case { exists, first: bound.or(first), shape }
+    let first = match &shape {
+        Some([m, u]) if bound.is_open() => positive(&formula!(2.0 - (m + 6.0) * u)),
+        _ => bound,
+    };
+    Case { exists, first, shape }
 }
 
 /// The root of G; see the documentation of the module.
@@ -159,13 +161,7 @@ fn ph_root(alpha: &Three, beta: &Three, g: &Three) -> Option<Three> {
 fn drawn(kind: Kind, m: &Three) -> Verdict {
     let least = least_drawn_m(kind);
     let slack = f64::EPSILON * least;
-    if m.low() > least + slack {
-        Some(true)
-    } else if m.high() < least - slack {
-        Some(false)
-    } else {
-        None
-    }
+    Verdict::proved(m.low() > least + slack, m.high() < least - slack)
 }
 
 /// The four bits of a case, known to hold and known to fail.
@@ -177,8 +173,8 @@ fn judge(kind: Kind, angle: &Angle, a: &Three, b: &Three, wanted: u8, pull: &mut
     };
     facts.note(wanted & EXISTS, case.exists);
     let rest = wanted & (EXACT | THEOREM | PAPER);
-    let first = and(case.exists, case.first);
-    if first == Some(false) {
+    let first = case.exists.and(case.first);
+    if first.is_no() {
         facts.note(rest, first);
         return facts;
     }
@@ -186,25 +182,25 @@ fn judge(kind: Kind, angle: &Angle, a: &Three, b: &Three, wanted: u8, pull: &mut
     let drawn = drawn(kind, &m);
     let c = coefficients(kind, &m, &u, &angle.g, -1.0);
     let signs = [1, 2, 3].map(|i| positive(&c[i]));
-    let paper = and(first, drawn);
+    let paper = first.and(drawn);
     // Theorem 2.1 or 3.1 holds in all of the drawn region.
-    let theorem = or(paper, and(first, signs.into_iter().fold(Some(true), and)));
+    let theorem = paper.or(first.and(Verdict::all(signs)));
     let quintic = || {
         let mut quintic = c;
         quintic.iter_mut().zip(BERNSTEIN).for_each(|(c, factor)| *c = c.times(factor));
         unit_sign(&quintic)
     };
     let exact = match theorem {
-        Some(true) => theorem,
-        _ if wanted & EXACT != 0 => and(first, quintic()),
-        _ => None,
+        Verdict::Yes => theorem,
+        _ if wanted & EXACT != 0 => first.and(quintic()),
+        _ => Verdict::Undecided,
     };
     facts.note(wanted & PAPER, paper);
     // Not exact: no theorem.
-    facts.note(wanted & THEOREM, if exact == Some(false) { exact } else { theorem });
+    facts.note(wanted & THEOREM, if exact.is_no() { exact } else { theorem });
     facts.note(wanted & EXACT, exact);
     if rest & !(facts.inside | facts.outside) != 0 {
-        c.iter().filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));
+        c.iter().filter(|form| positive(form).is_open()).for_each(|form| add_pull(pull, form));
         add_pull(pull, &m);
         add_pull(pull, &u);
     }

@@ -49,7 +49,7 @@ pub(super) fn judge(shape: &Shape, bits: usize) -> Option<u8> {
     if end_slope(ratio, q) == Equal {
         c = without_last(c);
     }
-    let spiral = positive(&bernstein(c), 0.0, 0.0, HALVINGS)?;
+    let spiral = positive(&bernstein(c), 0.0, 0.0, HALVINGS).decided()?;
     Some(plain | if spiral { SPIRAL } else { 0 })
 }
 

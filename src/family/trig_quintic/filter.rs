@@ -46,10 +46,8 @@ pub(super) fn decide<N: Certain>(value: &[N; K], size: &[f64; K], relative: f64)
         let largest = size.iter().fold(0.0f64, |most, s| most.max(*s)) * COVER;
         positive(&c, 0.0, largest * ((K - 1) as f64 * UNIT), DEPTH)
     };
-    match side(-1.0) {
-        Some(true) => Some(true),
-        _ => side(1.0).filter(|positive| !positive),
-    }
+    let holds = side(-1.0).is_yes();
+    Verdict::proved(holds, !holds && side(1.0).is_no())
 }
 
 /// Places where a numerator that is negative somewhere mostly is: at `τ/(1 - τ) = s`.
@@ -120,9 +118,9 @@ pub(super) fn classify<S: Simd>(simd: S, frame: &Frame<f64>, [ratio, m, p]: [f64
         };
         let at = |c: &[Lanes<S>; K]| std::array::from_fn(|i| c[i].0.as_slice()[lane] * BERNSTEIN[i]);
         *code = match decide(&at(value), &at(size), ERROR) {
-            Some(true) => Code::new(flags | SPIRAL, 0),
-            Some(false) => Code::new(flags, 0),
-            None => Code::UNDECIDED,
+            Verdict::Yes => Code::new(flags | SPIRAL, 0),
+            Verdict::No => Code::new(flags, 0),
+            Verdict::Undecided => Code::UNDECIDED,
         };
     }
 }

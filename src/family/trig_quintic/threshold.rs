@@ -168,7 +168,7 @@ impl<N: Certain> Sweep<N> {
 
     /// Finds the single that the threshold rounds to, and proves it; `None` where something is not proved.
     fn search(&self, hint: Option<u32>) -> Option<f32> {
-        if !self.spiral(f64::from(MOST))? {
+        if !self.spiral(f64::from(MOST)).decided()? {
             return Some(NO_VALUE);
         }
         // Here or above there is a ratio without a spiral.
@@ -176,7 +176,7 @@ impl<N: Certain> Sweep<N> {
         let mut place = hint.unwrap_or_else(|| self.bisect(LEAST.to_bits() - 1));
         for _ in 0..ROUNDS {
             let below = middle(place - 1);
-            let is_floor = place == LEAST.to_bits() || below <= floor || !self.spiral(below)?;
+            let is_floor = place == LEAST.to_bits() || below <= floor || !self.spiral(below).decided()?;
             if !is_floor {
                 return None;
             }
@@ -198,7 +198,7 @@ impl<N: Certain> Sweep<N> {
         let (mut low, mut high) = (low, MOST.to_bits());
         while high - low > 1 {
             let place = low + (high - low) / 2;
-            if self.spiral(upper(place)) == Some(false) { low = place } else { high = place }
+            if self.spiral(upper(place)).is_no() { low = place } else { high = place }
         }
         high
     }
@@ -228,9 +228,9 @@ impl<N: Certain> Sweep<N> {
     /// All ratios from `low`, which gives a spiral, to `high`.
     fn piece(&self, low: f64, high: f64, depth: u32) -> Piece {
         match self.spiral(low) {
-            Some(true) => {}
-            Some(false) => return Piece::None(low),
-            None => return Piece::Unclear,
+            Verdict::Yes => {}
+            Verdict::No => return Piece::None(low),
+            Verdict::Undecided => return Piece::Unclear,
         }
         if low >= high || self.all(low, high, 1) || self.all(low, high, 0) {
             return Piece::Spirals;
@@ -262,7 +262,7 @@ impl<N: Certain> Sweep<N> {
                 let terms = self.c[derivative..].iter().zip(&weights).map(|(c, w)| c[i].mul(w));
                 terms.reduce(|a, b| a.add(&b)).unwrap_or_else(|| one.clone())
             });
-            self.positive(&value, &sizes, derivative) == Some(true)
+            self.positive(&value, &sizes, derivative).is_yes()
         })
     }
 }

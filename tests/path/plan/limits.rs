@@ -78,5 +78,5 @@ fn vehicles_in_step_on_planned_paths_are_told_apart_exactly() {
     let pair = [spans, beside].map(|spans| Motion::new(spans, 1.0, 0.0).unwrap());
     let found = separation(&pair[0], &pair[1], 0.5 - 1e-7).unwrap();
     let closest = found.closest;
-    assert!(found.verdict == Verdict::Kept && (closest.at_most - 0.5).abs() < 1e-12, "{found:?}");
+    assert!(found.verdict == Verdict::Yes && (closest.at_most - 0.5).abs() < 1e-12, "{found:?}");
 }

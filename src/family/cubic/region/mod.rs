@@ -42,7 +42,6 @@ use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::family::hermite::clip;
 use crate::family::outer_region::{any, facts, rising};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
-use crate::num::verdict::{and, or};
 use crate::num::{Form, Number, Verdict, formula};
 use angles::Angles;
 use root::{Root, span};
@@ -60,8 +59,8 @@ struct Branch {
 }
 
 impl Branch {
-    const ABSENT: Branch = Branch { exists: Some(false), theorem: Some(false), spiral: Some(false) };
-    const OPEN: Branch = Branch { exists: None, theorem: None, spiral: None };
+    const ABSENT: Branch = Branch { exists: Verdict::No, theorem: Verdict::No, spiral: Verdict::No };
+    const OPEN: Branch = Branch { exists: Verdict::Undecided, theorem: Verdict::Undecided, spiral: Verdict::Undecided };
 }
 
 thread_local! {
@@ -101,7 +100,7 @@ fn any_normalised(sides: &[[f64; 2]; 4]) -> (Verdict, [f64; MOST_SIDES]) {
     let [phi0, phi1, a, k] = *sides;
     let mut pull = [0.0; MOST_SIDES];
     if phi0[0] >= phi1[1] {
-        return (Some(false), pull);
+        return (Verdict::No, pull);
     }
     let forms = || {
         let angles = angles_of(phi0, phi1)?;
@@ -109,29 +108,29 @@ fn any_normalised(sides: &[[f64; 2]; 4]) -> (Verdict, [f64; MOST_SIDES]) {
         let [first, second, a, k]: [Four; 4] = std::array::from_fn(|i| Four::centred([phi0, phi1, a, k][i], i));
         Some([first, second, a.mul(&kappa0), k.mul(&kappa1)])
     };
-    let known = forms().and_then(|forms| rising(&forms, &mut pull));
+    let known = forms().map_or(Verdict::Undecided, |forms| rising(&forms, &mut pull));
     if phi0[1] < phi1[0] {
         return (known, pull);
     }
     pull[0] += phi0[1] - phi0[0];
     pull[1] += phi1[1] - phi1[0];
-    (known.filter(|holds| !holds), pull)
+    (known.only_no(), pull)
 }
 
 fn prove(normalised: bool, sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     let mut facts = Facts::default();
     let (any, pull) = if normalised { any_normalised(sides) } else { any(sides) };
     facts.note(wanted & ANY_SPIRAL, any);
-    if any.is_none() && wanted & ANY_SPIRAL != 0 {
+    if any.is_open() && wanted & ANY_SPIRAL != 0 {
         facts.pull = pull;
     }
     let curves = THEOREM31 | THEOREM31_ANY | SPIRAL;
-    if any == Some(false) {
-        facts.note(wanted & curves, Some(false));
+    if any.is_no() {
+        facts.note(wanted & curves, Verdict::No);
     }
     let [phi0, phi1, kappa0, kappa1] = *sides;
     if kappa0[1] <= 0.0 || kappa1[1] <= 0.0 {
-        facts.note(wanted & (curves | SOLVABLE), Some(false));
+        facts.note(wanted & (curves | SOLVABLE), Verdict::No);
     }
     let open = wanted & !(facts.inside | facts.outside);
     if open & (curves | SOLVABLE) == 0 {
@@ -148,21 +147,21 @@ fn prove(normalised: bool, sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     let solvable = data.solvable();
     // What holds of some datum only where it has roots needs both curvatures positive.
     let rooted = kappa0[0] > 0.0 && kappa1[0] > 0.0;
-    let sure = |known: Verdict| if rooted { known } else { known.filter(|holds| !holds) };
+    let sure = |known: Verdict| if rooted { known } else { known.only_no() };
     facts.note(wanted & SOLVABLE, sure(solvable));
-    if open & SOLVABLE != 0 && solvable.is_none() {
+    if open & SOLVABLE != 0 && solvable.is_open() {
         data.pull_edges(&mut facts.pull);
     }
     if open & curves != 0 {
         let branches = data.branches(open, any, &mut facts.pull);
         let some = |of: fn(&Branch) -> Verdict| {
-            let [left, middle, right] = branches.map(|b| and(b.exists, of(&b)));
-            or(or(left, middle), right)
+            let [left, middle, right] = branches.map(|b| b.exists.and(of(&b)));
+            left.or(middle).or(right)
         };
-        let first = and(solvable, and(branches[1].exists, branches[1].theorem));
-        facts.note(wanted & SPIRAL, sure(and(any, some(|b| b.spiral))));
-        facts.note(wanted & THEOREM31_ANY, sure(and(any, some(|b| b.theorem))));
-        facts.note(wanted & THEOREM31, sure(and(any, first)));
+        let first = solvable.and(branches[1].exists).and(branches[1].theorem);
+        facts.note(wanted & SPIRAL, sure(any.and(some(|b| b.spiral))));
+        facts.note(wanted & THEOREM31_ANY, sure(any.and(some(|b| b.theorem))));
+        facts.note(wanted & THEOREM31, sure(any.and(first)));
     }
     facts
 }
@@ -184,18 +183,18 @@ impl Data {
         let above = [&a, &k].map(|x| positive(&formula!(3.0 * x - 1.0)));
         let ak = a.mul(&k);
         let delta = formula!(ak * (768.0 * ak - 256.0 * (a + k) + 96.0) - 1.0);
-        let wedge = if above == [Some(true); 2] { Some(true) } else { positive(&delta) };
+        let wedge = if above == [Verdict::Yes; 2] { Verdict::Yes } else { positive(&delta) };
         Data { angles, a, k, above, wedge, delta }
     }
 
     fn solvable(&self) -> Verdict {
-        and(self.above[1], self.wedge)
+        self.above[1].and(self.wedge)
     }
 
     /// How much the coordinates move what is open of the case.
     fn pull_edges(&self, pull: &mut [f64; 4]) {
         let edges = [(self.wedge, &self.delta), (self.above[0], &self.a), (self.above[1], &self.k)];
-        for (_, form) in edges.iter().filter(|(known, _)| known.is_none()) {
+        for (_, form) in edges.iter().filter(|(known, _)| known.is_open()) {
             add_pull(pull, form);
         }
     }
@@ -203,20 +202,20 @@ impl Data {
     /// The left, middle and right root; for a lone root the first alone.
     fn branches(&self, open: u8, any: Verdict, pull: &mut [f64; 4]) -> [Branch; 3] {
         let (a, k) = (&self.a, &self.k);
-        let below = self.above.map(|above| above.map(|above| !above));
+        let below = self.above.map(|above| !above);
         match self.wedge {
-            Some(true) => {
+            Verdict::Yes => {
                 let left = self.branch(below[1], Root::left, open, pull);
-                let middle = self.branch(Some(true), Root::middle, open, pull);
+                let middle = self.branch(Verdict::Yes, Root::middle, open, pull);
                 [left, middle, self.branch(below[0], Root::right, open, pull)]
             }
-            Some(false) => {
-                let exists = and(below[0], below[1]);
+            Verdict::No => {
+                let exists = below[0].and(below[1]);
                 [self.branch(exists, Root::lone, open, pull), Branch::ABSENT, Branch::ABSENT]
             }
             // A span proves only that there is no spiral in it.
-            None if any == Some(false) => [Branch::OPEN; 3],
-            None => {
+            Verdict::Undecided if any.is_no() => [Branch::OPEN; 3],
+            Verdict::Undecided => {
                 let x = span(a, k).map(|range| Four::along(range, 3));
                 if let Some(x) = x
                     && self.fails(&x, &formula!(3.0 - a * (x * x)))
@@ -237,7 +236,7 @@ impl Data {
 
     /// One root: `exists` is what is known of it from the case.
     fn branch(&self, exists: Verdict, find: fn(&Four, &Four) -> Option<Root>, open: u8, pull: &mut [f64; 4]) -> Branch {
-        if exists == Some(false) {
+        if exists.is_no() {
             return Branch::ABSENT;
         }
         let Some(root) = find(&self.a, &self.k) else {
@@ -247,20 +246,20 @@ impl Data {
             return Branch { exists, ..Branch::OPEN };
         };
         let [start, end] = self.sides(&root.x, &root.y);
-        let theorem = and(half(&start, &root.y), half(&end, &root.x));
-        if theorem == Some(true) {
-            return Branch { exists, theorem, spiral: Some(true) };
+        let theorem = half(&start, &root.y).and(half(&end, &root.x));
+        if theorem.is_yes() {
+            return Branch { exists, theorem, spiral: Verdict::Yes };
         }
         let spiral = monotone(&start, &end, &root.x, &root.y);
         // Theorem 3.1 is sufficient: no spiral, no theorem.
-        let theorem = if spiral == Some(false) { spiral } else { theorem };
+        let theorem = if spiral.is_no() { spiral } else { theorem };
         let undecided = [(SPIRAL, spiral), (THEOREM31_ANY, theorem), (THEOREM31, theorem)];
-        if undecided.iter().any(|(flag, known)| open & flag != 0 && known.is_none()) {
-            start.iter().chain(&end).filter(|form| positive(form).is_none()).for_each(|form| add_pull(pull, form));
+        if undecided.iter().any(|(flag, known)| open & flag != 0 && known.is_open()) {
+            start.iter().chain(&end).filter(|form| positive(form).is_open()).for_each(|form| add_pull(pull, form));
             add_pull(pull, &root.x);
             add_pull(pull, &root.y);
         }
-        if exists.is_none() {
+        if exists.is_open() {
             self.pull_edges(pull);
         }
         Branch { exists, theorem, spiral }
@@ -274,21 +273,21 @@ impl Data {
     /// Whether no (x, y) of these numbers, both positive, makes a spiral.
     fn fails(&self, x: &Four, y: &Four) -> bool {
         let [start, end] = self.sides(x, y);
-        monotone(&start, &end, x, y) == Some(false)
+        monotone(&start, &end, x, y).is_no()
     }
 }
 
 /// One half of Theorem 3.1: `B0 >= 0, B2 >= 0, B1 >= 0 or B1² <= 8 w B0 B2`.
 fn half(b: &[Four; 3], w: &Four) -> Verdict {
-    let outer = and(positive(&b[0]), positive(&b[2]));
-    if outer == Some(false) {
+    let outer = positive(&b[0]).and(positive(&b[2]));
+    if outer.is_no() {
         return outer;
     }
     let middle = match positive(&b[1]) {
-        Some(true) => Some(true),
-        known => or(known, positive(&formula!(8.0 * (b[0] * b[2] * w) - b[1] * b[1]))),
+        Verdict::Yes => Verdict::Yes,
+        known => known.or(positive(&formula!(8.0 * (b[0] * b[2] * w) - b[1] * b[1]))),
     };
-    and(outer, middle)
+    outer.and(middle)
 }
 
 /// Whether the spiral polynomial is positive on [0, 1] all over the box, or negative somewhere on [0, 1] at each
@@ -297,8 +296,8 @@ fn half(b: &[Four; 3], w: &Four) -> Verdict {
 /// x and y are positive at the root that is asked about, wherever there is one. So the sign of B0 or C0, H0 and H5
 /// without their squares, says it all when it is negative, also where x or y comes near 0.
 fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Verdict {
-    if positive(&start[0]) == Some(false) || positive(&end[0]) == Some(false) {
-        return Some(false);
+    if positive(&start[0]).is_no() || positive(&end[0]).is_no() {
+        return Verdict::No;
     }
     let quintic = [
         formula!(5.0 * (y * y * start[0])),

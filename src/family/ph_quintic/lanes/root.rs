@@ -3,9 +3,9 @@
 use super::knot::Equations;
 use super::march::Bracket;
 use crate::family::ph_quintic::shape::CurveShape;
-use crate::num::Lanes;
 use crate::num::bernstein::positive;
 use crate::num::bernstein_lanes::negative_lanes;
+use crate::num::{Lanes, Verdict};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase};
 
@@ -63,9 +63,9 @@ pub(super) fn spirals<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, w
         }
         // A halving adds five roundings.
         match positive(&c, most, 2.5 * f64::EPSILON * (size + most), DEPTH) {
-            Some(true) => yes |= 1 << lane,
-            Some(false) => no |= 1 << lane,
-            None => {}
+            Verdict::Yes => yes |= 1 << lane,
+            Verdict::No => no |= 1 << lane,
+            Verdict::Undecided => {}
         }
     }
     (yes, no)
