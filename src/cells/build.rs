@@ -56,7 +56,7 @@ struct Tree {
 /// axes, or a budget that is too small even for the top cells.
 pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(u64) + Sync)) -> Result<Built> {
     let (region, chart) = region(spec.family, spec.grid)?;
-    let (shape, prover) = (shape(spec.grid, spec.family.about().flags.len())?, prover(spec.grid, region, chart));
+    let (shape, prover) = (shape(spec.grid, spec.family.about().flags.len())?, prover(spec, region, chart));
     let (edges, all) = (Edges::new(spec.grid, shape), spec.family.about().all_flags());
     let work = Work { threads: threads.max(1), stop };
     let size = shape.depth - shape.top;
@@ -225,12 +225,13 @@ pub(super) fn shape(grid: &Grid, flags: usize) -> Result<Layout> {
     Ok(Layout { axes: counts.len(), flags, depth: resolution.ilog2(), top: top.ilog2() })
 }
 
-fn prover(grid: &Grid, region: &'static dyn crate::family::Region, chart: usize) -> Prover {
+fn prover<'a>(spec: &Spec<'a>, region: &'static dyn crate::family::Region, chart: usize) -> Prover<'a> {
+    let Spec { family, grid, .. } = *spec;
     let mut log = [false; MOST_AXES];
     for (log, axis) in log.iter_mut().zip(grid.axes()) {
         *log = matches!(axis.spacing(), Spacing::Log { .. });
     }
-    Prover { region, chart, axes: grid.axes().len(), log }
+    Prover { family, grid, region, chart, axes: grid.axes().len(), log }
 }
 
 /// The edges of cells.

@@ -2,7 +2,14 @@
 
 use super::Code;
 use crate::grid::{Grid, MAX_AXES};
-use fearless_simd::{Simd, SimdBase, SimdMask};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask};
+use std::sync::LazyLock;
+
+/// What this processor can, asked for once.
+pub(super) fn level() -> Level {
+    static LEVEL: LazyLock<Level> = LazyLock::new(Level::new);
+    *LEVEL
+}
 
 /// A mask as bits, one a lane.
 #[inline(always)]

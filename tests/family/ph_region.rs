@@ -30,7 +30,7 @@ fn draw(r: &mut Random, round: u64) -> [[f64; 2]; 4] {
 
 #[test]
 fn no_point_of_a_box_contradicts_it() {
-    SUBJECT.attack(1, 400, 0, 90_000, 10);
+    SUBJECT.attack(1, 480, 0, 100_000, 10);
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn the_oracle_confirms_boxes() {
     assert!(spirals > 10, "{spirals}");
 }
 
-/// Of small boxes where some spiral exists few are open; whole cells of a grid of 64 an axis are often decided.
+/// Of small boxes where some spiral exists none is open; whole cells of a grid of 64 an axis are often decided.
 #[test]
 fn small_boxes_are_decided() {
     let (mut r, mut open, mut coarse) = (Random(4), 0, 0);
@@ -77,7 +77,7 @@ fn small_boxes_are_decided() {
         coarse += u32::from(left(SUBJECT.facts(&side(1.0))));
     }
     println!("of {counted} small boxes {open} are open, of as many cells of 1/64 {coarse}");
-    assert!((1..30).contains(&open) && coarse < 300, "{open} {coarse}");
+    assert!(open == 0 && coarse < 250, "{open} {coarse}");
 }
 
 #[test]

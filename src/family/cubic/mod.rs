@@ -57,6 +57,7 @@ mod table;
 
 pub use solve::{Datum, Root, Solutions, solve};
 
+use super::hermite::holds_box;
 use super::{About, Answer, Chart, Code, Count, Family, Flag, Region, Scalar, Table, coordinates};
 use crate::error::Result;
 use crate::grid::Grid;
@@ -170,6 +171,10 @@ impl Family for Cubic {
     }
     fn chosen(&self, chart: usize, point: &[f64]) -> Result<(Code, Option<Vec<[f64; 2]>>)> {
         solve::chosen(chart, coordinates(point)?)
+    }
+    fn code(&self, chart: usize, point: &[f64]) -> Option<Code> {
+        let point = coordinates(point).ok()?;
+        holds_box(&point.map(|x| [x; 2])).then(|| table::code(chart, point))?
     }
     fn region(&self) -> Option<&dyn Region> {
         Some(self)

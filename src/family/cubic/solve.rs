@@ -9,9 +9,10 @@ use crate::curve::CubicBezier;
 use crate::error::Result;
 use crate::family::Answer;
 use crate::family::hermite::check;
+use crate::family::rows::level;
 use crate::num::bernstein::{exact_margin, margin};
 use crate::num::{Interval, climb, demand_ieee};
-use fearless_simd::{Level, Simd, SimdBase, dispatch};
+use fearless_simd::{Simd, SimdBase, dispatch};
 use std::cmp::Ordering;
 
 /// G² Hermite data in the normalised frame: end points (-1, 0) and (1, 0).
@@ -220,8 +221,7 @@ impl Solved {
             Ends::Curvature(kappa0, kappa1) => (kappa0 * curve0, kappa1 * curve1, kappa0, kappa1),
             Ends::Normalised(a, k) => (a, k, a / curve0, k / curve1),
         };
-        static LEVEL: std::sync::LazyLock<Level> = std::sync::LazyLock::new(Level::new);
-        dispatch!(*LEVEL, simd => Solved::lane(simd, &prepared, [a, k, kappa0, kappa1]))
+        dispatch!(level(), simd => Solved::lane(simd, &prepared, [a, k, kappa0, kappa1]))
     }
 
     #[inline(always)]

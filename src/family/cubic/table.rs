@@ -9,7 +9,7 @@ use super::{Code, Cubic};
 use crate::error::Result;
 use crate::family::blocks::fill_by_blocks;
 use crate::family::hermite::check_grid;
-use crate::family::rows::Rows;
+use crate::family::rows::{Rows, level};
 use crate::family::{Kernel, NO_VALUE, Shader, ShaderInputs, Table, chart_of};
 use crate::grid::{Grid, MAX_AXES};
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
@@ -38,14 +38,7 @@ impl<'g> CubicTable<'g> {
     /// Vectors of the last two coordinates, for one pair of angles.
     #[inline(always)]
     pub(super) fn data<S: Simd>(&self, simd: S, pair: &Pair, third: S::f64s, fourth: S::f64s) -> Data<S> {
-        let (curve0, curve1) = (S::f64s::splat(simd, pair.curve0), S::f64s::splat(simd, pair.curve1));
-        // A constant here, so that every bound folds into one.
-        let precision = Precision::F64;
-        if self.normalised {
-            Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1, precision }
-        } else {
-            Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth, precision }
-        }
+        data(simd, self.normalised, pair, third, fourth)
     }
 
     /// The scalars of a node, or none where there is no spiral.
@@ -62,6 +55,33 @@ impl<'g> CubicTable<'g> {
         }
         by(&self.datum(node), out)
     }
+}
+
+/// Vectors of the last two coordinates, which may be a and k (`normalised`), for one pair of angles.
+#[inline(always)]
+fn data<S: Simd>(simd: S, normalised: bool, pair: &Pair, third: S::f64s, fourth: S::f64s) -> Data<S> {
+    let (curve0, curve1) = (S::f64s::splat(simd, pair.curve0), S::f64s::splat(simd, pair.curve1));
+    // A constant here, so that every bound folds into one.
+    let precision = Precision::F64;
+    if normalised {
+        Data { a: third, k: fourth, kappa0: third / curve0, kappa1: fourth / curve1, precision }
+    } else {
+        Data { a: third * curve0, k: fourth * curve1, kappa0: third, kappa1: fourth, precision }
+    }
+}
+
+/// The f64 step for one datum of the domain.
+pub(super) fn code(chart: usize, point: &[f64; 4]) -> Option<Code> {
+    let prepared = Prepared::new(point[0], point[1])?;
+    let mut code = [Code::UNDECIDED];
+    dispatch!(level(), simd => alone(simd, chart == 1, &prepared, point, &mut code));
+    Some(code[0]).filter(|code| *code != Code::UNDECIDED)
+}
+
+#[inline(always)]
+fn alone<S: Simd>(simd: S, normalised: bool, prepared: &Prepared, point: &[f64; 4], out: &mut [Code]) {
+    let [third, fourth] = [S::f64s::splat(simd, point[2]), S::f64s::splat(simd, point[3])];
+    classify(simd, prepared, &data(simd, normalised, &prepared.pair, third, fourth)).store(out);
 }
 
 impl Rows for CubicTable<'_> {

@@ -73,6 +73,23 @@ impl<N: Real> Curves<N> {
         let near = |x: &[N; 2]| [x[0].approx(), x[1].approx()];
         Curves::new(self.scale, near(&self.bend), self.cos.approx(), near(&self.right), self.skew.approx())
     }
+
+    /// Every number by itself as a double.
+    pub(super) fn each(&self, of: impl Fn(&N) -> f64) -> Curves<f64> {
+        let both = |x: &[N; 2]| [of(&x[0]), of(&x[1])];
+        Curves {
+            scale: self.scale,
+            bend: both(&self.bend),
+            cos: of(&self.cos),
+            right: both(&self.right),
+            skew: of(&self.skew),
+            flat: both(&self.flat),
+            own: both(&self.own),
+            across: both(&self.across),
+            both: of(&self.both),
+            last: both(&self.last),
+        }
+    }
 }
 
 impl<N: Number> Curves<N> {
@@ -107,13 +124,18 @@ impl<N: Number> Curves<N> {
     #[inline(always)]
     pub(super) fn reversed(&self) -> Curves<N> {
         let swap = |x: &[N; 2]| [x[1].clone(), x[0].clone()];
-        Curves::new(
-            [self.scale[1], self.scale[0]],
-            swap(&self.bend),
-            self.cos.clone(),
-            swap(&self.right),
-            self.skew.times(-1.0),
-        )
+        Curves {
+            scale: [self.scale[1], self.scale[0]],
+            bend: swap(&self.bend),
+            cos: self.cos.clone(),
+            right: swap(&self.right),
+            skew: self.skew.times(-1.0),
+            flat: swap(&self.flat),
+            own: swap(&self.own),
+            across: swap(&self.across),
+            both: self.both.clone(),
+            last: swap(&self.last),
+        }
     }
 
     /// Both left-hand sides at t.

@@ -130,7 +130,7 @@ impl<N: Real> March<N> {
     }
 
     /// A knot elsewhere between two, for data that vary, some of which have a solution where halving led.
-    fn aside(&self, a: &Knot<N>, b: &Knot<N>) -> Option<Knot<N>> {
+    pub(super) fn aside(&self, a: &Knot<N>, b: &Knot<N>) -> Option<Knot<N>> {
         let (low, ratio) = (a.t.approx(), b.t.approx() / a.t.approx());
         let knot = |share: f64| self.knot(N::of(low * ratio.powf(share), self.bits()));
         [0.3, 0.7, 0.15, 0.85, 0.05, 0.95]
@@ -247,7 +247,7 @@ impl<N: Real> March<N> {
 }
 
 /// Whether the curves meet, and then once, or do not between two knots, when a certificate tells.
-fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Verdict {
+pub(super) fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Verdict {
     let (Some(at_a), Some(at_b)) = (a.gap.certain_sign(0.0), b.gap.certain_sign(0.0)) else {
         return Verdict::Undecided;
     };

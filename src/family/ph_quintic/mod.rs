@@ -11,12 +11,13 @@
 //!   once. The shader is its twin.
 //! - `narrow.rs` has more certificates for nearly parallel tangents, where both equations almost coincide.
 //! - `fork.rs` has those for where solutions merge, and `cuts.rs` finds by Newton's method where to ask them.
-//! - `region.rs` runs the same march over boxes of data.
+//! - `region.rs` runs the same march over boxes of data; `dismiss.rs` has plain bounds that tell where no spirals are.
 //! - Curvature is positive for A, B > 0, so a spiral is the sign of one quintic, as in `cubic`. Energies are Taylor
 //!   series on pieces with a remainder bound.
 
 mod curves;
 mod cuts;
+mod dismiss;
 mod fork;
 mod knot;
 mod lanes;
@@ -33,7 +34,8 @@ mod truth;
 pub use super::cubic::Datum;
 pub use solve::{Quintic, Solutions, flags, solve};
 
-use super::{About, Answer, Chart, Count, Family, Flag, Region, Scalar, Table, coordinates};
+use super::hermite::holds_box;
+use super::{About, Answer, Chart, Code, Count, Family, Flag, Region, Scalar, Table, coordinates};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -131,6 +133,10 @@ impl Family for PhQuintic {
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::PhTable::new(grid)?))
+    }
+    fn code(&self, _chart: usize, point: &[f64]) -> Option<Code> {
+        let point = coordinates(point).ok()?;
+        holds_box(&point.map(|x| [x; 2])).then(|| table::code(point))?
     }
     fn region(&self) -> Option<&dyn Region> {
         Some(self)

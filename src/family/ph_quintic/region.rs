@@ -15,15 +15,26 @@
 //! taken ([`March::brackets`]).
 //!
 //! **SPIRAL** holds where ANY_SPIRAL does and the quintic of some solution is positive; it fails where that of every
-//! solution is negative somewhere. ANY_SPIRAL is `family/outer_region.rs`. No solution has a negative curvature, and
-//! nothing is said of a box that a curvature of 0 cuts. Where two solutions merge inside the box, the march does not
-//! end, and SOLVABLE and SPIRAL stay open unless ANY_SPIRAL fails.
+//! solution is negative somewhere. For neither need solutions be counted, and where they merge or where an end's speed
+//! vanishes they cannot. So intervals of t are looked at one by one ([`survey`]), within the t that `dismiss.rs` leaves.
+//! An interval has no spiral where the curves do not meet in it, where plain bounds dismiss it, or where the quintic is
+//! negative somewhere for all of its t and Z ([`between`]): t is a number between its ends, and Z, which falls along
+//! each curve, lies between the heights of a curve there. It has one where the quintic is positive for all of them and D
+//! has different certain signs at its ends; or where the one solution, enclosed as above, has a positive quintic. Other
+//! intervals are cut.
+//!
+//! ANY_SPIRAL is `family/outer_region.rs`. No solution has a negative curvature, and nothing is said of a box that a
+//! curvature of 0 cuts. Where two solutions merge inside the box, the march does not end, and SOLVABLE stays open. Where
+//! numbers are too large or small for `dismiss.rs`, the march's solutions decide SPIRAL.
 
 use super::curves::Curves;
+use super::dismiss::{Ends, spirals_within};
 use super::knot::Knot;
+use super::march::meets;
 use super::march::{March, Root};
 use super::shape::CurveShape;
 use super::{ANY_SPIRAL, PhQuintic, SOLVABLE, SPIRAL};
+use super::{fork, narrow};
 use crate::family::hermite::clip;
 use crate::family::outer_region::{any, facts};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
@@ -90,6 +101,78 @@ fn rises(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>, pull: &mut [f64; M
     known
 }
 
+/// Looks at intervals of t for one box.
+const MOST_LOOKS: usize = 64;
+/// Ratios of places that are not cut any more.
+const NEAREST: f64 = 1.02;
+/// Ratios of places between which the quintic is looked at.
+const NEAR: f64 = 1.4;
+
+/// Whether some solution of each datum is a spiral, or none of any.
+fn survey(march: &March<Four>, (ends, [first, last]): &(Ends, [f64; 2]), pull: &mut [f64; MOST_SIDES]) -> Verdict {
+    let knot = |t: f64| march.knot(Four::of(t, 53));
+    let (Some(mut a), Some(last)) = (knot(*first), knot(*last)) else { return Verdict::Undecided };
+    let mut waiting = vec![last];
+    let mut known = Verdict::No;
+    for _ in 0..MOST_LOOKS {
+        let Some(b) = waiting.last() else { return known };
+        let here = look(march, ends, &a, b, pull);
+        if here.is_yes() {
+            return here;
+        }
+        if here.is_open() && b.t.value >= a.t.value * NEAREST {
+            let Some(middle) = cut(march, &a, b) else { break };
+            waiting.push(middle);
+            continue;
+        }
+        if here.is_open() {
+            known = here;
+        }
+        let Some(next) = waiting.pop() else { break };
+        a = next;
+    }
+    Verdict::Undecided
+}
+
+/// [`survey`] between two knots.
+fn look(march: &March<Four>, ends: &Ends, a: &Knot<Four>, b: &Knot<Four>, pull: &mut [f64; MOST_SIDES]) -> Verdict {
+    let meets = meets(a, b).decided().or_else(|| narrow::meets(&march.curves, a, b).decided());
+    match meets.or_else(|| fork::meets(&march.curves, a, b).ok()) {
+        Some(false) => Verdict::No,
+        None if ends.fails(a.t.value, b.t.value) => Verdict::No,
+        None => between(march, a, b),
+        Some(true) => match rises(march, a, b, pull) {
+            Verdict::Undecided => between(march, a, b),
+            known => known,
+        },
+    }
+}
+
+/// A knot between two. Where both curves cross it is one on a certain side of them, if there is one; so what is left is
+/// a bracket.
+fn cut(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Knot<Four>> {
+    let middle = march.knot(Four::of((a.t.value * b.t.value).sqrt(), 53))?;
+    let [first, inner, last] = [a, &middle, b].map(|knot| knot.gap.certain_sign(0.0));
+    let bracket = first.is_some() && last.is_some() && first != last;
+    let aside = if bracket && inner.is_none() { march.aside(a, b) } else { None };
+    Some(aside.unwrap_or(middle))
+}
+
+/// Whether all curves between two knots rise, and one of them is a solution; or none rises.
+fn between(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Verdict {
+    if b.t.value > a.t.value * NEAR {
+        return Verdict::Undecided;
+    }
+    let middle = |a: &Four, b: &Four| formula!(0.5 * (a + b)).off(0.5001 * a.sub(b).most());
+    let curve = usize::from(a.z[1].value - b.z[1].value < a.z[0].value - b.z[0].value);
+    let root = Root { t: middle(&b.t, &a.t), z: middle(&a.z[curve], &b.z[curve]) };
+    let Some(shape) = CurveShape::new(&march.curves, &root) else { return Verdict::Undecided };
+    let rises = unit_sign(&shape.quintic());
+    let sides = [a, b].map(|knot| knot.gap.certain_sign(0.0));
+    let crossed = sides[0].is_some() && sides[1].is_some() && sides[0] != sides[1];
+    if crossed { rises } else { rises.only_no() }
+}
+
 fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     let mut facts = Facts::default();
     let (any, pull) = any(sides);
@@ -110,21 +193,28 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     }
     // Where nothing better is known: what is widest for its size.
     let widths = sides.map(|[low, high]| (high - low) / (low.abs() + high.abs()).max(f64::MIN_POSITIVE));
-    let march = curves(sides).filter(|_| kappa0[0] >= 0.0 && kappa1[0] >= 0.0).map(March::new);
-    let Some((march, brackets)) = march.and_then(|march| march.brackets().map(|found| (march, found))) else {
+    let Some(march) = curves(sides).filter(|_| kappa0[0] >= 0.0 && kappa1[0] >= 0.0).map(March::new) else {
         facts.pull = widths;
         return facts;
     };
-    facts.note(open & SOLVABLE, Verdict::of(!brackets.is_empty()));
+    let within = if open & SPIRAL == 0 { None } else { spirals_within(&march.curves) };
+    let counted = open & SOLVABLE != 0 || within.is_none();
+    let brackets = if counted { march.brackets() } else { None };
+    if let Some(found) = &brackets {
+        facts.note(open & SOLVABLE, Verdict::of(!found.is_empty()));
+    }
     if open & SPIRAL != 0 {
-        let mut spiral = Verdict::No;
-        for (a, b) in &brackets {
-            spiral = spiral.or(rises(&march, a, b, &mut facts.pull));
-        }
+        let spiral = match (&within, &brackets) {
+            (Some(within), _) => survey(&march, within, &mut facts.pull),
+            (None, Some(found)) => {
+                found.iter().fold(Verdict::No, |known, (a, b)| known.or(rises(&march, a, b, &mut facts.pull)))
+            }
+            (None, None) => Verdict::Undecided,
+        };
         facts.note(SPIRAL, any.and(spiral));
-        if facts.pull == [0.0; MOST_SIDES] {
-            facts.pull = widths;
-        }
+    }
+    if facts.pull == [0.0; MOST_SIDES] {
+        facts.pull = widths;
     }
     facts
 }
@@ -148,8 +238,7 @@ mod tests {
     use super::*;
     use crate::noise::Noise;
 
-    /// Solutions are enclosed hardly wider than they are known: of boxes a hundredth of a window wide 2720 in 3000 are
-    /// decided, 2755 would be if solutions were exact, and 2700 were with twice the reach.
+    /// Of boxes a hundredth of a window wide 2809 in 3000 are decided; where solutions had to be counted it were 2720.
     #[test]
     fn most_boxes_are_decided() {
         let mut noise = Noise(7);
@@ -167,6 +256,6 @@ mod tests {
             let facts = prove(&[phi0, phi1, kappa0, [last, last * (1.0 + width)]], SPIRAL);
             decided += usize::from((facts.inside | facts.outside) & SPIRAL != 0);
         }
-        assert!((2711..=2755).contains(&decided), "{decided}");
+        assert!(decided >= 2800, "{decided}");
     }
 }

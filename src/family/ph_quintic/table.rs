@@ -7,7 +7,7 @@ use super::{PhQuintic, lanes};
 use crate::error::Result;
 use crate::family::cubic::Datum;
 use crate::family::hermite::check_grid;
-use crate::family::rows::{Rows, fill};
+use crate::family::rows::{Rows, fill, level};
 use crate::family::{Code, Kernel, NO_VALUE, Shader, ShaderInputs, Table, chart_of};
 use crate::grid::{Grid, MAX_AXES};
 use crate::num::{Ball, climb};
@@ -65,6 +65,22 @@ impl Rows for PhTable<'_> {
             }
         }
     }
+}
+
+/// The f64 step for one datum of the domain.
+pub(super) fn code(&[phi0, phi1, kappa0, kappa1]: &[f64; 4]) -> Option<Code> {
+    let pair = Pair::<Ball>::new(phi0, phi1)?;
+    let mut code = [Code::UNDECIDED];
+    dispatch!(level(), simd => alone(simd, &pair, kappa0, kappa1, &mut code));
+    if code[0] == Code::UNDECIDED {
+        code[0] = one(&pair, &[phi0, phi1, kappa0, kappa1, 0.0], kappa1);
+    }
+    Some(code[0]).filter(|code| *code != Code::UNDECIDED)
+}
+
+#[inline(always)]
+fn alone<S: Simd>(simd: S, pair: &Pair<Ball>, kappa0: f64, kappa1: f64, out: &mut [Code]) {
+    lanes::codes(simd, pair, kappa0, S::f64s::splat(simd, kappa1), out);
 }
 
 /// The code of one node, in doubles or sums of two.
