@@ -250,6 +250,28 @@ def test_another_recipe_is_refused_with_what_differs(recipe, place, tmp_path):
     assert os.listdir(tmp_path / "notes") == ["a"]
 
 
+def test_mistakes_of_a_command_are_told_at_once(recipe, place, tmp_path):
+    create(recipe, place, **SHAPES)
+    other = tmp_path / "other.atlas.zarr"
+    for arguments, words in [
+        (("shard", place, f"{SHARDS}-{10**17}"), f"shards 0 to {SHARDS - 1}; given: {SHARDS}"),
+        (("generate", recipe, place, "--scheduler", "head"), "missing port number in address 'head'"),
+        (("generate", recipe, other, "--shards", f"{10**20},1,1,1"), "longer than the axes"),
+        (("generate", recipe, other, "--chunks", "1,1,1,1,1"), "must be 4 sides"),
+        # Packages of fsspec that the tests do not install.
+        (("generate", recipe, "smb://host/store.zarr"), "smbprotocol"),
+        (("generate", tmp_path / "none.toml", other), "there is no such file"),
+    ]:
+        done = run(*arguments)
+        assert done.returncode == 2 and words in done.stderr, done.stderr
+        assert done.stderr.startswith("error: ") and done.stderr.count("\n") == 1 and "Errno" not in done.stderr
+    # A range that goes on far behind the last shard is cut off.
+    done = run("shard", place, f"{SHARDS - 1}-{10**17}")
+    assert done.returncode == 0 and done.stdout.count("\n") == 1, done.stderr
+    generate(recipe, place, workers=1)
+    assert run("render", place, "-o", tmp_path / "none" / "a.png").stderr.endswith("there is no such folder\n")
+
+
 def test_ctrl_c_keeps_what_is_written(recipe, place):
     with started("generate", recipe, place, *OPTIONS, "--workers", 1, stdout=subprocess.DEVNULL) as process:
         wait_for(lambda: written(place) > 0, "the first shard")

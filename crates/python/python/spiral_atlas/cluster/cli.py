@@ -7,6 +7,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Sequence
+from itertools import chain
 from math import prod
 from pathlib import Path
 from typing import Any
@@ -32,9 +33,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("error: interrupted; what is written stays, and the next run goes on from here", file=sys.stderr)
         return 130
-    except (run.IncompleteError, StoreLockedError, ValueError, ArithmeticError, OSError) as error:
+    except OSError as error:
+        print(f"error: {refusal(error)}", file=sys.stderr)
+        return 2
+    # An import fails where a place needs a package of fsspec, or Dask is missing; the error names it.
+    except (run.IncompleteError, StoreLockedError, ValueError, ArithmeticError, ImportError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
+
+
+def refusal(error: OSError) -> str:
+    """What the system refused, without its number, and for which file."""
+    text, name = error.strerror or str(error), error.filename
+    return text if name is None or str(name) in text else f"{name}: {text}"
 
 
 def parser() -> argparse.ArgumentParser:
@@ -176,10 +187,10 @@ def shard(options: argparse.Namespace) -> int:
     with locked(place, shared=True):
         store = Store(place, mode="r+", complete=False)
         for some in options.shards:
-            store.box(some[0])
+            store.box(some.start)
         # The last job of many may have a range that goes on behind the last shard.
-        wanted = [number for some in options.shards for number in some if number < store.shard_count]
-        for number in wanted:
+        ranges = [range(some.start, min(some.stop, store.shard_count)) for some in options.shards]
+        for number in chain(*ranges):
             done = shards.write_shard(store, number)
             print(f"shard {number}: {done.state}, {done.nodes:,} nodes, {done.seconds:.2f} s", flush=True)
     return 0
@@ -216,6 +227,8 @@ def render(options: argparse.Namespace) -> int:
         out.mkdir(parents=True, exist_ok=True)
         name = store.metadata["name"]
         files = [out / (f"{name}.png" if len(drawn) == 1 else f"{name}-{i}.png") for i in range(1, len(drawn) + 1)]
+    if not files[0].parent.is_dir():
+        raise ValueError(f"{files[0].parent}: there is no such folder")
     for file, png in zip(files, drawn, strict=True):
         with tempfile.NamedTemporaryFile(dir=file.parent, suffix=".part", delete=False) as draft:
             try:

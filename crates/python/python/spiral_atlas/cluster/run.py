@@ -261,9 +261,12 @@ def _client(scheduler: str | None, workers: int) -> "Iterator[Client]":
     """A client of a scheduler or, without one, of a cluster that lives as long."""
     import dask
     from distributed import Client, LocalCluster
+    from distributed.comm.addressing import get_address_host_port
     from distributed.utils import get_mp_context
 
     if scheduler is not None:
+        # Of an address that is none, Dask would complain, and then wait for a minute.
+        get_address_host_port(scheduler)
         # Its own log tells in other words what the failures tell.
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         with Client(scheduler, set_as_default=False) as client:

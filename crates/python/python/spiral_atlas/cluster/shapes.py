@@ -19,6 +19,9 @@ def usual(
     counts: Sequence[int], node: int, chunks: Sequence[int] | None = None, shards: Sequence[int] | None = None
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Chunks and shards of a grid whose nodes have so many bytes; what is given stays."""
+    for what, sides in (("chunks", chunks), ("shards", shards)):
+        if sides is not None:
+            _check(counts, what, sides)
     most = min(SHARD_BYTES // node, max(LEAST_NODES, prod(counts) // SHARDS))
     if chunks is None:
         chunks = _divided(counts, min(CHUNK_NODES, most)) if shards is None else _halved(shards)
@@ -61,10 +64,17 @@ def _weighed(axis: int, sides: Sequence[int]) -> float:
 def check(counts: Sequence[int], chunks: Sequence[int], shards: Sequence[int]) -> None:
     """Refuses shapes that no array can have."""
     for what, sides in (("chunks", chunks), ("shards", shards)):
-        if len(sides) != len(counts) or any(side < 1 for side in sides):
-            raise ValueError(f"the {what} {told(sides)} must be {len(counts)} sides of at least 1, one for each axis")
+        _check(counts, what, sides)
     if any(shard % chunk for shard, chunk in zip(shards, chunks, strict=True)):
         raise ValueError(f"shards of {told(shards)} do not consist of whole chunks of {told(chunks)}")
+
+
+def _check(counts: Sequence[int], what: str, sides: Sequence[int]) -> None:
+    if len(sides) != len(counts) or any(side < 1 for side in sides):
+        raise ValueError(f"the {what} {told(sides)} must be {len(counts)} sides of at least 1, one for each axis")
+    # A shard is a whole number of chunks, and may go on behind the end of an axis by less than one, so by less than it.
+    if any(side >= 2 * count for side, count in zip(sides, counts, strict=True)):
+        raise ValueError(f"the {what} {told(sides)} are longer than the axes, which have {told(counts)} nodes")
 
 
 def told(sides: Sequence[int]) -> str:
