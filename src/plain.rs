@@ -4,9 +4,11 @@
 
 mod angle;
 mod name;
+mod number;
 
 pub use angle::{bare_angle, parse_angle};
 pub use name::{name, names};
+pub use number::{parse_curvature, parse_number};
 use std::ops::Range;
 
 /// Most characters of a value that are quoted.
@@ -158,9 +160,14 @@ pub fn value(path: &str, message: &str) -> String {
     if let Some((name, rest)) = quoted("unknown field `") {
         let name = cut(name);
         let known = rest.trim_start_matches(", expected ").trim_start_matches("one of ");
+        // Names stand between backticks.
+        let near = nearest(&name, known.split('`').skip(1).step_by(2));
         let inside = within(&name);
         let inside = if inside.is_empty() { String::new() } else { format!(" in {}", inside.trim_end()) };
-        return format!("there is no field `{name}`{inside}; known are {known}");
+        return match near {
+            Some(near) => format!("there is no field `{name}`{inside}; did you mean `{near}`?"),
+            None => format!("there is no field `{name}`{inside}; known are {known}"),
+        };
     }
     if let Some((name, rest)) = quoted("unknown variant `") {
         let known = rest.trim_start_matches(", expected ");
@@ -177,6 +184,12 @@ pub fn value(path: &str, message: &str) -> String {
         return format!("the field `{}` is given twice; keep one", cut(name));
     }
     if path.is_empty() { message.to_owned() } else { format!("{path}: {message}") }
+}
+
+/// The name that is nearest to what was given, unless it is far from all.
+pub fn nearest<'n>(given: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let far = |name: &str| strsim::damerau_levenshtein(given, name);
+    known.min_by_key(|name| far(name)).filter(|name| far(name) <= 1 + name.len() / 3)
 }
 
 /// What serde expects.
@@ -264,9 +277,10 @@ mod tests {
             (r#"{"name": true}"#, "must be a text in quotation marks; it is `true` ("),
             (r#"{"list": 1}"#, "must be a list; it is `1` ("),
             (r#"{"kind": "ark"}"#, "must be `line` or `arc`; it is `ark` ("),
+            (r#"{"stat": 1}"#, "there is no field `stat`; did you mean `start`? ("),
             (
-                r#"{"stat": 1}"#,
-                "there is no field `stat`; known are `start`, `count`, `kind`, `closed`, `name`, `list` (",
+                r#"{"velocity": 1}"#,
+                "there is no field `velocity`; known are `start`, `count`, `kind`, `closed`, `name`, `list` (",
             ),
             (r#"{"closed": true, "closed": true}"#, "the field `closed` is given twice; keep one ("),
             ("{}", "the field `start` is missing (line 1, column 2)"),

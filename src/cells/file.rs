@@ -159,11 +159,7 @@ impl Cells {
             return Ok(known.inside);
         }
         if point.len() != self.shape.axes {
-            return Err(Error::invalid(format!(
-                "the datum has {} coordinates; it must have {}",
-                point.len(),
-                self.shape.axes
-            )));
+            return Err(family::wrong_count(point.len(), self.shape.axes));
         }
         Ok(family::verdict(self.family, self.chart, point)?.flags() & wanted)
     }

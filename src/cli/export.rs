@@ -6,11 +6,10 @@ use super::path::Source;
 use super::{Outcome, numbers, output};
 use lattice::LatticeArgs;
 use spiral_atlas::export::{OpenDrive, dxf, opendrive};
-use spiral_atlas::files::write_file;
 use spiral_atlas::path::Course;
 use spiral_atlas::plain::count;
 use spiral_atlas::{Error, Result};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Write paths as files that other programs read.
 #[derive(clap::Args)]
@@ -48,7 +47,7 @@ struct RoadArgs {
     /// How far a fitted curve may be from the true one, in metres.
     #[arg(long, value_name = "METRES", value_parser = numbers::number, default_value_t = 0.001)]
     tolerance: f64,
-    /// Where the file goes; standard output unless given.
+    /// Where the file goes; standard output for - and unless given.
     #[arg(long, value_name = "FILE.xodr")]
     out: Option<PathBuf>,
 }
@@ -65,7 +64,7 @@ struct RoadArgs {
 struct DrawingArgs {
     #[command(flatten)]
     source: Source,
-    /// Where the file goes.
+    /// Where the file goes; standard output for -.
     #[arg(long, value_name = "FILE.dxf")]
     out: PathBuf,
 }
@@ -80,23 +79,22 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
 }
 
 fn drawing(args: &DrawingArgs) -> Result<Outcome> {
-    if !output::has_extension(&args.out, "dxf") {
+    output::not_over(Some(&args.out), args.source.input())?;
+    if !(output::has_extension(&args.out, "dxf") || args.out == Path::new("-")) {
         let path = args.out.display();
         return Err(Error::invalid(format!("the drawing `{path}` is to be DXF; end its name with .dxf")));
     }
     let paths: Vec<Course> = args.source.courses()?.into_iter().map(|(_, course)| course).collect();
-    write_file(&args.out, &dxf(&paths).map_err(|e| args.source.blame(e))?)?;
+    output::write_out(Some(&args.out), &dxf(&paths).map_err(|e| args.source.blame(e))?)?;
     Ok(Outcome::Fine)
 }
 
 fn road(args: &RoadArgs) -> Result<Outcome> {
+    output::not_over(args.out.as_deref(), args.source.input())?;
     let options = OpenDrive { lane_width: args.lane_width, tolerance: args.tolerance };
     let paths: Vec<Course> = args.source.courses()?.into_iter().map(|(_, course)| course).collect();
     let (text, fit) = opendrive(&paths, &options).map_err(|e| args.source.blame(e))?;
-    match &args.out {
-        Some(path) => write_file(path, text.as_bytes())?,
-        None => output::print(&text)?,
-    }
+    output::write_out(args.out.as_deref(), text.as_bytes())?;
     if fit.curves > 0 {
         output::note(&format!(
             "{} {} {} now, no further away than {:.1e} m; curvature at joints differs by at most {:.1e} / m",

@@ -2,13 +2,38 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::de::DeserializeOwned;
+use spiral_atlas::recipe::{parse_curvature, parse_number};
 use spiral_atlas::tools::MOST_SAMPLES;
+
+/// A curvature is hardly meant that is so many times one over the distance of the ends.
+const LARGE: f64 = 1e3;
 
 type Parsed<T> = std::result::Result<T, String>;
 
 /// A number.
 pub(super) fn number(text: &str) -> Parsed<f64> {
-    text.trim().parse().map_err(|_| format!("{text:?} is no number; write it like 0.5, -3 or 1e-3"))
+    parse_number(text).map_err(|e| match e.to_string() {
+        comma if comma.contains("with a point") => comma,
+        none => format!("{none}; write it like 0.5, -3 or 1e-3"),
+    })
+}
+
+/// A curvature: a number, or `1/radius`.
+pub(super) fn curvature(text: &str) -> Parsed<f64> {
+    parse_curvature(text).map_err(|e| format!("{e}; write a curvature like 0.004, or 1/250 for a radius of 250"))
+}
+
+/// What to ask whoever gives curvatures so large that they must be radii; nothing where none is.
+pub(super) fn are_radii(from: [f64; 2], to: [f64; 2], curvatures: [f64; 2]) -> Option<String> {
+    let distance = (to[0] - from[0]).hypot(to[1] - from[1]);
+    let large = |(which, k): (&str, f64)| {
+        let radius = format!("{k:?}");
+        let radius = radius.trim_end_matches(".0");
+        (k.is_finite() && k.abs() * distance > LARGE)
+            .then(|| format!("is the {which} curvature {radius} a radius? A curvature is 1/radius: 1/{radius}"))
+    };
+    let asked: Vec<String> = ["start", "end"].into_iter().zip(curvatures).filter_map(large).collect();
+    (!asked.is_empty()).then(|| asked.join("; "))
 }
 
 /// A whole number in a range.

@@ -34,6 +34,23 @@ pub(super) fn stdout_error(source: io::Error) -> Error {
     Error::Io { path: "(standard output)".into(), source }
 }
 
+/// Refuses to write where the input is.
+pub(super) fn not_over(out: Option<&Path>, input: &Path) -> Result<()> {
+    let real = |path: &Path| path.canonicalize().ok();
+    match out.filter(|out| real(out).is_some() && real(out) == real(input)) {
+        Some(out) => Err(Error::invalid(format!("{} is the input; choose another name for the output", out.display()))),
+        None => Ok(()),
+    }
+}
+
+/// Writes a file, or to standard output for `-` and where no file is named.
+pub(super) fn write_out(out: Option<&Path>, bytes: &[u8]) -> Result<()> {
+    match out.filter(|path| *path != Path::new("-")) {
+        Some(path) => write_file(path, bytes),
+        None => stream(|out| out.write_all(bytes)),
+    }
+}
+
 /// Before any work, whether a figure can be what its name says, where it says.
 pub(super) fn check_figure(figure: Option<&Path>) -> Result<()> {
     let Some(path) = figure else { return Ok(()) };
@@ -159,6 +176,9 @@ pub(super) fn report_path(folder: &Path, name: &str) -> PathBuf {
 
 /// Creates a folder with its parents, unless it is there.
 pub(super) fn make_folder(path: &Path) -> Result<()> {
+    if path == Path::new("-") {
+        return Err(Error::invalid("several files are written, which standard output cannot take; name a folder"));
+    }
     if path.exists() && !path.is_dir() {
         return Err(Error::invalid(format!(
             "{} is a file; the folder for the results needs another name",

@@ -6,6 +6,7 @@
 use super::Outcome;
 use super::output::{self, json_error, stdout_error};
 use spiral_atlas::files::size;
+use spiral_atlas::plain::count;
 use spiral_atlas::transition::Station;
 use spiral_atlas::{Error, Result};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
@@ -15,6 +16,10 @@ use std::path::Path;
 const MAX_LINE: usize = 1 << 16;
 /// A line that still has no end after so many bytes may have none at all, as in /dev/zero: it is not read on.
 const MAX_SKIPPED: usize = 1 << 26;
+/// Most bad rows that are named together.
+const NAMED: usize = 20;
+/// What other tables have between columns.
+const OTHERS: [(&str, char); 2] = [("semicolons", ';'), ("tabs", '\t')];
 
 /// A row of data.
 pub(super) struct Row<'l> {
@@ -71,7 +76,7 @@ pub(super) fn run(
     };
     let header = header.map_err(|what| Error::invalid(format!("{}: line {}: {what}", path.display(), lines.number)))?;
     let mut out = BufWriter::new(io::stdout().lock());
-    let (mut outcome, mut number) = (Outcome::Fine, 0);
+    let (mut bad, mut first_bad, mut number) = (0, Vec::new(), 0);
     if table && let Some(end) = broken(out.write_all(table_header().as_bytes()))? {
         return Ok(end);
     }
@@ -83,7 +88,8 @@ pub(super) fn run(
         }
         let line = match lines.next().map_err(io)? {
             None => break,
-            Some(Ok(line)) if line.trim().is_empty() => continue,
+            // Spreadsheets end a table with lines of commas alone.
+            Some(Ok(line)) if line.chars().all(|c| c.is_whitespace() || c == ',' || c == '"') => continue,
             Some(line) => {
                 number += 1;
                 line.and_then(|line| {
@@ -95,12 +101,15 @@ pub(super) fn run(
         let mut text = match line {
             Ok(text) => text,
             Err(error) => {
-                outcome = Outcome::Failed;
+                bad += 1;
+                if bad <= NAMED {
+                    first_bad.push(number);
+                }
                 if table {
-                    output::complain(&format!("row {number}, line {}: {error}", lines.number));
+                    output::complain(&format!("row {number}: {error}"));
                     continue;
                 }
-                serde_json::to_vec(&Bad { line: lines.number, error }).map_err(json_error)?
+                serde_json::to_vec(&Bad { row: number, error }).map_err(json_error)?
             }
         };
         if !table {
@@ -110,7 +119,20 @@ pub(super) fn run(
             return Ok(end);
         }
     }
-    broken(out.flush()).map(|end| end.unwrap_or(outcome))
+    if let Some(end) = broken(out.flush())? {
+        return Ok(end);
+    }
+    if bad == 0 {
+        return Ok(Outcome::Fine);
+    }
+    if !table {
+        let named: Vec<String> = first_bad.iter().map(u64::to_string).collect();
+        let more = if bad > NAMED { format!(" and {} more", bad - NAMED) } else { String::new() };
+        let (rows, why) =
+            if bad == 1 { ("row", "is bad; its answer says why") } else { ("rows", "are bad; their answers say why") };
+        output::complain(&format!("{rows} {}{more} of {number} {why}", named.join(", ")));
+    }
+    Ok(Outcome::Failed)
 }
 
 /// Where in the rows of a table the columns are.
@@ -126,12 +148,21 @@ impl Header {
     /// Reads the header line.
     fn parse(charts: &[&'static [&'static str]], line: &str) -> std::result::Result<Header, String> {
         let given: Vec<&str> = cells(line.trim_start_matches('\u{feff}')).collect();
-        let has_all = |chart: &&[&str]| chart.iter().all(|name| given.contains(name));
+        let has_all =
+            |chart: &&[&str]| chart.iter().all(|name| given.iter().any(|cell| cell.eq_ignore_ascii_case(name)));
         let Some(chart) = charts.iter().position(has_all) else {
+            if let Some((name, _)) = OTHERS.iter().find(|(_, separator)| line.contains(*separator)) {
+                return Err(format!(
+                    "the header is {:?}, with {name} between the columns; save the table with commas between columns, \
+                     and with decimal points in numbers",
+                    line.trim()
+                ));
+            }
             return Err(format!("the header is {:?}; it must have the columns {}", line.trim(), columns(charts)));
         };
         let place = |name: &&str| {
-            let mut found = given.iter().enumerate().filter(|(_, cell)| *cell == name).map(|(i, _)| i);
+            let mut found =
+                given.iter().enumerate().filter(|(_, cell)| cell.eq_ignore_ascii_case(name)).map(|(i, _)| i);
             let first = found.next().unwrap_or_default();
             if found.next().is_none() { Ok(first) } else { Err(format!("the header has two columns `{name}`")) }
         };
@@ -143,7 +174,8 @@ impl Header {
     fn cells<'l>(&self, line: &'l str) -> std::result::Result<Vec<&'l str>, String> {
         let all: Vec<&str> = cells(line).collect();
         if all.len() != self.count {
-            return Err(format!("the row has {} values; the header has {}", all.len(), self.count));
+            let comma = if all.len() > self.count { " (numbers have decimal points: 0.5, not 0,5)" } else { "" };
+            return Err(format!("the row has {}; the header has {}{comma}", count(all.len(), "value"), self.count));
         }
         Ok(self.places.iter().map(|place| all[*place]).collect())
     }
@@ -154,14 +186,21 @@ fn columns(charts: &[&'static [&'static str]]) -> String {
     charts.iter().map(|names| names.join(",")).collect::<Vec<_>>().join(" or ")
 }
 
-/// The cells of a line, without blanks and quotation marks around them.
+/// The cells of a line, without blanks and quotation marks around them. Commas between marks are part of a cell, unless a
+/// mark has no partner.
 fn cells(line: &str) -> impl Iterator<Item = &str> {
-    line.split(',').map(|cell| cell.trim().trim_matches('"').trim())
+    let paired = line.matches('"').count() % 2 == 0;
+    let mut inside = false;
+    let separates = move |c: char| {
+        inside ^= paired && c == '"';
+        c == ',' && !inside
+    };
+    line.split(separates).map(|cell| cell.trim().trim_matches('"').trim())
 }
 
 #[derive(serde::Serialize)]
 struct Bad {
-    line: u64,
+    row: u64,
     error: String,
 }
 
@@ -254,6 +293,12 @@ mod tests {
         assert_eq!((&other.places[..], other.count), (&[3, 2, 4, 0][..], 5));
         assert_eq!(other.cells("4,\"x\",90deg,0.7 , \"-0.4\"").unwrap(), ["0.7", "90deg", "-0.4", "4"]);
         assert_eq!(parse("phi0,phi1,a,k").unwrap().chart, 1);
+        assert_eq!(parse("Phi0,PHI1,kappa0,kappa1").unwrap().chart, 0);
+        assert_eq!(other.cells("4,\"Main St, 5\",90deg,0.7,-0.4").unwrap(), ["0.7", "90deg", "-0.4", "4"]);
+        assert!(other.cells("4,\"x,90deg,0.7,-0.4").is_ok(), "a mark alone");
+        assert_eq!(other.cells("4,x,90deg,\"0,7\",-0.4").unwrap()[0], "0,7");
+        assert!(plain.cells("0,7,1,4,0,4,4").unwrap_err().contains("0.5, not 0,5"));
+        assert!(parse("phi0;phi1;kappa0;kappa1").unwrap_err().contains("with semicolons between the columns"));
         assert!(parse("phi0,phi1,kappa0,kapa1").unwrap_err().contains("kapa1"));
         assert!(parse("phi0,phi1,kappa0,kappa1,phi0").unwrap_err().contains("two columns"));
         assert!(plain.cells("1,2,3").unwrap_err().contains("3 values"));

@@ -21,7 +21,8 @@ use std::path::PathBuf;
 /// With --points, one line of JSON for each row, in order:
 /// {"phi0":..,"phi1":..,"kappa0":..,"kappa1":..,"flags":{"SOLVABLE":true,..},"solutions":[{"f0":..,"f1":..,
 /// "theorem31":true,"spiral":true,"margin":..,"length":..,"control_points":[[x,y],..]},..],"chosen":0}, where `chosen`
-/// is an index into `solutions` or null; a bad row gives {"line":..,"error":".."}.
+/// is an index into `solutions` or null; a bad row gives {"row":..,"error":".."},
+/// counted from 1 after the header.
 ///
 /// Exit status: 0 when what the family looks for exists, 1 when it does not, 2 for an error. With --points it is 0 when
 /// every row was answered, whatever the answers, and 2 when one was bad. A yes is the flag SPIRAL (`cubic`,

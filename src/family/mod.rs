@@ -219,7 +219,12 @@ fn chart_of(family: &dyn Family, grid: &Grid) -> Result<usize> {
 
 /// A datum with as many coordinates as it must have.
 fn coordinates<const N: usize>(point: &[f64]) -> Result<&[f64; N]> {
-    point.try_into().map_err(|_| Error::invalid(format!("the datum has {} coordinates; it must have {N}", point.len())))
+    point.try_into().map_err(|_| wrong_count(point.len(), N))
+}
+
+/// That a datum has another number of coordinates than it must have.
+pub(crate) fn wrong_count(given: usize, must: usize) -> Error {
+    Error::domain("the number of coordinates of the datum", given as f64, must.to_string())
 }
 
 /// The code of one datum, as a grid of one node has it.

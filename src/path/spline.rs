@@ -4,6 +4,7 @@ use super::tridiagonal::Tridiagonal;
 use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
 use crate::error::{Error, Result};
+use crate::plain::count;
 use num_complex::Complex64;
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
@@ -81,7 +82,7 @@ fn checked(points: &[[f64; 2]], closed: bool) -> Result<Vec<[f64; 2]>> {
     let (least, kind) =
         if closed { (4, "a closed spline needs at least 3") } else { (2, "an open spline needs at least 2") };
     if all.len() < least {
-        return fail(format!("{} points; {kind} different ones", points.len()));
+        return fail(format!("{}; {kind} different ones", count(points.len(), "point")));
     }
     if let Some(i) = all.windows(2).position(|w| w[0] == w[1]) {
         return fail(format!(

@@ -276,7 +276,8 @@ impl Noise {
 fn searched(property: &Property, point: &[f64], weights: &[f64]) -> Result<Cell> {
     let mut whole = property.point(point)?;
     if weights.len() != point.len() {
-        return Err(Error::invalid(format!("there are {} weights; there must be {}", weights.len(), point.len())));
+        let count = Error::domain("the number of weights", weights.len() as f64, point.len().to_string());
+        return Err(count.or(format!("one for each of {}", property.axes().join(", "))));
     }
     for (i, (weight, axis)) in weights.iter().zip(property.axes()).enumerate() {
         if !(1e-50..=1e50).contains(weight) && *weight != f64::INFINITY {

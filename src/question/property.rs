@@ -92,12 +92,7 @@ impl Property {
     pub(super) fn point(&self, point: &[f64]) -> Result<Cell> {
         let axes = self.axes();
         if point.len() != axes.len() {
-            return Err(Error::invalid(format!(
-                "the datum has {} coordinates; it must have {}: {}",
-                point.len(),
-                axes.len(),
-                axes.join(", ")
-            )));
+            return Err(family::wrong_count(point.len(), axes.len()).or(axes.join(", ")));
         }
         let mut cell = Cell::default();
         for (i, (x, axis)) in point.iter().zip(axes).enumerate() {

@@ -33,6 +33,7 @@ mod reference;
 mod words;
 
 pub use crate::plain::parse_angle;
+pub use crate::plain::{parse_curvature, parse_number};
 pub use levels::Levels;
 pub use look::{DPI, Look, MAX_PIXELS, MULTIPLES_SIZE, PANEL_SIZE, SLICE_SIZE};
 pub use raw::{is_angle, parse_coordinate};

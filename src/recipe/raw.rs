@@ -1,7 +1,7 @@
 //! A recipe as TOML has it, before anything is looked up.
 
 use crate::error::{Error, Result};
-use crate::plain::{self, parse_angle};
+use crate::plain::{self, parse_angle, parse_number};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -131,14 +131,12 @@ pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
 
 /// The complaint about a name that is not known, with the nearest that is.
 pub(super) fn unknown(what: &str, given: &str, known: &[&str]) -> String {
-    let distance = |name: &&&str| strsim::damerau_levenshtein(given, name);
+    let near = plain::nearest(given, known.iter().copied());
     let given = plain::cut(given);
-    match known.iter().min_by_key(distance) {
-        Some(name) if distance(&name) <= 1 + name.len() / 3 => {
-            format!("unknown {what} `{given}`; did you mean `{name}`?")
-        }
-        Some(_) => format!("unknown {what} `{given}`; known are `{}`", known.join("`, `")),
-        None => format!("unknown {what} `{given}`"),
+    match near {
+        Some(name) => format!("unknown {what} `{given}`; did you mean `{name}`?"),
+        None if known.is_empty() => format!("unknown {what} `{given}`"),
+        None => format!("unknown {what} `{given}`; known are `{}`", known.join("`, `")),
     }
 }
 
@@ -155,5 +153,5 @@ pub fn parse_coordinate(axis: &str, text: &str) -> Result<f64> {
     if is_angle(axis) {
         return parse_angle(text).map_err(|e| e.at(axis));
     }
-    text.trim().parse().map_err(|_| Error::invalid(format!("{axis}: {text:?} is no number")))
+    parse_number(text).map_err(|e| e.at(axis))
 }

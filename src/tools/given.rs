@@ -6,35 +6,69 @@ use crate::error::{Error, Result};
 use crate::path::{Course, Motion, OffsetCurve, Separation, Spot, Summary, Verdict, separations};
 use crate::plain::count;
 use crate::transition::{Piece, Station};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 /// Most samples of a path.
 pub const MOST_SAMPLES: u32 = 1_000_000;
 
-/// A path as all tools report it; other fields are left out of account.
+/// A path as all tools report it.
 #[derive(Debug, Clone, Deserialize)]
+#[serde(from = "RawPath")]
 pub struct GivenPath {
     /// In order.
-    #[serde(deserialize_with = "objects")]
     pub pieces: Vec<Piece>,
 }
 
 /// The same, and when and how fast a vehicle travels along it.
 #[derive(Debug, Clone, Deserialize)]
+#[serde(from = "RawPath")]
 pub struct Vehicle {
     /// Its path.
-    #[serde(deserialize_with = "objects")]
     pub pieces: Vec<Piece>,
     /// Its constant speed; 1 where it is left out.
-    #[serde(default = "one")]
     pub speed: f64,
     /// When it starts; 0 where it is left out.
-    #[serde(default)]
     pub start_time: f64,
 }
 
-fn one() -> f64 {
-    1.0
+/// All fields that a path may have. Those that reports have beside the pieces say nothing new, and any other is a
+/// mistake.
+#[derive(Deserialize)]
+#[serde(rename = "path", deny_unknown_fields)]
+#[expect(dead_code, reason = "what reports have is only let pass")]
+struct RawPath {
+    #[serde(deserialize_with = "objects")]
+    pieces: Vec<Piece>,
+    speed: Option<f64>,
+    start_time: Option<f64>,
+    length: Option<IgnoredAny>,
+    greatest_curvature: Option<IgnoredAny>,
+    curvature_at_most: Option<IgnoredAny>,
+    curvature_range: Option<IgnoredAny>,
+    rate_range: Option<IgnoredAny>,
+    bending_energy: Option<IgnoredAny>,
+    absolute_rotation: Option<IgnoredAny>,
+    candidates: Option<IgnoredAny>,
+    best: Option<IgnoredAny>,
+    paper: Option<IgnoredAny>,
+    length_saved: Option<IgnoredAny>,
+    clearance: Option<IgnoredAny>,
+    polyline: Option<IgnoredAny>,
+    corners: Option<IgnoredAny>,
+    samples: Option<IgnoredAny>,
+}
+
+impl From<RawPath> for GivenPath {
+    fn from(raw: RawPath) -> GivenPath {
+        GivenPath { pieces: raw.pieces }
+    }
+}
+
+impl From<RawPath> for Vehicle {
+    fn from(RawPath { pieces, speed, start_time, .. }: RawPath) -> Vehicle {
+        Vehicle { pieces, speed: speed.unwrap_or(1.0), start_time: start_time.unwrap_or(0.0) }
+    }
 }
 
 /// The motions of vehicles, each of which stands at a place of the request that errors name.

@@ -3,7 +3,7 @@
 use super::Turn;
 use super::piece::{Cubic, Piece};
 use super::placement::{Ends, Placement};
-use super::words::degrees;
+use super::words::{above, degrees};
 use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
 use crate::error::{Error, Result, finite, positive, written};
@@ -156,7 +156,9 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
             let [xi, eta] = frame.to_local(point)?;
             let reached = solve(kind, &Datum { theta, xi, eta })?;
             let segment = if case == 1 { reached.case1 } else { reached.case2 };
-            let Some(s) = segment else { return Ok(Err(why(case, theta, point, [xi, eta]))) };
+            let Some(s) = segment else {
+                return Ok(Err(why(kind, case, theta, point, [xi, eta], radius)));
+            };
             (xi, eta, s.m, s.q, s.level)
         }
     };
@@ -204,19 +206,46 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
 }
 
 /// Why there is no segment: one of the two legs would have to run backwards.
-fn why(case: u8, theta: f64, point: Vector, [xi, eta]: Vector) -> String {
+fn why(kind: Kind, case: u8, theta: f64, point: Vector, [xi, eta]: Vector, radius: f64) -> String {
     let (s, c) = theta.sin_cos();
     let (round, name) = if case == 1 { (eta, "eta") } else { (xi * s - eta * c, "xi sin(theta) - eta cos(theta)") };
     let what = if round <= 0.0 {
         format!("has {name} = {}, which must be above 0: it lies behind the tangent of the flat end", written(round))
     } else {
-        "needs m <= 0: it lies too near, so that the flat end's tangent would run backwards".into()
+        let other = if case == 1 { xi * s - eta * c } else { eta };
+        let more = (least_height(kind, theta, round) - other) / s * radius;
+        let direction = if case == 1 { "start" } else { "end" };
+        let ahead = match more > 0.0 && more.is_finite() {
+            true => format!("further ahead along the {direction} direction, by more than {}", above(more)),
+            false => format!("further ahead along the {direction} direction"),
+        };
+        format!(
+            "lies too near, so that the flat end's tangent would run backwards (m <= 0): the end point must be {ahead}"
+        )
     };
     let ([x, y], [xi, eta], theta) = (point.map(written), [xi, eta].map(written), degrees(theta));
     format!(
         "the end point ({x}, {y}), which is (xi, eta) = ({xi}, {eta}) in radii from the start with theta = {theta}, \
          {what}"
     )
+}
+
+/// With the heights a and b of the end point over the tangents of the flat end and of the round end
+/// (`family/reach/poly.rs`): the b above which m is positive, a being given.
+///
+/// For the cubic αu = 1 and βu² = 1 + m, so m > 0 where b > 3a²/(2 sin²θ). For the PH quintic m rises with u, and so
+/// does β; at m = 0 the first equation αu² - 24gu - 3 = 0 has the positive root u, and βu³ = 6u + 2. Moving the end by t
+/// along the tangent of the flat end adds t sin θ to b and keeps a.
+fn least_height(kind: Kind, theta: f64, a: f64) -> f64 {
+    match kind {
+        Kind::Cubic => 1.5 * (a / theta.sin()).powi(2),
+        Kind::Ph => {
+            let (c, l) = ((0.5 * theta).cos(), (0.5 * theta).tan());
+            let (g, alpha) = (c * c, 60.0 * a / (l * l));
+            let u = (12.0 * g + (144.0 * g * g + 3.0 * alpha).sqrt()) / alpha;
+            (6.0 * u + 2.0) / u.powi(3) * l * l / 120.0
+        }
+    }
 }
 
 /// The start's frame: radius 1, turning left from (0, 0) along (1, 0).

@@ -248,7 +248,8 @@ fn a_table_is_answered_line_by_line_in_order() {
                 4,40deg,e,80deg,-1\n1e999,0.7,f,1.4,0.4";
     std::fs::write(folder.at("rows.csv"), rows).unwrap();
     let said = run(["query", "--points", &folder.text("rows.csv")]);
-    assert_eq!((said.code, &said.err[..]), (Some(2), ""));
+    let summary = "error: rows 2, 3, 5, 7 of 7 are bad; their answers say why\n";
+    assert_eq!((said.code, &said.err[..]), (Some(2), summary));
     let lines: Vec<serde_json::Value> = said.out.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
     assert_eq!(lines.len(), 7);
     assert!(said.out.starts_with(r#"{"phi0":0.7,"phi1":1.4,"kappa0":0.4,"kappa1":4.0,"flags":{"SOLVABLE":true,"#));
@@ -256,9 +257,8 @@ fn a_table_is_answered_line_by_line_in_order() {
         (&lines[0]["chosen"], &lines[3]["kappa1"], &lines[5]["kappa0"]),
         (&0.into(), &100.0.into(), &(-1.0).into())
     );
-    for (at, line, part) in [(1, 4, "kappa1: \"x\""), (2, 5, "2 values"), (4, 7, "phi0 is 4"), (6, 9, "kappa1 is inf")]
-    {
-        assert_eq!(lines[at]["line"], line);
+    for (at, part) in [(1, "kappa1: \"x\""), (2, "2 values"), (4, "phi0 is 4"), (6, "kappa1 is inf")] {
+        assert_eq!(lines[at]["row"], at + 1);
         assert!(lines[at]["error"].as_str().unwrap().contains(part), "{}", lines[at]);
     }
     // Every row has an answer: that the second is a no does not matter.
@@ -269,6 +269,39 @@ fn a_table_is_answered_line_by_line_in_order() {
         .collect();
     std::fs::write(folder.at("good.csv"), good).unwrap();
     assert_eq!(fine(["query", "--points", &folder.text("good.csv")]).out.lines().count(), 2);
+}
+
+/// What spreadsheets write: a byte order mark, marks around cells, commas in them, lines of commas at the end.
+#[test]
+fn tables_of_spreadsheets_are_read() {
+    let asked = |text: &str| super::curve_output::piped(&["query", "--points", "-"], text);
+    let plain = asked("phi0,phi1,kappa0,kappa1\n0.7,1.4,0.4,4\n");
+    for text in [
+        "\u{feff}\"phi0\",\"phi1\",\"kappa0\",\"kappa1\"\r\n\"0.7\",\"1.4\",\"0.4\",\"4\"\r\n\r\n,,,\r\n",
+        "PHI0,Phi1,name,kappa0,kappa1\n0.7,1.4,\"Main St, 5\",0.4,4\n\n\n",
+    ] {
+        let said = asked(text);
+        assert!(
+            said.code == Some(0) && said.out == plain.out && said.err.is_empty(),
+            "{text}: {}{}",
+            said.out,
+            said.err
+        );
+    }
+    let none = asked("phi0,phi1,kappa0,kappa1\r\n\r\n");
+    assert_eq!((none.code, &none.out[..], &none.err[..]), (Some(0), "", ""));
+    for (text, what) in [
+        ("phi0;phi1;kappa0;kappa1\n0,7;1,4;0,4;4\n", "with semicolons between the columns; save the table with commas"),
+        ("phi0\tphi1\tkappa0\tkappa1\n", "with tabs between the columns"),
+        ("", "it is empty"),
+    ] {
+        let said = asked(text);
+        assert!(said.code == Some(2) && said.err.contains(what) && said.out.is_empty(), "{text}: {}", said.err);
+    }
+    let comma = asked("phi0,phi1,kappa0,kappa1\n0.7,1.4,0.4,4\n0.7,1.4,\"0,4\",4\n");
+    assert!(comma.code == Some(2) && comma.out.starts_with(&plain.out), "{}", comma.out);
+    assert!(comma.out.contains("\"row\":2") && comma.out.contains("write 0.4, with a point"), "{}", comma.out);
+    assert_eq!(comma.err, "error: row 2 of 2 is bad; its answer says why\n");
 }
 
 #[test]

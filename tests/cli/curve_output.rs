@@ -242,7 +242,7 @@ fn batches_have_a_line_for_each_row() {
             piped(&args, &format!("{rows}0.04,-40°,5,x,205,-3,0.004,80deg\n1,2\n0.04,-40°,5,-3,205,-3,0.004,80deg\n"));
         let lines: Vec<Value> = bad.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         assert!(bad.code == Some(2) && lines.len() == 5, "{}", bad.out);
-        assert_eq!((&lines[2]["line"], &lines[2]["error"]), (&json!(4), &json!("y0: \"x\" is no number")));
+        assert_eq!((&lines[2]["row"], &lines[2]["error"]), (&json!(3), &json!("y0: \"x\" is no number")));
         assert!(lines[3]["error"].is_string() && lines[4] == lines[0], "{}", lines[3]);
     }
     // Lines of both answers are read where paths are read, and samples come as one table.
@@ -274,7 +274,7 @@ fn a_no_is_a_no_for_what_reads_paths() {
     let join = run(["join", "--from", "0,0,0,1", "--to", "9,0,0", "--greatest-curvature", "0.5"]);
     let row = run(["join", "--from", "0,0,0,1", "--to", "9,0,0", "--greatest-curvature", "0.5"]).json();
     let rows =
-        format!("{}\n{}\n", json!({ "pieces": null, "reason": row["reason"] }), json!({ "line": 3, "error": "bad" }));
+        format!("{}\n{}\n", json!({ "pieces": null, "reason": row["reason"] }), json!({ "row": 3, "error": "bad" }));
     for (input, what) in [
         (&no.out, "standard input has no path: no spiral of any kind joins these ends"),
         (&join.out, "standard input has no path: the start curvature 1.0 is beyond"),

@@ -138,6 +138,48 @@ fn involutes_join_any_ends_with_a_spiral() {
     assert!(none.code == Some(1) && none.out.contains("the curvature is -0.1 at both ends"), "{}", none.out);
 }
 
+/// A curvature may be written as that of a radius. One that is a radius itself is asked about, in a no alone.
+#[test]
+fn curvatures_may_be_those_of_radii() {
+    let yes = |curvatures: [&str; 2]| curve("0,0", "200,0", ["-40deg", "80deg"], curvatures, &["--json"]);
+    assert_eq!(yes(["1/250", "1/25"]).json(), yes(["0.004", "0.04"]).json());
+    let no = curve("0,0", "200,0", ["-40deg", "80deg"], ["250", "1/25"], &[]);
+    let ask = "is the start curvature 250 a radius? A curvature is 1/radius: 1/250";
+    assert!(no.code == Some(1) && no.out.contains(ask) && !no.out.contains("end curvature 0.04 a"), "{}", no.out);
+    let reason = curve("0,0", "200,0", ["-40deg", "80deg"], ["250", "1/25"], &["--json"]).json()["reason"].to_string();
+    assert!(reason.contains(ask), "{reason}");
+    let join = ["join", "--from", "0,0,0deg,250", "--to", "80,50,1,1/60", "--greatest-curvature", "1/60"];
+    let none = run(join);
+    assert!(none.code == Some(1) && none.out.contains(ask), "{}{}", none.out, none.err);
+    let wrong = curve("0,0", "200,0", ["-40deg", "80deg"], ["1/x", "1/25"], &[]);
+    assert!(wrong.code == Some(2) && wrong.err.contains("1/250 for a radius of 250"), "{}", wrong.err);
+}
+
+/// The end that is said to be too near is near enough by as much as is said, and no less.
+#[test]
+fn ends_that_are_too_near_are_told_by_how_much() {
+    for (family, angle) in [("reach-cubic", 0.8f64), ("reach-ph", 0.8), ("reach-ph", 2.2)] {
+        for (base, direction) in [("line", 0.0), ("circle", angle)] {
+            let asked = |end: [f64; 2]| {
+                let (angle, to) = (angle.to_string(), format!("{},{}", end[0], end[1]));
+                let all =
+                    ["curve", family, "--base", base, "--from", "0,0", "--start-direction", "0", "--turn", "left"];
+                run(all.iter().chain(&["--radius", "20", "--angle", &angle, "--to", &to]))
+            };
+            // In units of the radius: nearly under the flat end's tangent, seen from the round end.
+            let end = if base == "line" { [-5.0, 8.0] } else { [20.0 * angle.sin() - 5.0, 1.0] };
+            let said = asked(end);
+            let which = if base == "line" { "start" } else { "end" };
+            let words = format!("further ahead along the {which} direction, by more than ");
+            let (_, more) = said.out.split_once(&words).unwrap_or_else(|| panic!("{family} {base}: {}", said.out));
+            let more: f64 = more.trim_end().parse().unwrap_or_else(|_| panic!("{}", said.out));
+            let moved = |t: f64| asked([end[0] + t * f64::cos(direction), end[1] + t * f64::sin(direction)]).out;
+            assert!(!moved(1.0001 * more).contains("no segment"), "{family} {base}: {}", moved(1.0001 * more));
+            assert!(moved(0.999 * more).contains("too near"), "{family} {base}: {}", moved(0.999 * more));
+        }
+    }
+}
+
 /// Turns that the curve does not have are a no, which names those that it has.
 #[test]
 fn turns_are_those_asked_for() {
@@ -319,5 +361,5 @@ fn an_older_spelling_means_the_same() {
     let [older, new] =
         [table.clone(), format!("cubic {table}")].map(|words| run(["curve"].into_iter().chain(words.split(' '))));
     assert_eq!((older.code, &older.out), (Some(2), &new.out));
-    assert!(older.out.lines().count() == 2 && older.out.contains("\"line\":3"), "{}", older.out);
+    assert!(older.out.lines().count() == 2 && older.out.contains("\"row\":2"), "{}", older.out);
 }

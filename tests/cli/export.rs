@@ -24,6 +24,29 @@ fn a_road_goes_to_a_file_or_to_standard_output() {
 }
 
 /// The extents hold all of the drawing, an arc's sides too; the file's name says what it is.
+/// One rule for outputs: `-` is standard output where one file is written, and no input is written over.
+#[test]
+fn outputs_are_files_or_standard_output() {
+    let folder = super::Folder::new("");
+    let line = r#"{"paths": [{"pieces": [{"kind": "line", "start": [0, 0], "end": [9, 0]}]}]}"#;
+    for name in ["path.json", "path.dxf"] {
+        std::fs::write(folder.at(name), line).unwrap();
+    }
+    let (json, dxf) = (folder.text("path.json"), folder.text("path.dxf"));
+    assert!(super::fine(["export", "opendrive", &json, "--out", "-"]).out.starts_with("<?xml"));
+    assert!(super::fine(["export", "dxf", &json, "--out", "-"]).out.contains("SECTION"));
+    for (format, path) in [("opendrive", &json), ("dxf", &dxf)] {
+        let said = super::run(["export", format, path, "--out", path]);
+        assert!(said.code == Some(2) && said.err.contains("is the input; choose another name"), "{}", said.err);
+        assert_eq!(std::fs::read_to_string(path).unwrap(), line);
+    }
+    std::fs::write(folder.at("recipe.toml"), super::TINY).unwrap();
+    for command in ["generate", "render"] {
+        let said = super::run([command, &folder.text("recipe.toml"), "--out", "-"]);
+        assert!(said.code == Some(2) && said.err.contains("name a folder"), "{command}: {}", said.err);
+    }
+}
+
 #[test]
 fn a_drawing_tells_its_extents() {
     let folder = Folder::new("");

@@ -3,6 +3,7 @@
 use super::{Folder, TINY, TINY_NODES, fine, names, run};
 use spiral_atlas::atlas::{Atlas, Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, evaluate};
+use std::process::Stdio;
 use std::sync::atomic::AtomicBool;
 
 #[test]
@@ -47,6 +48,24 @@ fn the_same_recipe_gives_the_same_bytes_with_any_number_of_threads() {
     assert!(first == bytes(TINY, "1") && first == bytes(TINY, "5"));
     let other = bytes(&TINY.replace("16]", "17]"), "1");
     assert!((0..3).all(|i| first[i] != other[i]));
+}
+
+/// Two runs into one folder at the same time: both end well, and whole files are there.
+#[test]
+fn runs_at_the_same_time_end_well() {
+    let folder = Folder::new(TINY);
+    let (recipe, out) = (folder.text("recipe.toml"), folder.text("out"));
+    let args = ["generate", &recipe, "--out", &out, "--backend", "cpu"];
+    let runs: Vec<_> = (0..4)
+        .map(|_| super::program().args(args).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap())
+        .collect();
+    for run in runs {
+        let said = super::Said::from(run.wait_with_output().unwrap());
+        assert_eq!(said.code, Some(0), "{}", said.err);
+    }
+    let all = ["tiny-1.png", "tiny-2.png", "tiny.atlas.safetensors", "tiny.report.json"];
+    assert_eq!(names(&folder.at("out")), all);
+    fine(["verify", &folder.text("out/tiny.atlas.safetensors"), "--backend", "cpu"]);
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn a_request_stands_in_a_file() {
             json!(3),
             "family must be one of \"cubic\", \"ph-quintic\", \"involute\", \"trig-quintic\", \"clothoid\"; it is",
         ),
-        ("longset", json!(3), "there is no field `longset`; known are `from`, `to`"),
+        ("longset", json!(3), "there is no field `longset`; did you mean `longest`?"),
         ("from", json!({ "state": { "point": [0, 0] } }), "from.state lacks the field `direction`"),
         ("from", json!(null), "from must be an object with the fields state, line, circle; it is null (line 1"),
         ("from", json!([0, 0, 0]), "from must be an object with the fields state, line, circle; it is a list (line 1"),
@@ -158,7 +158,7 @@ fn a_request_stands_in_a_file() {
         ),
         ("direction = 0 ", "direction = 40deg ", "a text stands in quotation marks: \"40deg\""),
         ("direction = 0 ", "direction = 40 ", "from.state.direction: 40 is more than a full turn in radians"),
-        ("from.state = {", "from.stat = {", "there is no field `stat` in from; known are `state`, `line`, `circle`"),
+        ("from.state = {", "from.stat = {", "there is no field `stat` in from; did you mean `state`?"),
         ("from.state = {", "from = 1 #", "from must be an object with the fields state, line, circle; it is `1`"),
         ("from.state", "from.line = {}\nfrom.state", "from.line lacks the field `point`"),
     ] {
@@ -205,13 +205,13 @@ fn tables_are_answered_row_by_row() {
     assert_eq!((said.code, lines.len()), (Some(2), 4));
     assert_eq!(lines[0]["pieces"][0]["kind"], "cubic");
     assert!(lines[1]["pieces"].is_null() && lines[1]["reason"].as_str().unwrap().contains("start curvature 1.0"));
-    assert_eq!(lines[2], json!({ "line": 4, "error": "curvature0: \"x\" is no number" }));
+    assert_eq!(lines[2], json!({ "row": 3, "error": "curvature0: \"x\" is no number" }));
     assert!(lines[3]["error"].as_str().unwrap().contains("start curvature is NaN"));
     let told = piped(&["join", "--points", "-", "--greatest-curvature", "0.5", "--samples", "3", "--csv"], rows);
     let table: Vec<&str> = told.out.lines().collect();
     assert_eq!((told.code, table.len(), table[0]), (Some(2), 4, "row,station,x,y,heading,curvature"), "{}", told.err);
     assert!(table[1].starts_with("1,0.0,0.0,0.0,0.0,") && table[3].starts_with("1,"), "{}", told.out);
-    let [two, three] = ["row 2: the start curvature 1.0 is beyond", "row 3, line 4: curvature0: \"x\" is no number"];
+    let [two, three] = ["row 2: the start curvature 1.0 is beyond", "row 3: curvature0: \"x\" is no number"];
     assert!(told.err.contains(two) && told.err.contains(three), "{}", told.err);
     let sampled = piped(&["join", "--points", "-", "--greatest-curvature", "0.5", "--samples", "3"], rows);
     let first: Value = serde_json::from_str(sampled.out.lines().next().unwrap()).unwrap();

@@ -57,7 +57,7 @@ fn mistakes_are_named() {
             "[[[0, 0], [1, 0]]]",
             &["standard input: it must be an object with the fields points, closed; it is a list"],
         ),
-        (&["spline", "-"], r#"{"point": []}"#, &["there is no field `point`; known are `points` or `closed`"]),
+        (&["spline", "-"], r#"{"point": []}"#, &["there is no field `point`; did you mean `points`?"]),
         (
             &["equal-length", "-"],
             concat!(
@@ -136,6 +136,28 @@ fn mistakes_are_named() {
 
 /// Numbers near both ends of the range of doubles, in every place: an answer of finite numbers, or an error with a way
 /// out.
+/// A misspelt field of a path or a piece is no silence; what the tools print is read.
+#[test]
+fn unknown_fields_of_paths_are_refused() {
+    let piece = r#"{"kind": "line", "start": [0, 0], "end": [1, 0], "length": 1}"#;
+    let two = |field: &str| format!(r#"{{"paths": [{{"pieces": [{piece}]}}, {{"pieces": [{piece}], {field}: 2}}]}}"#);
+    for (tool, text, what) in [
+        ("separation", two("\"sped\""), "there is no field `sped` in paths[1]; did you mean `speed`?"),
+        ("measure", two("\"start_tme\""), "there is no field `start_tme` in paths[1]; did you mean `start_time`?"),
+        (
+            "measure",
+            two("\"speed\"").replacen("\"end\"", "\"endd\"", 1),
+            "there is no field `endd` in paths[0].pieces[0]; did you mean `end`?",
+        ),
+    ] {
+        let more: &[&str] = if tool == "separation" { &["--minimum", "0.1"] } else { &[] };
+        let said = super::curve_output::piped(&[&["path", tool, "-"], more].concat(), &text);
+        assert!(said.code == Some(2) && said.err.contains(what) && said.out.is_empty(), "{tool}: {}", said.err);
+    }
+    let refused = super::run(["path", "measure", "-", "--samples", "3", "--csv", "--offset", "-0.5"]);
+    assert!(refused.code == Some(2) && refused.err.contains("cannot be used with"), "{}", refused.err);
+}
+
 #[test]
 fn extreme_numbers_have_an_answer_or_a_way_out() {
     let templates: [(&[&str], &str); 4] = [

@@ -31,17 +31,17 @@ pub(super) struct Between {
     #[arg(long, value_name = "ANGLE|DX,DY", value_parser = direction, allow_hyphen_values = true)]
     #[arg(required_unless_present = "points", conflicts_with = "points")]
     end_direction: Option<f64>,
-    /// Curvature at the start, 1 / length, positive to the left.
-    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    /// Curvature at the start, 1 / length, positive to the left; 1/250 is that of a radius of 250.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::curvature, allow_hyphen_values = true)]
     #[arg(required_unless_present = "points", conflicts_with = "points")]
     start_curvature: Option<f64>,
-    /// Curvature at the end, 1 / length, positive to the left.
-    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    /// Curvature at the end, 1 / length, positive to the left; 1/250 is that of a radius of 250.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::curvature, allow_hyphen_values = true)]
     #[arg(required_unless_present = "points", conflicts_with = "points")]
     end_curvature: Option<f64>,
     /// A CSV file of ends, - for standard input. Columns, in any order: x0, y0, direction0, curvature0, x1, y1,
     /// direction1, curvature1. Prints for each row, in order, a line of JSON as of --json, but without advice; for a
-    /// bad row {"line":..,"error":".."}.
+    /// bad row {"row":..,"error":".."}.
     #[arg(long, value_name = "FILE", conflicts_with = "figure")]
     points: Option<PathBuf>,
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! What every family of `curve` reports alike: paths, reasons, other families, samples.
 
+use super::super::numbers::are_radii;
 use super::super::{Outcome, output};
 use super::Reportable;
 use serde::{Serialize, Serializer};
@@ -20,6 +21,9 @@ pub(super) struct Report<'f, F: Reportable> {
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+    /// Whether curvatures are meant as radii; the reason asks it too.
+    #[serde(skip)]
+    ask: Option<String>,
     #[serde(flatten)]
     others: Option<Others>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -105,10 +109,13 @@ impl<'f, F: Reportable> Report<'f, F> {
                 }
             }
         };
+        let asked = found.between().filter(|_| reason.is_some()).map(|(ends, _)| ends);
+        let ask = asked.and_then(|e| are_radii(e.start, e.end, [e.start_curvature, e.end_curvature]));
+        let reason = reason.map(|why| ask.as_ref().map_or(why.clone(), |ask| format!("{why}; {ask}")));
         let unsure = found.between().filter(|_| wish.advice && reason.is_some());
         let others = unsure.map(|(ends, kind)| Others::new(ends, kind, wish.longest()));
         let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.stations(n, found)));
-        Ok(Report { found, paths, reason, others, samples: samples.transpose()? })
+        Ok(Report { found, paths, reason, ask, others, samples: samples.transpose()? })
     }
 
     pub(super) fn outcome(&self) -> Outcome {
@@ -121,6 +128,11 @@ impl<'f, F: Reportable> Report<'f, F> {
             Some(reason) if self.found.spirals().is_ok() => reason.clone(),
             _ => self.found.text().trim_end().to_owned(),
         };
+        text += &self
+            .ask
+            .as_ref()
+            .filter(|_| self.found.spirals().is_err())
+            .map_or(String::new(), |ask| format!("\n{ask}"));
         text += &self.others.as_ref().map_or(String::new(), Others::advice);
         output::stream(|out| {
             writeln!(out, "{text}")?;

@@ -4,7 +4,6 @@ use super::super::join::FAMILIES;
 use super::super::{Outcome, numbers, output};
 use spiral_atlas::Result;
 use spiral_atlas::export::{Lattice, LatticeOptions, lattice};
-use spiral_atlas::files::write_file;
 use spiral_atlas::plot::{Drawing, Lines, PathsFigure, draw_paths};
 use spiral_atlas::transition::join::Family;
 use std::path::PathBuf;
@@ -42,7 +41,7 @@ pub(super) struct LatticeArgs {
     /// What kind of spirals.
     #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&FAMILIES))]
     family: Family,
-    /// Where the file goes; standard output unless given.
+    /// Where the file goes; standard output for - and unless given.
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
     /// Draw the primitives, and the curvature of those that start along 0 to 45°.
@@ -60,10 +59,7 @@ pub(super) fn run(args: &LatticeArgs) -> Result<Outcome> {
         ..LatticeOptions::new(args.turning_radius, args.grid_resolution)
     })?;
     let text = found.to_json()?;
-    match &args.out {
-        Some(path) => write_file(path, text.as_bytes())?,
-        None => output::print(&text)?,
-    }
+    output::write_out(args.out.as_deref(), text.as_bytes())?;
     if let Some(path) = &args.figure {
         output::write_figure(path, &figure(&found)?)?;
     }

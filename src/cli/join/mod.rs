@@ -25,7 +25,7 @@ use std::path::PathBuf;
 ///
 /// Prints {"paths":[path]} with the path {"length":..,"greatest_curvature":..,"curvature_range":..,"rate_range":..,
 /// "bending_energy":..,"pieces":[..]}, where a rate is dκ/ds, or {"paths":[],"reason":".."}. With --points, for each
-/// row in order a line with the path alone, or {"pieces":null,"reason":".."}; a bad row gives {"line":..,"error":".."}.
+/// row in order a line with the path alone, or {"pieces":null,"reason":".."}; a bad row gives {"row":..,"error":".."}.
 /// `path measure` and `export opendrive` read all of it.
 ///
 /// Exit status: 0 when there is a join, 1 when none was found, 2 for an error. With --points it is 0 when every row was
@@ -73,8 +73,8 @@ pub(super) struct Args {
     /// direction1, curvature1.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "goal", "figure"], help_heading = ENDS)]
     points: Option<PathBuf>,
-    /// Greatest curvature allowed, 1 / length: one over the least radius.
-    #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]
+    /// Greatest curvature allowed, 1 / length: one over the least radius, such as 1/60.
+    #[arg(long, value_name = "NUMBER", value_parser = numbers::curvature, allow_hyphen_values = true)]
     greatest_curvature: Option<f64>,
     /// What kind of spirals.
     #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&FAMILIES))]
@@ -147,7 +147,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
         let _ = join::join(&args.request(nowhere.into(), State { point: [1.0, 0.0], ..nowhere }.into()))?;
         return points::run(path, &[&COLUMNS], args.csv, |row| {
             let [from, to] = states(row.cells)?.map(End::from);
-            let found = join::join(&args.request(from, to))?;
+            let found = asked_whether_radii(join::join(&args.request(from, to))?, &from, &to);
             let samples = args.samples(&found)?;
             if args.csv {
                 return row.table(&samples.unwrap_or_default(), reason(&found));
@@ -163,7 +163,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
             args.to.or(args.to_line).or(args.to_circle).unwrap_or_else(|| missing("to")),
         ),
     };
-    let found = join::join(&request)?;
+    let found = asked_whether_radii(join::join(&request)?, &request.from, &request.to);
     let samples = args.samples(&found)?;
     match (reason(&found), &samples) {
         (Some(reason), _) if args.csv => output::note(reason),
@@ -184,6 +184,13 @@ fn missing(end: &str) -> ! {
 
 /// A join, or why there is none.
 type Found = std::result::Result<Join, String>;
+
+/// A reason asks too whether curvatures so large are meant as radii.
+fn asked_whether_radii(found: Found, from: &End, to: &End) -> Found {
+    let (End::State(from), End::State(to)) = (from, to) else { return found };
+    let ask = || numbers::are_radii(from.point, to.point, [from.curvature, to.curvature]);
+    found.map_err(|reason| ask().map_or(reason.clone(), |ask| format!("{reason}; {ask}")))
+}
 
 /// Why there is no join.
 fn reason(found: &Found) -> Option<&str> {

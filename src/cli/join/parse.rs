@@ -1,22 +1,20 @@
 //! Ends as they are typed, and as rows of a table have them.
 
-use spiral_atlas::recipe::parse_angle;
+use spiral_atlas::Result;
+use spiral_atlas::recipe::{parse_angle, parse_curvature, parse_number};
 use spiral_atlas::transition::Turn;
 use spiral_atlas::transition::join::{End, State};
-use spiral_atlas::{Error, Result};
 
 /// Columns, in the order of [`states`].
 pub(crate) const COLUMNS: [&str; 8] = ["x0", "y0", "direction0", "curvature0", "x1", "y1", "direction1", "curvature1"];
 
 /// The states of a row.
 pub(crate) fn states(cells: &[&str]) -> Result<[State; 2]> {
-    let number = |i: usize| {
-        let wrong = || Error::invalid(format!("{}: {:?} is no number", COLUMNS[i], cells[i]));
-        cells[i].parse::<f64>().map_err(|_| wrong())
-    };
+    let number = |i: usize| parse_number(cells[i]).map_err(|e| e.at(COLUMNS[i]));
+    let curvature = |i: usize| parse_curvature(cells[i]).map_err(|e| e.at(COLUMNS[i]));
     let angle = |i: usize| parse_angle(cells[i]).map_err(|e| e.at(COLUMNS[i]));
     let state = |i: usize| -> Result<State> {
-        Ok(State { point: [number(i)?, number(i + 1)?], direction: angle(i + 2)?, curvature: number(i + 3)? })
+        Ok(State { point: [number(i)?, number(i + 1)?], direction: angle(i + 2)?, curvature: curvature(i + 3)? })
     };
     Ok([state(0)?, state(4)?])
 }
@@ -40,7 +38,7 @@ pub(crate) fn state(text: &str) -> Parsed<End> {
     let wrong = || format!("{text:?} is no state `x,y,angle` or `x,y,angle,curvature` of finite numbers");
     let (x, y, direction, curvature) = match cells(text)[..] {
         [x, y, direction] => (x, y, direction, Some(0.0)),
-        [x, y, direction, curvature] => (x, y, direction, number(curvature)),
+        [x, y, direction, curvature] => (x, y, direction, parse_curvature(curvature).ok().filter(|k| k.is_finite())),
         _ => return Err(wrong()),
     };
     let (Some(x), Some(y), Some(curvature)) = (number(x), number(y), curvature) else { return Err(wrong()) };
@@ -59,7 +57,7 @@ pub(crate) fn line(text: &str) -> Parsed<End> {
 pub(crate) fn circle(text: &str) -> Parsed<End> {
     let wrong = || format!("{text:?} is no circle `x,y,radius,left` or `x,y,radius,right` of finite numbers");
     let [x, y, radius, side] = cells(text)[..] else { return Err(wrong()) };
-    let turn = match side {
+    let turn = match &side.to_lowercase()[..] {
         "left" => Turn::Left,
         "right" => Turn::Right,
         _ => return Err(wrong()),

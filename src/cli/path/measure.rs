@@ -12,7 +12,7 @@ use std::io::Write;
 ///
 /// Input: {"paths": [{"pieces": [piece, ..]}, ..]}, as the other tools, `join` and `curve NAME --json` print it, or a
 /// line of JSON for each of several, as with --points; lines without a path are named on standard error, and not
-/// counted. Other fields are left out of account. Pieces of all kinds are read. A `station` is the length from the
+/// counted. A field that no tool prints is refused. Pieces of all kinds are read. A `station` is the length from the
 /// start of the path, a `parameter` that of the piece.
 ///
 /// The offset of a PH quintic is exact, rational of degree 9: at parameter t it is the Bernstein form `numerator`
@@ -29,8 +29,8 @@ pub(super) struct Args {
     /// heading (radians), curvature.
     #[arg(long, value_name = "N", value_parser = numbers::samples)]
     samples: Option<u32>,
-    /// Print the samples as CSV, and nothing else.
-    #[arg(long, requires = "samples")]
+    /// Print the samples as CSV, and nothing else; an offset curve is printed as JSON only.
+    #[arg(long, requires = "samples", conflicts_with = "offset")]
     csv: bool,
     /// Distance of an offset curve, positive to the left.
     #[arg(long, value_name = "NUMBER", value_parser = numbers::number, allow_hyphen_values = true)]

@@ -71,21 +71,27 @@ struct Files {
 }
 
 impl Files {
+    /// Before any work, whether the figure can be where it is to go.
+    fn check_figure(&self) -> Result<()> {
+        output::check_figure(self.figure.as_deref())?;
+        output::not_over(self.figure.as_deref(), self.source.input())
+    }
+
     /// What stands in the input.
     fn read<T: DeserializeOwned>(&self) -> Result<T> {
-        output::check_figure(self.figure.as_deref())?;
+        self.check_figure()?;
         self.source.read()
     }
 
     /// The paths in the input, each with its place for messages.
     fn paths<P: DeserializeOwned>(&self) -> Result<Vec<(String, P)>> {
-        output::check_figure(self.figure.as_deref())?;
+        self.check_figure()?;
         self.source.paths()
     }
 
     /// The same, ready to be measured.
     fn courses(&self) -> Result<Vec<(String, Course)>> {
-        output::check_figure(self.figure.as_deref())?;
+        self.check_figure()?;
         self.source.courses()
     }
 

@@ -10,9 +10,9 @@ use spiral_atlas::tools::{Separations, motions};
 /// Prove whether vehicles keep a minimum distance at all times, and how near they come.
 ///
 /// Input: {"paths": [{"pieces": [piece, ..], "speed": 1, "start_time": 0}, ..]}, as the other tools, `join` and `curve
-/// --json` print it, or a line of JSON for each of several, as with --points; pieces are of all kinds but `involute`,
-/// and other fields are left out of account. `verdict` is `kept`, `violated` or
-/// `undecided`: within rounding of the minimum.
+/// --json` print it, or a line of JSON for each of several, as with --points; pieces are of all kinds but `involute`.
+/// A field that no tool prints is refused. `verdict` is `kept`, `violated` or `undecided`: within rounding of the
+/// minimum.
 ///
 /// Before its start time a vehicle stands at its start, and once it has arrived at its end. The exit
 /// status is 0 for `kept`, 1 for `violated` and `undecided`.

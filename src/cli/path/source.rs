@@ -22,7 +22,7 @@ pub(in super::super) struct Source {
     input: PathBuf,
 }
 
-/// Given as all tools print them; other fields are left out of account.
+/// Given as all tools print them; what reports have beside the paths is left out of account.
 #[derive(Deserialize)]
 #[serde(bound = "P: DeserializeOwned")]
 struct Given<P> {
@@ -91,6 +91,11 @@ impl Source {
             Err(e) => Err(self.blame(e.at(place))),
         };
         self.paths()?.into_iter().map(course).collect()
+    }
+
+    /// Where it stands.
+    pub(crate) fn input(&self) -> &Path {
+        &self.input
     }
 
     fn is_toml(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use super::{Files, Outcome, figure};
 use spiral_atlas::Result;
+use spiral_atlas::plain::count;
 use spiral_atlas::tools::{Through, Tool};
 
 /// Lay a curve with continuous second derivative through points, open or closed.
@@ -18,7 +19,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<Outcome> {
     let asked: Through = args.files.read()?;
     let kind = if asked.closed { "Closed" } else { "Open" };
-    let title = format!("{kind} spline through {} points", asked.points.len());
+    let title = format!("{kind} spline through {}", count(asked.points.len(), "point"));
     let found = asked.answer().map_err(|e| args.files.blame(e))?;
     args.files.finish(&found, || figure::reported(&found.paths, &title))
 }

@@ -4,6 +4,7 @@ use super::{Arc, Cubic, InvoluteBetween, Kind, Line, Piece, TrigPart};
 use crate::curve::vector::{add, length, sub};
 use crate::curve::{CubicBezier, PhQuintic, TrigBezier};
 use crate::error::{Error, Result, above_zero};
+use crate::plain::count;
 use crate::transition::{Clothoid, Ends};
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -15,7 +16,7 @@ type Points<const N: usize> = [[f64; 2]; N];
 
 /// All fields of all kinds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(rename = "piece")]
+#[serde(rename = "piece", deny_unknown_fields)]
 pub(super) struct RawPiece {
     #[serde(deserialize_with = "crate::plain::name")]
     kind: Kind,
@@ -150,8 +151,8 @@ impl RawPiece {
     fn all<const N: usize>(&self, name: &str, list: &[[f64; 2]]) -> Result<Points<N>> {
         let wrong = |_| {
             Error::invalid(format!(
-                "`{name}` has {} points; a piece of the kind `{}` has {N}",
-                list.len(),
+                "`{name}` has {}; a piece of the kind `{}` has {N}",
+                count(list.len(), "point"),
                 self.kind.name()
             ))
         };
