@@ -186,8 +186,8 @@ fn columns(charts: &[&'static [&'static str]]) -> String {
     charts.iter().map(|names| names.join(",")).collect::<Vec<_>>().join(" or ")
 }
 
-/// The cells of a line, without blanks and quotation marks around them. Commas between marks are part of a cell, unless a
-/// mark has no partner.
+/// The cells of a line, without blanks and quotation marks around them. Commas between marks are part of a cell, unless
+/// a mark has no partner.
 fn cells(line: &str) -> impl Iterator<Item = &str> {
     let paired = line.matches('"').count().is_multiple_of(2);
     let mut inside = false;
