@@ -189,7 +189,7 @@ pub fn value(path: &str, message: &str) -> String {
 /// The name that is nearest to what was given, unless it is far from all.
 pub fn nearest<'n>(given: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     let far = |name: &str| strsim::damerau_levenshtein(given, name);
-    known.min_by_key(|name| far(name)).filter(|name| far(name) <= 1 + name.len() / 3)
+    known.min_by_key(|name| far(name)).filter(|name| far(name) <= 1 + name.len() / 3 && far(name) < name.len())
 }
 
 /// What serde expects.

@@ -59,9 +59,8 @@ impl Prover<'_> {
             none |= facts.outside & wanted;
             let left = wanted & !(facts.inside | facts.outside);
             if tests == 1 && left.count_ones() == 1 && self.crosses(cell, left) {
-                return Known::default();
-            }
-            if left != 0 {
+                open |= left;
+            } else if left != 0 {
                 match self.halves(&bounds, &facts) {
                     Some(halves) => queue.extend(halves.map(|half| (half, left))),
                     None => open |= left,

@@ -42,10 +42,12 @@ struct RoadArgs {
     #[command(flatten)]
     source: Source,
     /// Width of the lane in metres.
-    #[arg(long, value_name = "METRES", value_parser = numbers::number, default_value_t = 3.5)]
+    #[arg(long, value_name = "METRES", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(default_value_t = 3.5)]
     lane_width: f64,
     /// How far a fitted curve may be from the true one, in metres.
-    #[arg(long, value_name = "METRES", value_parser = numbers::number, default_value_t = 0.001)]
+    #[arg(long, value_name = "METRES", value_parser = numbers::number, allow_hyphen_values = true)]
+    #[arg(default_value_t = 0.001)]
     tolerance: f64,
     /// Where the file goes; standard output for - and unless given.
     #[arg(long, value_name = "FILE.xodr")]

@@ -48,7 +48,7 @@ struct Cli {
 const EXIT_STATUS: &str = "\
 Exit status:
   0    yes: what was asked for exists, holds or was done
-  1    no: there is no such curve, or a check found a difference; the output says why
+  1    no: there is no such curve or path, or a check found a difference; the output says why
   2    an error: the command line, a file or a number is wrong, or the system refused; standard error says what
   130  interrupted by Ctrl-C; nothing is left half-written";
 

@@ -186,10 +186,10 @@ fn columns(charts: &[&'static [&'static str]]) -> String {
     charts.iter().map(|names| names.join(",")).collect::<Vec<_>>().join(" or ")
 }
 
-/// The cells of a line, without blanks and quotation marks around them. Commas between marks are part of a cell, unless a
-/// mark has no partner.
+/// The cells of a line, without blanks and quotation marks around them. Commas between marks are part of a cell, unless
+/// a mark has no partner.
 fn cells(line: &str) -> impl Iterator<Item = &str> {
-    let paired = line.matches('"').count() % 2 == 0;
+    let paired = line.matches('"').count().is_multiple_of(2);
     let mut inside = false;
     let separates = move |c: char| {
         inside ^= paired && c == '"';

@@ -1,8 +1,8 @@
 //! `query --ranges`, `--nearest` and `--boundary`: questions beyond yes and no.
 
-use super::Outcome;
 use super::datum::Coordinates;
 use super::output;
+use super::{Outcome, numbers};
 use clap::ArgGroup;
 use spiral_atlas::family::Family;
 use spiral_atlas::plain::count;
@@ -35,9 +35,10 @@ pub(super) struct QuestionArgs {
     within: Vec<String>,
     /// With --nearest: weights of the coordinates in a distance, in the order of the axes; inf keeps one as it is.
     #[arg(long, value_name = "W,W,..", value_delimiter = ',', requires = "nearest")]
+    #[arg(value_parser = numbers::number, allow_hyphen_values = true)]
     weights: Option<Vec<f64>>,
     /// With --boundary: cells along each side, a power of two.
-    #[arg(long, value_name = "N", default_value_t = 256, requires = "boundary")]
+    #[arg(long, value_name = "N", default_value_t = 256, requires = "boundary", allow_hyphen_values = true)]
     cells: usize,
     /// With --boundary: draw the outline.
     #[arg(long, value_name = "FILE.png|svg", requires = "boundary")]

@@ -31,7 +31,7 @@ impl Property {
                 return Err(Error::invalid(format!("name the property, such as {}", several.join(" or "))));
             }
         };
-        let bit = about.bit(flag).ok_or_else(|| {
+        let bit = about.flags.iter().position(|f| f.name.eq_ignore_ascii_case(flag)).ok_or_else(|| {
             let all: Vec<&str> = about.flags.iter().map(|f| f.name).collect();
             let all = all.join(", ");
             Error::invalid(format!("the property is `{flag}`; of `{}` it must be one of {all}", about.name))

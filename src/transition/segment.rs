@@ -234,8 +234,8 @@ fn why(kind: Kind, case: u8, theta: f64, point: Vector, [xi, eta]: Vector, radiu
 /// (`family/reach/poly.rs`): the b above which m is positive, a being given.
 ///
 /// For the cubic αu = 1 and βu² = 1 + m, so m > 0 where b > 3a²/(2 sin²θ). For the PH quintic m rises with u, and so
-/// does β; at m = 0 the first equation αu² - 24gu - 3 = 0 has the positive root u, and βu³ = 6u + 2. Moving the end by t
-/// along the tangent of the flat end adds t sin θ to b and keeps a.
+/// does β; at m = 0 the first equation αu² - 24gu - 3 = 0 has the positive root u, and βu³ = 6u + 2. Moving the end by
+/// t along the tangent of the flat end adds t sin θ to b and keeps a.
 fn least_height(kind: Kind, theta: f64, a: f64) -> f64 {
     match kind {
         Kind::Cubic => 1.5 * (a / theta.sin()).powi(2),

@@ -104,7 +104,7 @@ fn outside_the_box_the_family_answers() {
     assert_eq!(cells.verdict(&[0.7, 1.4, 0.4, 4.0], SPIRAL).unwrap(), SPIRAL);
     let error = cells.verdict(&[f64::NAN, 1.4, 0.4, 3.0], SPIRAL).unwrap_err().to_string();
     assert!(error.contains("phi0") && error.contains("NaN"), "{error}");
-    assert!(cells.verdict(&[0.7, 1.4, 0.4], SPIRAL).unwrap_err().to_string().contains("3 coordinates"));
+    assert!(cells.verdict(&[0.7, 1.4, 0.4], SPIRAL).unwrap_err().to_string().contains("is 3; it must be 4"));
     assert!(cells.verdict(&[2.0, 2.0, 0.4, 3.0], SPIRAL).unwrap_err().to_string().contains("pi"));
 }
 

@@ -20,6 +20,15 @@ fn what_belongs_to_a_question_needs_one() {
         let said = run(DATUM.iter().chain(more));
         assert!(said.code == Some(2) && said.err.contains(what) && said.out.is_empty(), "{more:?}: {}", said.err);
     }
+    let weights = |weights| run(DATUM.iter().chain(&["--kappa1", "99", "--nearest", "--weights", weights]));
+    for (given, what) in [
+        ("1,1", "the number of weights is 2; it must be 4 (one for each of phi0, phi1, kappa0, kappa1)"),
+        ("-1,1,1,1", "the weight of phi0 is -1; it must be 1e-50 to 1e50"),
+        ("1,x,1,1", "\"x\" is no number"),
+    ] {
+        let said = weights(given);
+        assert!(said.code == Some(2) && said.err.contains(what), "{given}: {}", said.err);
+    }
     let boundary = |names: &str| run(["query", "--phi0", "40deg", "--phi1", "80deg", "--boundary", names]);
     for names in ["kappa0,kappa0", "kappa0", "kappa0,kappa1,phi0"] {
         let said = boundary(names);
@@ -34,7 +43,7 @@ fn what_belongs_to_a_question_needs_one() {
 fn questions_are_answered() {
     let found = fine(DATUM.iter().chain(&["--ranges", "kappa1", "--within", "0,100"]));
     assert!(found.out.starts_with("SPIRAL holds for kappa1 from 2.42"), "{}", found.out);
-    let none = run(DATUM.iter().chain(&["--ranges", "kappa1", "--within", "0,1", "--property", "SPIRAL"]));
+    let none = run(DATUM.iter().chain(&["--ranges", "kappa1", "--within", "0,1", "--property", "spiral"]));
     assert!(none.code == Some(1) && none.out.contains("holds for no kappa1 there"), "{}", none.out);
     let plane = ["query", "--phi0", "40deg", "--phi1", "80deg", "--boundary", "kappa0,kappa1"];
     let plane = plane.iter().chain(&["--within", "0,0.8", "--within", "0,20", "--cells", "16"]);

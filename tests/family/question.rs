@@ -231,7 +231,7 @@ fn what_cannot_be_asked_is_refused() {
     assert!(told(nearest(&spiral, &[0.7, 1.4, 1e300, 4.0], &[1.0; 4]).unwrap_err()).contains("kappa0 is 1e300"));
     assert!(told(ranges(&spiral, &point, 4, [0.0, 1.0]).unwrap_err()).contains("number 4"));
     assert!(told(ranges(&spiral, &point, 3, [1.0, 1.0]).unwrap_err()).contains("1.0 to 1.0"));
-    assert!(told(ranges(&spiral, &point[..3], 2, [0.0, 1.0]).unwrap_err()).contains("3 coordinates"));
+    assert!(told(ranges(&spiral, &point[..3], 2, [0.0, 1.0]).unwrap_err()).contains("is 3; it must be 4"));
     assert!(told(nearest(&spiral, &[f64::NAN, 1.4, 0.4, 4.0], &[1.0; 4]).unwrap_err()).contains("phi0 is NaN"));
     assert!(told(nearest(&spiral, &point, &[1.0, 0.0, 1.0, 1.0]).unwrap_err()).contains("weight of phi1"));
     assert!(told(boundary(&spiral, &point, [2, 2], [[0.0, 1.0]; 2], 64).unwrap_err()).contains("numbers 2 and 2"));

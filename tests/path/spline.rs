@@ -150,7 +150,7 @@ fn what_has_no_spline_is_named() {
         assert!(parts.iter().all(|p| error.contains(p)), "{error}");
     };
     says(&[], false, &["0 points", "at least 2"]);
-    says(&[[1.0, 1.0]], false, &["1 points", "at least 2"]);
+    says(&[[1.0, 1.0]], false, &["1 point;", "at least 2"]);
     says(&[], true, &["0 points", "at least 3"]);
     says(&[[1.0, 1.0], [2.0, 0.0]], true, &["2 points", "at least 3"]);
     says(&[[1.0, 1.0], [2.0, 0.0], [1.0, 1.0]], true, &["at least 3"]);

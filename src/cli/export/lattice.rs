@@ -31,7 +31,8 @@ pub(super) struct LatticeArgs {
     #[arg(long, value_name = "METRES", value_parser = numbers::number, allow_hyphen_values = true)]
     grid_resolution: f64,
     /// How many directions: a multiple of 8.
-    #[arg(long, value_name = "N", value_parser = numbers::count::<0, 1000>, default_value_t = 16)]
+    #[arg(long, value_name = "N", value_parser = numbers::count::<0, 1000>, allow_hyphen_values = true)]
+    #[arg(default_value_t = 16)]
     headings: u32,
     /// Two primitives with the same directions end further apart than this share of the length of the longer: from 0 to
     /// 1. With less there are more.

@@ -87,12 +87,12 @@ pub(super) struct Args {
     #[arg(default_value_t = f64::INFINITY, hide_default_value = true)]
     longest: f64,
     /// Most pieces allowed.
-    #[arg(long, value_name = "N", value_parser = numbers::count::<0, 1000>)]
+    #[arg(long, value_name = "N", value_parser = numbers::count::<0, 1000>, allow_hyphen_values = true)]
     #[arg(default_value_t = Request::MOST_PIECES as u32)]
     most_pieces: u32,
     /// Print so many points at equal lengths along the path too, both ends included, as `samples`: station (length from
     /// the start), x, y, heading (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = numbers::samples)]
+    #[arg(long, value_name = "N", value_parser = numbers::samples, allow_hyphen_values = true)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else; with --points each after the number of its row of data, from 1.
     #[arg(long, requires = "samples")]

@@ -27,7 +27,7 @@ pub(super) struct Args {
     files: Files,
     /// Print so many points at equal steps of length, both ends included: station (length from the start), x, y,
     /// heading (radians), curvature.
-    #[arg(long, value_name = "N", value_parser = numbers::samples)]
+    #[arg(long, value_name = "N", value_parser = numbers::samples, allow_hyphen_values = true)]
     samples: Option<u32>,
     /// Print the samples as CSV, and nothing else; an offset curve is printed as JSON only.
     #[arg(long, requires = "samples", conflicts_with = "offset")]
