@@ -191,7 +191,28 @@ def drags_change_verdicts_and_numbers(browser):
     for what, times in zip(("pointer", "question"), map(sorted, zip(*page.tell("times")))):
         print(f"  {what} to curve: median {times[len(times) // 2]:.1f} ms of {len(times)}, worst {times[-1]:.1f} ms")
     print(f"  region of {page.page.inner_text('#slice-note')}: {took:.0f} ms")
+    frames(page)
     page.close()
+
+
+def frames(page):
+    """Tells how often the page is painted while the circle, and with it everything else, is dragged for seconds."""
+    for what, handle in (("circle", "end-curvature"), ("direction", "end-direction")):
+        page.page.evaluate("""() => { const beats = globalThis.beats = [];
+            const beat = (time) => { if (beats.push(time) && globalThis.beats === beats) requestAnimationFrame(beat); };
+            requestAnimationFrame(beat); }""")
+        x, y = page.centre(handle)
+        page.page.mouse.move(x, y)
+        page.page.mouse.down()
+        for i in range(400):
+            page.page.mouse.move(x + 8 * math.sin(i / 20), y + 8 * math.sin(i / 13))
+        page.page.mouse.up()
+        beats = page.page.evaluate("() => { const all = beats; globalThis.beats = undefined; return all; }")
+        page.rest()
+        gaps = sorted(b - a for a, b in zip(beats, beats[1:]))
+        rate = 1000 * len(gaps) / sum(gaps)
+        print(f"  {rate:.0f} frames a second in a drag of a {what} of {sum(gaps) / 1000:.1f} s; "
+              f"99 % within {gaps[len(gaps) * 99 // 100]:.0f} ms, longest {gaps[-1]:.0f} ms")
 
 
 @test
@@ -546,12 +567,27 @@ def joins_are_those_of_the_program(browser):
     page.close()
 
 
+# No spiral, and the longest usual reason.
+NONE = "#start=0,0,-0.7,0.004&end=200,0,1.4,0.012"
+# What is wider than its place, and on wide screens a reason that does not fit into its panel; on others it scrolls.
+WIDE = """() => [document.documentElement, ...document.querySelectorAll("header, aside, .panel")]
+    .filter((e) => e.scrollWidth > e.clientWidth + 1
+        || (innerWidth >= 1400 && e.matches(".answers") && e.scrollHeight > e.clientHeight + 1))
+    .map((e) => e.className || e.tagName)"""
+
+
 @test
 def both_schemes_and_sizes(browser):
     for scheme in ("light", "dark"):
-        for size in ({"width": 1400, "height": 860}, {"width": 1024, "height": 700}, {"width": 390, "height": 844}):
-            page = Page(browser, color_scheme=scheme, viewport=size)
-            assert page.page.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+        for width, height in ((1440, 900), (1400, 860), (1024, 700), (390, 844), (320, 640)):
+            size = {"width": width, "height": height}
+            for link in ("#mode=join", NONE, ""):
+                page = Page(browser, link, color_scheme=scheme, viewport=size)
+                page.page.wait_for_timeout(150)
+                wide = page.page.evaluate(WIDE)
+                assert not wide, (size, link, wide)
+                if link:
+                    page.close()
             if size["width"] > 960:
                 assert page.page.evaluate("document.documentElement.scrollHeight <= innerHeight"), size
             page.page.screenshot(path=str(folder / f"{scheme}-{size['width']}.png"))
