@@ -46,8 +46,8 @@ pub fn verdicts(family: &dyn Family, chart: usize, data: &[f64], threads: usize)
 pub struct Solved {
     /// The code of each row, as [`verdicts`] has it.
     pub codes: Vec<Code>,
-    /// [`crate::family::About::control_points`] points for each row: those of the chosen curve ([`crate::family::Answer::chosen`]), in
-    /// the family's frame, or NaN where none is chosen.
+    /// [`crate::family::About::control_points`] points for each row: those of the chosen curve
+    /// ([`crate::family::Answer::chosen`]), in the family's frame, or NaN where none is chosen.
     pub control_points: Vec<[f64; 2]>,
 }
 

@@ -37,8 +37,8 @@ pub struct Closest {
 /// What is known of two motions.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Separation {
-    /// Whether the minimum distance is kept at all times. It is undecided where the least separation is too close to the
-    /// minimum to tell in doubles. JSON says `kept`, `violated` or `undecided`.
+    /// Whether the minimum distance is kept at all times. It is undecided where the least separation is too close to
+    /// the minimum to tell in doubles. JSON says `kept`, `violated` or `undecided`.
     #[serde(serialize_with = "kept")]
     pub verdict: Verdict,
     /// The closest approach.

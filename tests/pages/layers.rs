@@ -27,7 +27,7 @@ const ROOMS: [(&str, &[&str]); 21] = [
     ("question", &["family", "num", "queue", "error"]),
     ("transition", &["family", "curve", "num", "plain", "error"]),
     ("path", &["transition", "family", "curve", "num", "queue", "steps", "plain", "error"]),
-    ("tools", &["path", "transition", "curve", "plain", "error"]),
+    ("tools", &["path", "transition", "curve", "num", "plain", "error"]),
     ("export", &["path", "transition", "curve", "error"]),
     ("picture", &["cells", "atlas", "recipe", "plot", "eval", "family", "grid", "error"]),
     (

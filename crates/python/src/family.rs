@@ -174,9 +174,9 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 ///
 /// Returns:
 ///     (flags, solutions): two uint8 arrays of shape (n,), as an atlas stores them; see `families()` for bits and
-///     counts. With `curves`, (flags, solutions, control_points): the last is a float64 array of shape (n, m, 2), of the
-///     curve that `solve` calls `chosen`, in the family's frame, NaN where there is none. `m` is `control_points` of
-///     `families()`.
+///     counts. With `curves`, (flags, solutions, control_points): the last is a float64 array of shape (n, m, 2), of
+///     the curve that `solve` calls `chosen`, in the family's frame, NaN where there is none. `m` is `control_points`
+///     of `families()`.
 ///
 /// Raises:
 ///     ValueError: naming the row and the value, when a datum lies outside the family's domain; or curves are asked for

@@ -13,7 +13,7 @@
 //! Beside both ends of all t, where one end's speed vanishes:
 //! - **t up to a.** With the terms of `shape.rs` the last coefficient is negative where `4 h2 s3 < h1 s4 + 3 h2 s4`.
 //!   Divided by `q² t²` that follows from `8 u Z² (v + cu) < pq t`, `u = βt³`, `v = α`, `c = cos Φ`; and divided by t,
-//!   the left side only grows with t. So it holds up to a if it does at a, with the greatest Z, that of the limit t = 0.
+//!   the left side only grows with t. So it holds up to a if it does at a, with the greatest Z, that for t = 0.
 //! - **t from 1/a on.** Of the reversed curve, t up to a; its quintic has the other sign, and must be positive
 //!   somewhere. At `(1-x)/x = kt`, divided by t³, the losses become
 //!   `l5/t³ + 5k l4/t² + 10k² l3/t + 10k³ l2 + 5k⁴ t l1 + k⁵ t² l0`: each of these grows with t, as the terms of
@@ -24,7 +24,7 @@
 //!
 //! **Roundings.** No number passes more than forty operations, so each is right to 2^-46 of itself, and [`MORE`] covers
 //! them. Coefficients below [`LEAST`] are taken for 0 from below and are not accepted from above, t is from 2^-12 to
-//! 2^12, and Z is at most 2^40, or nothing is said: so no product of theirs leaves the normal doubles but one that is 0.
+//! 2^12, and Z is at most 2^40, or nothing is said: so no product of theirs leaves the normal doubles but a 0.
 
 use super::curves::{Cubic, Curves};
 use super::shape::CurveShape;
