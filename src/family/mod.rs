@@ -189,8 +189,8 @@ pub trait Family: Sync {
             }
         }
     }
-    /// The code and the control points of the chosen curve of [`Family::answer`], which is all that a table of many data
-    /// has room for.
+    /// The code and the control points of the chosen curve of [`Family::answer`], which is all that a table of many
+    /// data has room for.
     ///
     /// # Errors
     /// As there.

@@ -20,8 +20,8 @@
 //! An interval has no spiral where the curves do not meet in it, where plain bounds dismiss it, or where the quintic is
 //! negative somewhere for all of its t and Z ([`between`]): t is a number between its ends, and Z, which falls along
 //! each curve, lies between the heights of a curve there. It has one where the quintic is positive for all of them and
-//! D has different certain signs at its ends; or where the one solution, enclosed as above, has a positive quintic. Other
-//! intervals are cut.
+//! D has different certain signs at its ends; or where the one solution, enclosed as above, has a positive quintic.
+//! Other intervals are cut.
 //!
 //! ANY_SPIRAL is `family/outer_region.rs`. No solution has a negative curvature, and nothing is said of a box that a
 //! curvature of 0 cuts. Where two solutions merge inside the box, the march does not end, and SOLVABLE stays open.
