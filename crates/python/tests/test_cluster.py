@@ -295,8 +295,8 @@ def test_shapes_are_whole_chunks_of_about_a_size():
     assert shapes.usual((512,) * 4, 2) == ((8, 8, 128, 128), (16, 16, 256, 256))
     # Shards of a user's have whole chunks, whatever they are.
     for given in [(64,) * 4, (8, 8, 4, 4), (45, 45, 45, 45), (1, 3 << 20)]:
-        chunks, shards = shapes.usual([1000] * len(given), 2, shards=given)
-        shapes.check([1000] * len(given), chunks, shards)
+        chunks, shards = shapes.usual([1 << 22] * len(given), 2, shards=given)
+        shapes.check([1 << 22] * len(given), chunks, shards)
         assert shards == given and (np.prod(chunks) <= shapes.CHUNK_NODES or 45 in given)
     assert shapes.usual((16,) * 4, 2, chunks=(4, 8, 4, 4))[0] == (4, 8, 4, 4)
     for chunks, shards, words in [

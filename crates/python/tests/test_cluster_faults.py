@@ -14,7 +14,7 @@ import numpy as np
 import psutil
 import pytest
 import spiral_atlas
-from spiral_atlas.cluster import Store, create, generate
+from spiral_atlas.cluster import Store, cli, create, generate, write_shard
 
 COMMAND = [sys.executable, "-m", "spiral_atlas.cluster"]
 AXES = "phi0 = { linear = [0.2, 1.2], count = 16 }\nphi1 = { linear = [0.3, 1.4], count = 16 }\n"
@@ -288,3 +288,53 @@ def test_a_store_whose_making_was_interrupted_is_made_anew(recipe, place, atlas)
         Store(place)
     assert generate(recipe, place, **SHAPES, workers=2).count("written") == SHARDS
     equal(place, atlas)
+
+
+def damaged(place: Path, name: str, **changes) -> None:
+    file = place / name / "zarr.json"
+    told = json.loads(file.read_text())
+    (told["attributes"] if not name else told).update(changes)
+    file.write_text(json.dumps(told))
+
+
+HOSTILE = {
+    "root is a list": lambda place: (place / "zarr.json").write_text("[1]"),
+    "root is endless": lambda place: (place / "zarr.json").write_text("[" * 200_000),
+    "array is no JSON": lambda place: (place / "flags" / "zarr.json").write_text("{nope"),
+    "a number for a text": lambda place: damaged(place, "", flags=5),
+    "axes are no axes": lambda place: damaged(place, "", axes='[{"name": {}}]'),
+    "an axis is four-dimensional": lambda place: damaged(place, "", axes='[{"name": "flags"}]'),
+    "another version of the format": lambda place: damaged(place, "", format_version="9"),
+    "a type that is none": lambda place: damaged(place, "flags", data_type="bogus"),
+    "a type of other fields": lambda place: damaged(place, "solutions", data_type="int8"),
+    "fractions of nodes": lambda place: damaged(place, "flags", shape=[8.5] * 4),
+    "10^30 nodes": lambda place: damaged(place, "flags", shape=[10**30] * 4),
+    "an axis of 64 GiB": lambda place: damaged(place, "phi0", shape=[1 << 33]),
+    "no digests": lambda place: (place / "manifest" / "digests" / "zarr.json").unlink(),
+    "digests of 2^63 bytes": lambda place: damaged(place, "manifest/digests", shape=[1 << 62]),
+}
+
+
+@pytest.mark.parametrize("damage", HOSTILE)
+def test_a_store_that_is_none_is_refused_in_one_line(recipe, place, damage, capsys, tmp_path):
+    create(recipe, place, **SHAPES)
+    damaged(place, "", complete=True)
+    HOSTILE[damage](place)
+    with pytest.raises(spiral_atlas.AtlasError) as raised:
+        spiral_atlas.open(place)
+    assert str(place) in str(raised.value) and len(str(raised.value)) < 600
+    for command in (["info", place], ["check", place], ["render", place, "-o", tmp_path / "a.png"], ["shard", place, 0]):
+        assert cli.main(list(map(str, command))) == 2, command
+        complaint = capsys.readouterr().err
+        assert complaint.startswith("error: ") and complaint.count("\n") == 1, complaint
+    with pytest.raises(ValueError):
+        create(recipe, place)
+
+
+def test_digests_that_are_cut_off_are_found(recipe, place):
+    create(recipe, place, **SHAPES)
+    write_shard(place, 0)
+    (file,) = (path for path in (place / "manifest" / "digests" / "c").rglob("*") if path.is_file())
+    file.write_bytes(b"cut")
+    with pytest.raises(spiral_atlas.AtlasError, match="a shard is damaged"):
+        Store(place, complete=False).check()

@@ -17,7 +17,7 @@ from zarr.errors import GroupNotFoundError
 from .._core import NO_VALUE, Outline
 from . import shapes
 from .lock import LOCK, locked
-from .store import DIGESTS, UNWRITTEN, Store, absolute
+from .store import DIGESTS, UNWRITTEN, Store, absolute, reading
 
 
 def create(
@@ -58,10 +58,11 @@ def refuse_others(place: str) -> None:
 
 
 def _attributes(place: str) -> dict[str, Any] | None:
-    try:
-        return dict(zarr.open_group(place, mode="r", zarr_format=3).attrs)
-    except (GroupNotFoundError, FileNotFoundError):
-        return None
+    with reading(place, "its metadata"):
+        try:
+            return dict(zarr.open_group(place, mode="r", zarr_format=3).attrs)
+        except (GroupNotFoundError, FileNotFoundError):
+            return None
 
 
 def lay_out(

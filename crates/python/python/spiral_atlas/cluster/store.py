@@ -1,5 +1,6 @@
 """An atlas in a Zarr store, opened and looked up."""
 
+import errno
 import json
 import os
 from collections.abc import Iterator, Mapping
@@ -27,12 +28,29 @@ METADATA = (
 UNWRITTEN = 255
 """What `flags` and `solutions` hold where no shard is written: no verdict has all bits. Scalars are NaN there."""
 DIGESTS = "manifest/digests"
+LONGEST_AXIS = 1 << 24
+"""Nodes. A longer axis is refused before it is read; whole, it would be 128 MiB in every process."""
 
 
 def absolute(place: str | os.PathLike[str]) -> str:
     """A place that every process understands: an absolute path, or the URL as it is."""
     text = os.fspath(place)
     return text if "://" in text else str(Path(text).absolute())
+
+
+@contextmanager
+def reading(place: str, what: str) -> Iterator[None]:
+    """Makes one short `AtlasError` of whatever zarr says of metadata that are damaged or of another program."""
+    try:
+        yield
+    except AtlasError:
+        raise
+    except Exception as error:
+        # A refusal of the system is not the store's.
+        if isinstance(error, OSError) and error.errno is not None:
+            raise
+        said = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+        raise AtlasError(f"{place}: {what} cannot be read ({said})") from None
 
 
 class Store:
@@ -43,21 +61,20 @@ class Store:
 
     def __init__(self, place: str | os.PathLike[str], *, mode: Literal["r", "r+"] = "r", complete: bool = True) -> None:
         self.path = absolute(place)
-        try:
-            self.group = zarr.open_group(self.path, mode=mode, zarr_format=3)
-        except (GroupNotFoundError, FileNotFoundError):
-            raise FileNotFoundError(f"{self.path}: there is no store") from None
-        attributes = dict(self.group.attrs)
+        with reading(self.path, "its metadata"):
+            try:
+                self.group = zarr.open_group(self.path, mode=mode, zarr_format=3)
+            except (GroupNotFoundError, FileNotFoundError):
+                raise FileNotFoundError(errno.ENOENT, "there is no store", self.path) from None
+            attributes = dict(self.group.attrs)
         if attributes.get("format") != "spiral-atlas":
             raise AtlasError(f"{self.path}: it is no store of an atlas, or its making was interrupted")
         if complete and not attributes.get("complete"):
             raise AtlasError(f"{self.path}: shards are missing; `spiral-atlas-cluster generate` completes the store")
         metadata = {key: str(attributes[key]) for key in METADATA if key in attributes}
-        try:
-            names = [axis["name"] for axis in json.loads(metadata["axes"])]
-            axes = {name: np.asarray(self.array(name)[:], dtype=np.float64) for name in names}
-        except (KeyError, TypeError, ValueError) as error:
-            raise AtlasError(f"{self.path}: its axes cannot be read: {error}") from None
+        with reading(self.path, "its axes"):
+            names = [str(axis["name"]) for axis in json.loads(metadata["axes"])]
+            axes = {name: self._axis(name) for name in names}
         self.outline = Outline.of_metadata(self.path, metadata, axes)
         self.fields = {name: self.array(name) for name in ("flags", "solutions", *self.outline.scalar_docs)}
         self.digests = self.array(DIGESTS)
@@ -65,11 +82,18 @@ class Store:
 
     def array(self, name: str) -> Any:
         """An array of the store."""
-        try:
-            mode = "r" if self.group.read_only else "r+"
-            return zarr.open_array(self.group.store, path=name, mode=mode, zarr_format=3)
-        except (ArrayNotFoundError, FileNotFoundError):
-            raise AtlasError(f"{self.path}: it has no array `{name}`") from None
+        with reading(self.path, f"its array `{name}`"):
+            try:
+                mode = "r" if self.group.read_only else "r+"
+                return zarr.open_array(self.group.store, path=name, mode=mode, zarr_format=3)
+            except (ArrayNotFoundError, FileNotFoundError):
+                raise AtlasError(f"{self.path}: it has no array `{name}`") from None
+
+    def _axis(self, name: str) -> NDArray[np.float64]:
+        array = self.array(name)
+        if array.ndim != 1 or array.dtype != np.float64 or array.size > LONGEST_AXIS:
+            raise AtlasError(f"{self.path}: the array `{name}` is no axis: {array.dtype} of shape {array.shape}")
+        return np.asarray(array[:])
 
     def _check_arrays(self) -> None:
         shape = tuple(len(axis) for axis in self.axes.values())
@@ -137,7 +161,8 @@ class Store:
 
     def stored_digest(self, shard: int) -> NDArray[np.uint8]:
         """What the manifest has of a shard; zeros where it is not written."""
-        return np.asarray(self.digests[np.unravel_index(shard, self.shard_counts)])
+        with self.decoding():
+            return np.asarray(self.digests[np.unravel_index(shard, self.shard_counts)])
 
     # What `Atlas` has, too.
 
