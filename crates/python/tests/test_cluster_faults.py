@@ -323,7 +323,8 @@ def test_a_store_that_is_none_is_refused_in_one_line(recipe, place, damage, caps
     with pytest.raises(spiral_atlas.AtlasError) as raised:
         spiral_atlas.open(place)
     assert str(place) in str(raised.value) and len(str(raised.value)) < 600
-    for command in (["info", place], ["check", place], ["render", place, "-o", tmp_path / "a.png"], ["shard", place, 0]):
+    picture = ["render", place, "-o", tmp_path / "a.png"]
+    for command in (["info", place], ["check", place], picture, ["shard", place, 0]):
         assert cli.main(list(map(str, command))) == 2, command
         complaint = capsys.readouterr().err
         assert complaint.startswith("error: ") and complaint.count("\n") == 1, complaint
