@@ -100,12 +100,13 @@ fn in_order<T>(rows: impl Iterator<Item = T>, work: impl Fn(T) -> Result<()>) ->
 
 /// Works at pieces of [`PIECE`] rows by several threads. The fault is that of the first bad row of all.
 fn spread<P>(
-    pieces: impl Iterator<Item = P> + Send,
+    pieces: impl ExactSizeIterator<Item = P> + Send,
     threads: usize,
     work: impl Fn(P) -> Result<(), RowError> + Sync,
 ) -> Result<(), RowError> {
     // Pieces are taken in order, and each that was taken is finished up to its first fault. So the first fault of all
     // is among those found.
+    let threads = threads.min(pieces.len());
     let (pieces, failed) = (Mutex::new(pieces.enumerate()), AtomicBool::new(false));
     let take = || pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
     let worker = || -> Result<(), RowError> {
@@ -144,7 +145,7 @@ mod tests {
     fn all_rows_have_their_verdict_whatever_the_threads() {
         let data = data(1000);
         let one_by_one: Vec<Code> = data.chunks(4).map(|datum| verdict(&Cubic, 0, datum).unwrap()).collect();
-        for threads in [1, 2, 7] {
+        for threads in [1, 2, 7, usize::MAX] {
             assert_eq!(verdicts(&Cubic, 0, &data, threads).unwrap(), one_by_one);
         }
         assert_eq!(verdicts(&Cubic, 0, &[], 3).unwrap(), []);
