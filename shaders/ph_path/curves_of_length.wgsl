@@ -1,17 +1,18 @@
 // Given arc length: the end speed z and the root from Farouki et al., (10)-(13), as in curve/equal_length.rs.
 
+// Rounding the sum adds one unit of it, and the error's own roundings, three, are within ABOVE.
 fn plus(a: Near, b: Near) -> Near {
     let value = a.value + b.value;
-    return Near(value, 1.00001 * (a.error + b.error) + 4.0 * UNIT * (abs(a.value) + abs(b.value)));
+    return Near(value, ABOVE * (a.error + b.error) + 4.0 * UNIT * (abs(a.value) + abs(b.value)));
 }
 
 fn times(a: Near, b: Near) -> Near {
     let value = a.value * b.value;
-    return Near(value, 1.00001 * (abs(a.value) * b.error + abs(b.value) * a.error + a.error * b.error)
+    return Near(value, ABOVE * (abs(a.value) * b.error + abs(b.value) * a.error + a.error * b.error)
                 + 2.0 * UNIT * abs(value));
 }
 
-// a/b: the remainder tells how far the quotient is off.
+// a/b: with q as computed, a*/b* - q = (a* - q b*)/b*. The remainder is a - q b but for the rounding of the product.
 fn over(a: Near, b: Near) -> Near {
     let least = b.value - b.error;
     if !(least > 1e-25) {
@@ -22,6 +23,7 @@ fn over(a: Near, b: Near) -> Near {
     return Near(value, COVER * (rest + a.error + abs(value) * b.error) / least);
 }
 
+// |sqrt(x*) - r| <= |x* - r^2| / r for any r > 0.
 fn root_of(x: Near) -> Near {
     let value = sqrt(max(x.value, 1e-25));
     let rest = abs(x.value - value * value) + 3.0 * UNIT * value * value;
@@ -61,7 +63,8 @@ fn ends(index: vec4<u32>, other: bool) -> Ends {
     let safe = root_of(over(times(top, plus(excess, root)), whole));
     let rest = over(times(g, z), safe);
     let size = root_of(z);
-    let error = COVER * size.error + 2.1 * UNIT * size.value;
+    // Units are rounded once, and so is the product; the rest is for the square of both.
+    let error = COVER * size.error + COVER * 2.0 * UNIT * size.value;
     var roots = vec2<f32>(rest.value, safe.value);
     if above {
         roots = roots.yx;

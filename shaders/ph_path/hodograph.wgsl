@@ -30,7 +30,7 @@ struct Ends {
 
 // An upper bound of a modulus.
 fn modulus(z: vec2<f32>) -> f32 {
-    return 1.001 * sqrt(dot(z, z)) + TINY;
+    return MODULUS * sqrt(dot(z, z)) + TINY;
 }
 
 // Re and Im of conj(a) b.
@@ -129,7 +129,7 @@ fn peak(c: Curve) -> Peak {
     return best;
 }
 
-// Besides YES, NO and OPEN: no halving will tell.
+// Besides YES, NO and OPEN: no halving decides.
 const HOPELESS: u32 = 3u;
 
 // Bernstein coefficients of degree 8: v sigma^2 - h and v sigma^2 + h.
@@ -164,13 +164,13 @@ fn sides(c: Curve, v: Near) -> Sides {
     let p2 = by2 * (h0 * vec3<f32>(1.0, 0.0, 0.0) + h1 * vec3<f32>(6.0, 1.0, 0.0) + h2 * vec3<f32>(15.0, 6.0, 1.0));
     let m = max(modulus(c.w0), max(modulus(c.w1), modulus(c.w2)));
     let m2 = m * m;
-    let slack = c.error * (4.1 * v.value * m2 * m + 8.2 * m) + 1.1 * v.error * m2 * m2;
+    let slack = c.error * (FOURTH * v.value * m2 * m + TURN * m) + LIMIT * v.error * m2 * m2;
     let error = SIDE * (v.value * m2 * m2 + 4.0 * m2) + slack + TINY;
-    // The slopes that the errors are taken with hold for small ones.
+    // The factors hold for small errors.
     return Sides(
         array(q0 - p0, q1 - p1, q2 - p2),
         array(q0 + p0, q1 + p1, q2 + p2),
-        select(1e30, error, c.error < 0.005 * m),
+        select(1e30, error, c.error < FAR * m),
         h0,
     );
 }
@@ -251,6 +251,9 @@ struct Point {
     speed: Near,
 }
 
+// w is a mean of means: each takes three roundings of numbers up to m, so six in all. w' is a mean of differences up to
+// 4 m, which takes four roundings of these, and each difference is off by 4 errors of w. The products below are of
+// upper bounds, so they hold the products of two errors too.
 fn point(c: Curve, t: f32) -> Point {
     let j = jet(c, t);
     let m = max(modulus(c.w0), max(modulus(c.w1), modulus(c.w2)));
@@ -268,10 +271,10 @@ fn point(c: Curve, t: f32) -> Point {
 // Whether |curvature| exceeds v there; and whether it is less.
 fn exceeds(p: Point, v: f32) -> bool {
     let speed = p.speed.value + p.speed.error;
-    return abs(p.turn.value) - p.turn.error > 1.00001 * v * speed * speed;
+    return abs(p.turn.value) - p.turn.error > ABOVE * v * speed * speed;
 }
 
 fn stays_under(p: Point, v: f32) -> bool {
     let speed = p.speed.value - p.speed.error;
-    return speed > 0.0 && abs(p.turn.value) + p.turn.error < 0.99999 * v * speed * speed;
+    return speed > 0.0 && abs(p.turn.value) + p.turn.error < UNDER * v * speed * speed;
 }

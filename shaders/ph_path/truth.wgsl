@@ -3,7 +3,8 @@
 // Whether h keeps its sign.
 fn keeps_sign(c: Curve) -> u32 {
     let m = max(modulus(c.w0), max(modulus(c.w1), modulus(c.w2)));
-    let error = 8.2 * c.error * m + 16.0 * UNIT * m * m + TINY;
+    // Each is rounded twice, of terms up to 4 m^2. The curve stayed below a limit, so its error is below FAR m.
+    let error = TURN * c.error * m + 16.0 * UNIT * m * m + TINY;
     let h0 = 4.0 * outer(c.w0, c.w1);
     let h1 = 2.0 * outer(c.w0, c.w2);
     let h2 = 4.0 * outer(c.w1, c.w2);
@@ -20,7 +21,7 @@ fn keeps_sign(c: Curve) -> u32 {
     // Below 0 it must stay within the geometric mean.
     let size = max(abs(middle), max(abs(h0), abs(h2)));
     let gap = h0 * h2 - h1 * h1;
-    let gap_error = 4.1 * error * size + 6.0 * UNIT * size * size;
+    let gap_error = GAP * error * size + 6.0 * UNIT * size * size;
     if gap > gap_error {
         return YES;
     }
@@ -48,7 +49,7 @@ fn peak_inside(c: Curve, p: Peak) -> u32 {
     }
     let start = point(turned, 0.0);
     let value = bending(turned, 0.0);
-    // How far the quotient is off, guessed and then proved.
+    // How far the quotient is off: any guess would do that the comparisons below accept.
     let speed = start.speed.value;
     let relative = start.turn.error / max(abs(start.turn.value), 1e-30) + 2.1 * start.speed.error / max(speed, 1e-30)
         + 1e-5;
@@ -71,7 +72,7 @@ fn evaluate(index: vec4<u32>) -> u32 {
         let side = select(0.25, -0.25, (i & 1u) == 1u);
         let w1 = side * e.root - 0.75 * (e.w0 + e.w2);
         let size = modulus(e.root) + 3.0 * (modulus(e.w0) + modulus(e.w2));
-        let error = max(e.error, 0.26 * e.root_error + 1.6 * e.error + 3.0 * UNIT * size);
+        let error = max(e.error, QUARTER * e.root_error + ENDS * e.error + 3.0 * UNIT * size);
         curves[i] = Curve(e.w0, w1, e.w2, error);
         peaks[i] = peak(curves[i]);
     }

@@ -1,8 +1,8 @@
 // PH quintics with G2 Hermite ends in f32: these files are twins of those in family/ph_quintic, function by function.
-// Constants (UNIT, TERM, ...) and records are generated from shader.rs. Proofs use + - * and comparisons; guesses, and
-// quotients whose last bits do not matter, use / and sqrt, kept finite by clamps. Relative bounds count roundings, so
-// they hold with fused multiply-adds and reassociation; the ranges of the constants and of z and t keep every term that
-// matters above the denormals.
+// Constants (UNIT, TERM, HEIGHT, ...) and records are generated from shader.rs; factors.rs proves the factors. Proofs
+// use + - * and comparisons; guesses, and quotients whose last bits do not matter, use / and sqrt, kept finite by
+// clamps. Relative bounds count roundings, so they hold with fused multiply-adds and reassociation; the ranges of the
+// constants and of z and t keep every term that matters above the denormals.
 
 // The equations, scaled; vectors hold both ends.
 struct Curves {
@@ -38,7 +38,7 @@ struct Cubic {
     j: vec3<f32>,
 }
 
-// A positive number and its relative error.
+// A positive number and its relative error; 1 where nothing is known.
 struct Near {
     value: f32,
     error: f32,
@@ -57,9 +57,8 @@ fn height(c: vec3<f32>, right: f32) -> Near {
             break;
         }
     }
-    // d ln F / d ln Z >= 1.
     let off = abs(((c.z * z + c.y) * z + c.x) * z - right);
-    let relative = off / right * 1.05 + TERM;
-    // At the rim of the range nothing is known.
-    return Near(z, select(1.0, relative, z > LEAST_Z && z < MOST_Z));
+    let relative = off / right * HEIGHT + TERM;
+    // At the rim of the range nothing is known, nor where the residual is too large for the factor.
+    return Near(z, select(1.0, relative, relative < FAR && z > LEAST_Z && z < MOST_Z));
 }

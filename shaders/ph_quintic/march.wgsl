@@ -40,9 +40,8 @@ fn knot(curves: Curves, t: f32) -> Knot {
     let z = vec2<f32>(z0.value, z1.value);
     let error = max(z0.error, z1.error);
     let s = vec2<f32>(slope(start, z.x), slope(end, z.y));
-    // |ds / d ln Z| <= 1, s <= 2; and the gap moves by no more than ln Z0 and ln Z1.
     let gap = 2.0 * (z.x - z.y) / (z.x + z.y);
-    return Knot(t, z, error, s, 1.1 * error + 4.0 * TERM, gap, 2.1 * error + 8.0 * UNIT);
+    return Knot(t, z, error, s, SLOPE * error + 4.0 * TERM, gap, GAP * error + GAP_ROUNDINGS);
 }
 
 // Whether the curves meet between two knots: march.rs has the two certificates.
@@ -54,8 +53,8 @@ fn meets(a: Knot, b: Knot) -> u32 {
     let errors = a.s_error + b.s_error;
     if same {
         let fall = select(b.s.x - a.s.x, b.s.y - a.s.y, a.gap > 0.0);
-        let length = (b.t - a.t) / (sqrt(a.t) * sqrt(b.t)) * 1.001;
-        let reach = (abs(fall) + errors) * 0.2501 * length;
+        let length = (b.t - a.t) / (sqrt(a.t) * sqrt(b.t)) * LENGTH;
+        let reach = (abs(fall) + errors) * TENT * length;
         if abs(a.gap) - a.gap_error > reach && abs(b.gap) - b.gap_error > reach {
             return NO;
         }
@@ -67,10 +66,12 @@ fn meets(a: Knot, b: Knot) -> u32 {
 }
 
 // A knot's heights against the limits of both curves beyond it: `high` is that of one curve, `low`, if positive, that
-// of the other.
+// of the other. Both sides of a comparison are rounded five times at most.
 fn clear_of(first: f32, second: f32, error: f32, high: Near, low: Near) -> bool {
-    return first * (1.0 - error) > high.value * (1.0 + high.error) + 8.0 * UNIT * first
-        || (low.value > 0.0 && second * (1.0 - error) > low.value * (1.0 + low.error) + 8.0 * UNIT * second);
+    // A limit that is not known, because it is outside the range, is none to be above of.
+    let above = first * (1.0 - error) > high.value * (1.0 + high.error) + 8.0 * UNIT * first;
+    let over = second * (1.0 - error) > low.value * (1.0 + low.error) + 8.0 * UNIT * second;
+    return (high.error < FAR && above) || (low.value > 0.0 && low.error < FAR && over);
 }
 
 // The limit of the curve without flat end, if it has one.
@@ -121,7 +122,8 @@ fn enclose(curves: Curves, a: Knot, b: Knot) -> Root {
     let inside = left.t > a.t && right.t < b.t;
     let falls = left.gap > left.gap_error && right.gap < -right.gap_error && side;
     let rises = left.gap < -left.gap_error && right.gap > right.gap_error && !side;
+    // The ends are rounded by two units; Z is that of the first curve, at most `around` away.
     let around = COVER * reach + 4.0 * UNIT;
-    return Root(Near(at.t, around), Near(at.z.x, 2.1 * around + 1.05 * at.z_error),
+    return Root(Near(at.t, around), Near(at.z.x, ALONG * around + HEIGHT * at.z_error),
                 inside && (falls || rises) && reach < 0.02);
 }

@@ -26,7 +26,7 @@ fn spiral(curves: Curves, root: Root) -> u32 {
     let speed = array<f32, 5>(
         p * p,
         z * (u + g * v) * p,
-        // A third; the quotient is rounded once, but may be less good.
+        // The number next to a third, off by less than a unit.
         (square * (z * z) * 2.0 + g * t * (p * q)) * 0.33333333,
         z * t * (v + g * u) * q,
         t * t * (q * q),
@@ -37,8 +37,8 @@ fn spiral(curves: Curves, root: Root) -> u32 {
     let end = -half_quintic(turn.zyx, backwards, -1.0);
     let start_size = half_quintic(turn, speed, 1.0);
     let end_size = half_quintic(turn.zyx, backwards, 1.0);
-    // t has the power 10 at most, Z the power 3; powers of a number known to a thirtieth grow by less than 1.4.
-    let relative = (10.0 * root.t.error + 3.0 * root.z.error) * 1.4 + SHAPE;
+    // t has the power 10 at most, Z the power 3.
+    let relative = (10.0 * root.t.error + 3.0 * root.z.error) * POWERS + SHAPE;
     if !(relative < 0.25) {
         return OPEN;
     }

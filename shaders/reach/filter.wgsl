@@ -58,12 +58,12 @@ fn levels(angle: Angle, shape: Shape) -> u32 {
     }
     let value = coefficients(m, shape.u.value, angle.g, -1.0);
     let size = coefficients(m, shape.u.value, angle.g, 1.0);
-    // The quotient is good to a hundredth, or nothing is said.
+    // The quotient is good to a hundredth, or nothing is said; COVER and what THROUGH_M leaves over are more.
     let inverse = 1.0 / m;
     if !(abs(inverse * m - 1.0) < 0.01) {
         return UNDECIDED;
     }
-    let relative = shape.m.error * inverse * 3.4 + shape.u.error * THROUGH_U + COEFFICIENT;
+    let relative = shape.m.error * inverse * (COVER * THROUGH_M) + shape.u.error * THROUGH_U + COEFFICIENT;
     let error = Quintic(size.start * relative, size.end * relative);
     if value.start.x < -error.start.x {
         return EXISTS;

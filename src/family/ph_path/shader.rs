@@ -13,6 +13,30 @@ const UNIT: f64 = 1.0 / (1u32 << 24) as f64;
 /// of two; the five products' sums 5, v, the binomial and the factor 2 each 1, the difference 9 with the terms of h:
 /// 33, and a few for the error itself.
 const SIDE: f64 = 40.0 * UNIT;
+/// Of a modulus as computed: no less than the true one. The square root is good to nine units, and what is under it to
+/// two.
+const MODULUS: f64 = 1.001;
+/// Errors e of w, over the largest modulus m, from here on say nothing: the next three factors are for less.
+const FAR: f64 = 0.005;
+/// Of `v m³ e`: how far a coefficient of `v σ²` may be off. It is a mean of products of four w, and `(m + e)⁴ - m⁴` is
+/// at most 4.04 m³ e.
+const FOURTH: f64 = 4.1;
+/// Of `m e`: how far a coefficient of h may be off. It is a mean of terms up to `4 |w_i| |w_k|`, and `4 (m + e)² - 4
+/// m²` is at most 8.02 m e.
+const TURN: f64 = 8.2;
+/// Of `m⁴` and the error of v: `(m + e)⁴` is at most 1.021 m⁴.
+const LIMIT: f64 = 1.1;
+/// Of the error e of h's coefficients and the size s of the largest: how far `h0 h2 - h1²` may be off. At its least it
+/// is `(h0 - e)(h2 - e) - (|h1| + e)²`, where the squares of e cancel, and so they do at its greatest: so it is off by
+/// `e (h0 + h2 + 2 |h1|)` at most, which is 4 s e.
+const GAP: f64 = 4.1;
+/// Of the error of √Z: a quarter of it is in w1.
+const QUARTER: f64 = 0.26;
+/// Of the errors of w0 and w2, for three quarters of both in w1.
+const ENDS: f64 = 1.6;
+/// Of a comparison's larger side: no product of three or four numbers is off by so much.
+const ABOVE: f64 = 1.00001;
+const UNDER: f64 = 2.0 - ABOVE;
 /// More than flushed denormals can do.
 const TINY: f64 = 1e-30;
 /// Speeds, and lengths over the chord less 1, outside 2^±20 are left to f64, and sines of half angles below 2^-60.
@@ -20,7 +44,21 @@ const MOST: f64 = (1u32 << 20) as f64;
 const LEAST_SINE: f64 = 1.0 / (1u64 << 60) as f64;
 
 pub(super) fn shader(kind: Kind) -> Shader {
-    let numbers = [("UNIT", UNIT), ("SIDE", SIDE), ("TINY", TINY)];
+    let numbers = [
+        ("UNIT", UNIT),
+        ("SIDE", SIDE),
+        ("TINY", TINY),
+        ("MODULUS", MODULUS),
+        ("FAR", FAR),
+        ("FOURTH", FOURTH),
+        ("TURN", TURN),
+        ("LIMIT", LIMIT),
+        ("GAP", GAP),
+        ("QUARTER", QUARTER),
+        ("ENDS", ENDS),
+        ("ABOVE", ABOVE),
+        ("UNDER", UNDER),
+    ];
     let shared = [fragment!("ph_path/hodograph.wgsl"), fragment!("ph_path/truth.wgsl")];
     let (record, own) = match kind {
         Kind::EqualLength => {

@@ -16,6 +16,7 @@
 //!
 //! Sizes are scaled by powers of two: `A = p a`, `B = q b`, `α' = αp³`, `β' = βq³`, both at most 1.
 
+use super::factors::{FAR, HEIGHT};
 use super::knot::Knot;
 use super::pair::Pair;
 use crate::num::{Number, Real, formula};
@@ -250,8 +251,7 @@ impl Cubic<f64> {
 impl<N: Real> Cubic<N> {
     /// Where the cubic reaches `right`, enclosed; `None` when the precision does not suffice.
     ///
-    /// `d ln F / d ln Z >= 1`, so a relative residual r puts Z within the factor `exp(±|ln(1 + r)|)`, inside
-    /// `1 ± 1.05 r` for `|r| < 1/64`.
+    /// A relative residual r below [`FAR`] puts Z within `1 ± 1.05 r`: see [`HEIGHT`].
     pub(super) fn height(&self, right: &N, guess: f64) -> Option<N> {
         let [c0, c1, c2] = &self.c;
         let value = |z: &N| formula!(((c2 * z + c1) * z + c0) * z);
@@ -262,7 +262,7 @@ impl<N: Real> Cubic<N> {
             z = newton(&z)?;
         }
         let off = value(&z).sub(right).over(right)?.size();
-        (formula!(-(off + { -1.0 / 64.0 })).is_positive() && z.is_positive()).then(|| formula!(z + 1.05 * (z * off)))
+        (formula!(-(off + { -FAR })).is_positive() && z.is_positive()).then(|| formula!(z + { HEIGHT } * (z * off)))
     }
 
     /// About where the cubic reaches `right`, when coefficients or heights are no doubles: none of their size, only

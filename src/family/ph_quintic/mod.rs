@@ -6,7 +6,7 @@
 //!   points prove "no meeting" (chord against tent) or "at most one" (monotone distance); `march.rs` halves until one
 //!   of them holds. No resultant of degree 18, nothing cancels, and f32, f64 and intervals run the same steps.
 //! - `lanes` runs the march on vectors of nodes, with relative errors that are counted beforehand. What it leaves open
-//!   goes node by node.
+//!   goes node by node. `factors.rs` proves the factors of their bounds and of the shader's.
 //! - `num::Ball` is a double with its error; `num::Real` is what it shares with `Interval`, so the algorithm is written
 //!   once. The shader is its twin.
 //! - `narrow.rs` has more certificates for nearly parallel tangents, where both equations almost coincide.
@@ -18,6 +18,7 @@
 mod curves;
 mod cuts;
 mod dismiss;
+mod factors;
 mod fork;
 mod knot;
 mod lanes;

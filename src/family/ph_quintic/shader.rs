@@ -1,6 +1,7 @@
 //! What the shader of `shaders/ph_quintic/` reads: constants and tables.
 
 use super::FLAGS;
+use super::factors::{ALONG, FAR, GAP, HEIGHT, LENGTH, SINGLE_GAP, SINGLE_POWERS, SINGLE_SLOPE, TENT};
 use super::pair;
 use crate::family::kernel::{constants, fragment, tables};
 use crate::family::record::{Record, record};
@@ -10,13 +11,16 @@ use crate::num::Ball;
 
 /// Unit roundoff of f32.
 const UNIT: f64 = 1.0 / (1u32 << 24) as f64;
-/// Relative error of a left-hand side against its right one, and of each of the four sums in a slope.
+/// Relative error of a left-hand side against its right one, and of both sums in a slope. A slope is at most 2, so its
+/// quotient is off by 4 of these; what they leave over is more than the 10 units of the quotient itself.
 ///
 /// Roundings in the longest term, `2Cβ'² t⁶ Z³`: cos Φ 1, β' 3 (table, 1/(4 sin Φ), product), twice; their products 3;
 /// t⁶ 5 and its product 1; three sums in the coefficient and around, Horner's rule 6; the right-hand side 1 and the
-/// difference 1: 27.
+/// difference 1: 27. What is left is more than the factor 1.04 that [`HEIGHT`] proves for these.
 const TERM: f64 = 36.0 * UNIT;
-/// The quintic: α', β' 3 each, up to three of them in a term; cos Φ 1; some 18 products and sums; 1/3 is off by 1 more.
+/// The quintic. Its longest term is a turn of `u t Z` and a speed of `u² Z²`, with `u = β't³`. Each u has 3 of β' and 3
+/// of its products, 18 for all three. What else the speed is made of takes 8, one third included, the turn 2, their
+/// product and its factor 2, and sums 3: 33.
 const SHAPE: f64 = 40.0 * UNIT;
 /// Sines and curvatures: one rounding, four operations, and a little for the f64 errors below.
 const OUTER: f64 = 6.0 * UNIT;
@@ -39,6 +43,15 @@ pub(super) fn shader() -> Shader {
         ("MOST", MOST),
         ("MOST_Z", MOST_Z),
         ("LEAST_Z", LEAST_Z),
+        ("FAR", FAR),
+        ("HEIGHT", HEIGHT),
+        ("SLOPE", SINGLE_SLOPE),
+        ("GAP", GAP),
+        ("GAP_ROUNDINGS", SINGLE_GAP),
+        ("ALONG", ALONG),
+        ("POWERS", SINGLE_POWERS),
+        ("LENGTH", LENGTH),
+        ("TENT", TENT),
     ];
     Shader {
         constants: constants(FLAGS, &[], &numbers) + &Pair::wgsl() + &Curvature::wgsl(),

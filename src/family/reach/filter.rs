@@ -24,7 +24,7 @@ pub(super) struct Precision {
     side: f64,
     /// `αu² - 24gu - 3`: g and five operations.
     shape: f64,
-    /// The coefficients: g and twelve operations.
+    /// The coefficients: g and twelve operations, and a twelfth of these ([`THROUGH_M`]).
     coefficient: f64,
     /// What underflow may do to a side, α or β.
     pub floor: f64,
@@ -78,14 +78,18 @@ impl Precision {
     }
 }
 
-/// Relative errors of u and m must be below this; the factors 1.05 and 1.1 below cover what is of second order.
+/// Relative errors of u and m must be below this.
 pub(super) const SMALL: f64 = 1.0 / 64.0;
 /// Errors of G in the δ that is tried for u: the value at the guess may take one half, and the proof needs one.
 pub(super) const TRIED: f64 = 2.5;
 /// Covers what the cubic's bounds leave out: roundings of their own computation, and squares of errors.
 pub(super) const LOOSE: f64 = 1.05;
-/// u to the second power is off by twice the relative error of u, and by its square.
+/// Of the relative error e of u: how far `u²` may be off, `2e + e² <= 2.02 e` for `e < SMALL`.
 pub(super) const THROUGH_U: f64 = 2.2;
+/// Of the relative error d of m: how far `m³ u²` may be off beyond [`THROUGH_U`]. `(1 + d)³ - 1 <= 3.05 d`, and its
+/// product with what u does, below 0.032, adds 0.1 d. What the coefficient's own error adds, as a product with both, is
+/// below a twelfth of it: [`Precision::coefficient`] counts that.
+pub(super) const THROUGH_M: f64 = 3.3;
 
 /// m*, rounded.
 pub(super) const fn least_drawn_m(kind: Kind) -> f64 {
@@ -286,7 +290,7 @@ pub(super) fn levels<S: Simd>(simd: S, kind: Kind, angle: &Angle, shape: &Segmen
     let value = coefficients(kind, &Lanes::<S>(m), &Lanes(u), &Lanes(g), -1.0);
     let mut error = coefficients(kind, &Lanes::<S>(m), &Lanes(u), &Lanes(g), 1.0);
     // A term has m to the third power at most, u to the second.
-    let relative = shape.m.error / m * 3.3 + shape.u.error * THROUGH_U + P.coefficient();
+    let relative = shape.m.error / m * THROUGH_M + shape.u.error * THROUGH_U + P.coefficient();
     let (mut above, mut below) = ([0; 4], [0; 4]);
     for i in 0..6 {
         error[i] = Lanes(error[i].0 * relative);

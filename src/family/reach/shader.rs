@@ -1,7 +1,7 @@
 //! What the shaders read: constants and tables, generated from the same Rust as the f64 step.
 
 use super::angle;
-use super::filter::{LOOSE, Precision, SMALL, THROUGH_U, TRIED, least_drawn_m};
+use super::filter::{LOOSE, Precision, SMALL, THROUGH_M, THROUGH_U, TRIED, least_drawn_m};
 use super::poly::{LEAST_M, MONOTONE_M};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::family::kernel::{constants, fragment, tables};
@@ -42,6 +42,7 @@ pub(super) fn shader(kind: Kind) -> Shader {
         ("TRIED", TRIED),
         ("LOOSE", LOOSE),
         ("THROUGH_U", THROUGH_U),
+        ("THROUGH_M", THROUGH_M),
         ("LEAST", LEAST),
         ("LEAST_M", LEAST_M),
         ("MONOTONE_M", MONOTONE_M),

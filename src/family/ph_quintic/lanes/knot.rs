@@ -1,8 +1,9 @@
 //! Both curves at one t, for a vector of nodes, with the errors of all numbers counted beforehand.
 
 use crate::family::ph_quintic::curves::{Cubic, Curves};
+use crate::family::ph_quintic::factors::{FAR, GAP, HEIGHT, SLOPE};
 use crate::family::ph_quintic::pair::Pair;
-use crate::num::{Ball, Lanes};
+use crate::num::{Ball, COVER, Lanes};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase};
 
@@ -34,18 +35,17 @@ impl Bounds {
         input += 2.0 * UNIT;
         (input < 2f64.powi(-24)).then_some(())?;
         // The longest product of a coefficient is 6 times 2Cβ² t⁶, of three constants: t⁶ takes five roundings, the
-        // rest five, and sums two.
-        let coefficient = 3.05 * input + 14.0 * UNIT;
+        // rest five, and sums two. For inputs so small the third power is within COVER.
+        let coefficient = COVER * 3.0 * input + 14.0 * UNIT;
         let outer = pair.outer.iter().fold(0.0, |most: f64, x| most.max(if x.value > 0.0 { relative(x) } else { 1.0 }));
         Some(Bounds {
-            // The cubic in Z takes five roundings, its difference to the right-hand side and the quotient two; 1.1 is
-            // above 1.05, the factor of the residual, and all squares of errors.
-            height: 1.1 * (coefficient + input + 8.0 * UNIT),
+            // The cubic in Z takes five roundings, its difference to the right-hand side and the quotient two.
+            height: HEIGHT * (coefficient + input + 8.0 * UNIT),
             // Numerator and denominator: a coefficient and up to six roundings each, and the quotient.
-            slope: 1.01 * (2.0 * coefficient + 14.0 * UNIT),
+            slope: COVER * (2.0 * coefficient + 14.0 * UNIT),
             // A product of a turn and a speed: at most five constants, fewer than 40 roundings.
-            quintic: 1.01 * (5.0 * input + 40.0 * UNIT),
-            outer: 1.01 * outer + 4.0 * UNIT,
+            quintic: COVER * (5.0 * input + 40.0 * UNIT),
+            outer: COVER * outer + 4.0 * UNIT,
         })
     }
 }
@@ -87,8 +87,7 @@ impl<S: Simd> Equations<S> {
 
     /// Where a cubic reaches `right`, and how far that may be off, relative.
     ///
-    /// As in [`Cubic::height`] the residual r puts Z within `1 ± 1.05 |r|` for |r| < 1/64; 1.06 covers the roundings of
-    /// the residual found.
+    /// The residual and what its sums are off by, times [`HEIGHT`].
     #[inline(always)]
     pub(super) fn height(
         &self,
@@ -109,8 +108,8 @@ impl<S: Simd> Equations<S> {
             }
         }
         let residual = (((c2 * z + c1) * z + c0) * z - right).abs() / right;
-        let known = residual.simd_lt(self.splat(1.0 / 64.0)) & z.simd_gt(self.splat(0.0));
-        (z, known.select(residual * 1.06 + self.bounds.height, self.splat(f64::INFINITY)))
+        let known = residual.simd_lt(self.splat(FAR)) & z.simd_gt(self.splat(0.0));
+        (z, known.select(residual * HEIGHT + self.bounds.height, self.splat(f64::INFINITY)))
     }
 
     /// A height from no guess: it is below what one of the terms alone would need.
@@ -133,17 +132,17 @@ impl<S: Simd> Equations<S> {
         Knot { t, z: [z0, z1], s, gap: (z0 - z1) * 2.0 / (z0 + z1), off: off0.max(off1) }
     }
 
-    /// How far a gap may be off: 2.1 times the heights, for it changes by less than the logarithm of their ratio, and
-    /// three roundings of a number up to 2; one more for taking this away from it.
+    /// How far a gap may be off: by the heights, and by three roundings of a number up to 2; one more for taking this
+    /// away from it.
     #[inline(always)]
     pub(super) fn gap_error(&self, knot: &Knot<S>) -> S::f64s {
-        knot.off * 2.1 + 8.0 * UNIT
+        knot.off * GAP + 8.0 * UNIT
     }
 
-    /// How far slopes may be off, relative: numerator and denominator each change by no more than twice a height.
+    /// How far slopes may be off, relative.
     #[inline(always)]
     pub(super) fn slope_error(&self, knot: &Knot<S>) -> S::f64s {
-        knot.off * 4.3 + self.bounds.slope
+        knot.off * SLOPE + self.bounds.slope
     }
 }
 

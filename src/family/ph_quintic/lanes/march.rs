@@ -1,6 +1,7 @@
 //! Counting the solutions of a vector of nodes between common knots.
 
 use super::knot::{Equations, Knot};
+use crate::family::ph_quintic::factors::ROOM;
 use crate::family::ph_quintic::knot::length;
 use crate::num::{Ball, Lanes, Real};
 use fearless_simd::prelude::*;
@@ -142,9 +143,8 @@ fn outermost<S: Simd>(
 #[inline(always)]
 fn beyond<S: Simd>(heights: [S::f64s; 2], off: S::f64s, limits: &[(S::f64s, S::f64s); 2]) -> u64 {
     let [low, high] = limits;
-    // 1.1 is for the roundings here, of which the errors are twenty at least.
-    let least = |z: S::f64s| z - z * off * 1.1;
-    let most = |(z, off): &(S::f64s, S::f64s)| *z + *z * *off * 1.1;
+    let least = |z: S::f64s| z - z * off * ROOM;
+    let most = |(z, off): &(S::f64s, S::f64s)| *z + *z * *off * ROOM;
     (least(heights[0]).simd_gt(most(high)) | least(heights[1]).simd_gt(most(low))).to_bitmask()
 }
 
@@ -174,15 +174,15 @@ fn meets<S: Simd>(equations: &Equations<S>, a: &Knot<S>, b: &Knot<S>) -> Meeting
     // Gaps above 0, then below.
     let (over_a, over_b) = (a.gap - error_a, b.gap - error_b);
     let (under_a, under_b) = (zero - a.gap - error_a, zero - b.gap - error_b);
-    // The tent of the lower curve, whose errors 1.1 makes larger than its roundings.
-    let reach = |i: usize| (b.s[i] - a.s[i] + (b.s[i] * slope_b + a.s[i] * slope_a) * 1.1) * quarter;
+    // The tent of the lower curve.
+    let reach = |i: usize| (b.s[i] - a.s[i] + (b.s[i] * slope_b + a.s[i] * slope_a) * ROOM) * quarter;
     let (reach0, reach1) = (reach(0), reach(1));
     let above = (over_a.simd_gt(zero), over_b.simd_gt(zero));
     let below = (under_a.simd_gt(zero), under_b.simd_gt(zero));
     let never = (above.0 & above.1 & over_a.simd_gt(reach1) & over_b.simd_gt(reach1))
         | (below.0 & below.1 & under_a.simd_gt(reach0) & under_b.simd_gt(reach0));
     // How much D rises or falls at least.
-    let pace = |i: usize, k: usize| a.s[i] - b.s[k] - (a.s[i] * slope_a + b.s[k] * slope_b) * 1.1;
+    let pace = |i: usize, k: usize| a.s[i] - b.s[k] - (a.s[i] * slope_a + b.s[k] * slope_b) * ROOM;
     let pace = pace(1, 0).max(pace(0, 1));
     let monotone = pace.simd_gt(zero);
     let once = monotone & ((above.0 & below.1) | (below.0 & above.1));
@@ -217,7 +217,7 @@ fn add<S: Simd>(
         slot.z = [mask.select(a.z[0], slot.z[0]), mask.select(b.z[0], slot.z[1])];
         slot.gap = [mask.select(a.gap.abs(), slot.gap[0]), mask.select(b.gap.abs(), slot.gap[1])];
         slot.pace = mask.select(meeting.pace, slot.pace);
-        slot.steepest = mask.select(b.s[0] + b.s[0] * equations.slope_error(b) * 1.1, slot.steepest);
+        slot.steepest = mask.select(b.s[0] + b.s[0] * equations.slope_error(b) * ROOM, slot.steepest);
     }
     // A fourth has no room.
     found.open |= lanes & low & high;

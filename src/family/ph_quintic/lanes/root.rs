@@ -2,6 +2,7 @@
 
 use super::knot::Equations;
 use super::march::Bracket;
+use crate::family::ph_quintic::factors::{CLOSE, HEIGHT, POWERS, ROOM};
 use crate::family::ph_quintic::shape::CurveShape;
 use crate::num::bernstein::positive;
 use crate::num::bernstein_lanes::negative_lanes;
@@ -76,8 +77,7 @@ pub(super) fn spirals<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, w
 pub(super) fn quintic<S: Simd>(equations: &Equations<S>, root: &Root<S>) -> ([S::f64s; 6], [S::f64s; 6]) {
     let (one, third) = (Lanes(equations.splat(1.0)), Lanes(equations.splat(1.0 / 3.0)));
     let shape = CurveShape::of(&equations.curves, &Lanes(root.t), &Lanes(root.z), [&one, &third]);
-    // No product of a turn and a speed has more than ten factors t or three factors Z.
-    let relative = (root.t_off * 10.0 + root.z_off * 3.0) * 1.01 + equations.bounds.quintic;
+    let relative = (root.t_off * 10.0 + root.z_off * 3.0) * POWERS + equations.bounds.quintic;
     let mut value = [equations.splat(0.0); 6];
     let mut error = value;
     for (i, [gain, loss]) in shape.sums().into_iter().enumerate() {
@@ -89,9 +89,11 @@ pub(super) fn quintic<S: Simd>(equations: &Equations<S>, root: &Root<S>) -> ([S:
 
 /// Newton's method for both equations in logarithms of t and Z, then what the residuals prove.
 ///
-/// A residual r of a left-hand side puts the height of its curve at t within `exp(±1.05 |r|)` of Z. So D there is at
-/// most the sum of both. As |D'| is at least the bracket's pace, the solution is no further than D over that; and along
-/// the first curve Z changes by no more than its steepest slope times it.
+/// The residuals put the heights of both curves at t within `off0` and `off1` of Z ([`HEIGHT`]). So |D| there is at
+/// most `-ln(1 - off0) - ln(1 - off1)`. As |D'| is at least the bracket's pace, the solution is no further than |D|
+/// over that in ln t; and along the first curve ln Z changes by no more than its steepest slope times it. All these are
+/// below [`CLOSE`], where logarithms and errors differ by less than a part in 2000; [`ROOM`] covers that and the
+/// roundings.
 #[inline(always)]
 pub(super) fn root<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, wanted: u64) -> Root<S> {
     let [gap_a, gap_b] = bracket.gap;
@@ -118,13 +120,13 @@ pub(super) fn root<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, want
         t = (t * (along * (along * 0.5 + one) + one)).max(bracket.from).min(bracket.to);
         z *= up * (up * 0.5 + one) + one;
     }
-    let small = equations.splat(1.0 / 64.0);
-    let (off0, off1) = (r0.abs() * 1.06 + equations.bounds.height, r1.abs() * 1.06 + equations.bounds.height);
-    let t_off = (off0 + off1) * 1.1 / bracket.pace;
-    let z_off = off0 * 1.1 + bracket.steepest * t_off * 1.1;
+    let close = equations.splat(CLOSE);
+    let [off0, off1] = [r0, r1].map(|r| r.abs() * HEIGHT + equations.bounds.height);
+    let t_off = (off0 + off1) * ROOM / bracket.pace;
+    let z_off = (off0 + bracket.steepest * t_off) * ROOM;
     let inside = t.simd_ge(bracket.from) & t.simd_le(bracket.to);
-    let proved = inside & off0.simd_lt(small) & off1.simd_lt(small) & t_off.simd_lt(small) & z_off.simd_lt(small);
-    Root { t, z, t_off: t_off * 1.1, z_off: z_off * 1.1, proved: proved.to_bitmask() }
+    let proved = inside & off0.simd_lt(close) & off1.simd_lt(close) & t_off.simd_lt(close) & z_off.simd_lt(close);
+    Root { t, z, t_off, z_off, proved: proved.to_bitmask() }
 }
 
 /// A left-hand side, and the sums of its terms times their powers of Z and of t.
