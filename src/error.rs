@@ -173,11 +173,21 @@ pub(crate) fn above_zero(what: impl Into<Cow<'static, str>>, value: f64) -> Resu
     if value > 0.0 { Ok(value) } else { Err(Error::domain(what, value, "above 0")) }
 }
 
-/// Refuses a number of samples with which a curve has not both its ends.
+/// Most samples of a curve: no request can take all memory.
+pub const MOST_SAMPLES: u32 = 1_000_000;
+
+/// Refuses a number of samples with which a curve has not both its ends, or that no memory may hold.
 pub(crate) fn samples(count: usize) -> Result<usize> {
-    let few = || Error::domain("the number of samples of a curve", count as f64, "at least 2, the ends");
-    if count >= 2 { Ok(count) } else { Err(few()) }
+    let what = "the number of samples of a curve";
+    match count {
+        0..2 => Err(Error::domain(what, count as f64, "at least 2, the ends")),
+        2..=LARGEST => Ok(count),
+        _ => Err(Error::domain(what, count as f64, format!("at most {MOST_SAMPLES}"))
+            .or("of a path of several pieces, sample each by itself")),
+    }
 }
+
+const LARGEST: usize = MOST_SAMPLES as usize;
 
 /// A number as a reader writes it: all its digits, no `.0`, and the scientific form from 1e16 on and below 1e-5, so
 /// that never a row of zeros stands in a sentence.
@@ -234,7 +244,10 @@ mod tests {
         let error = Error::angle("phi0", 4.0, "below pi", "radians").at("line 3");
         assert_eq!(error.to_string(), "line 3: phi0 is 4 (229.183118 degrees); it must be below pi (radians)");
         assert_eq!(Error::NoPath("none".into()).at("x").to_string(), "x: none");
-        assert!(finite("x", f64::NAN).is_err() && positive("x", f64::INFINITY).is_err() && samples(1).is_err());
+        assert!(finite("x", f64::NAN).is_err() && positive("x", f64::INFINITY).is_err());
+        assert!(samples(1).is_err() && samples(2).is_ok() && samples(LARGEST).is_ok());
+        let error = samples(usize::MAX).unwrap_err().to_string();
+        assert!(error.contains("is 1.8446744073709552e19; it must be at most 1000000 (of a path"), "{error}");
         assert_eq!((positive("x", 2.0).unwrap(), above_zero("x", f64::INFINITY).unwrap()), (2.0, f64::INFINITY));
     }
 }

@@ -3,7 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::de::DeserializeOwned;
 use spiral_atlas::recipe::{parse_curvature, parse_number};
-use spiral_atlas::tools::MOST_SAMPLES;
+use spiral_atlas::transition::MOST_SAMPLES;
 
 /// A curvature is hardly meant that is so many times one over the distance of the ends.
 const LARGE: f64 = 1e3;

@@ -9,9 +9,6 @@ use crate::transition::{Piece, Station};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
-/// Most samples of a path.
-pub const MOST_SAMPLES: u32 = 1_000_000;
-
 /// A path as all tools report it.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(from = "RawPath")]
@@ -189,11 +186,9 @@ impl Measured {
     /// Of a path.
     ///
     /// # Errors
-    /// [`Error::Domain`] for numbers of samples outside 2 to [`MOST_SAMPLES`], and for an offset that is not finite.
+    /// [`Error::Domain`] for numbers of samples outside 2 to [`crate::transition::MOST_SAMPLES`], and for an offset that
+    /// is not finite.
     pub fn new(course: &Course, samples: Option<u32>, offset: Option<f64>) -> Result<Measured> {
-        if let Some(n) = samples.filter(|n| *n > MOST_SAMPLES) {
-            return Err(Error::domain("`samples`", f64::from(n), format!("from 2 to {MOST_SAMPLES}")));
-        }
         Ok(Measured {
             summary: course.summary(),
             curvature_extrema: course.curvature_extrema(),

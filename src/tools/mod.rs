@@ -11,7 +11,7 @@ mod plan;
 mod report;
 
 pub use ends::{Chosen, EqualLengths, LeastBend, LeastBendPath, PathEnds, Paths, Through};
-pub use given::{Apart, GivenPath, MOST_SAMPLES, Measure, Measured, Measures, Pair, Separations, Vehicle, motions};
+pub use given::{Apart, GivenPath, Measure, Measured, Measures, Pair, Separations, Vehicle, motions};
 pub use plan::{Planned, PlannedPath};
 pub use report::{CandidateReport, ChoiceReport, PathReport};
 

@@ -40,6 +40,7 @@ mod turn;
 mod why;
 mod words;
 
+pub use crate::error::MOST_SAMPLES;
 pub use clothoid::Clothoid;
 pub use cubic::{Answer, Solution, spiral};
 pub use figure::{EndCircle, Figure, Sample};

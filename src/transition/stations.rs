@@ -45,7 +45,8 @@ impl Station {
 /// those of [`Piece::at`].
 ///
 /// # Errors
-/// [`Error::Domain`] for fewer than two points, or where a number leaves the range of doubles.
+/// [`Error::Domain`] for fewer than two points or more than [`super::MOST_SAMPLES`], or where a number leaves the range
+/// of doubles.
 pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
     samples(count)?;
     let lengths: Vec<f64> = pieces.iter().map(Piece::length).collect();

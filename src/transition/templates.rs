@@ -258,7 +258,7 @@ impl Path {
     /// each part's own.
     ///
     /// # Errors
-    /// [`Error::Domain`] for fewer than 2 samples a part.
+    /// [`Error::Domain`] for fewer than 2 samples a part or more than [`super::MOST_SAMPLES`].
     pub fn samples(&self, count: usize) -> Result<Vec<Vec<Sample>>> {
         samples(count)?;
         let mut s = 0.0;

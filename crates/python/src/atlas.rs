@@ -1,13 +1,13 @@
 //! Atlas files as objects with NumPy arrays over the mapped memory.
 
 use crate::error::raise;
+use crate::given::Rows;
 use crate::legend;
-use numpy::ndarray::{ArrayView, ArrayView2, CowArray, Ix2, IxDyn};
-use numpy::{AllowTypeChange, Element, IntoPyArray, PyArray, PyArrayLike2};
+use numpy::ndarray::{ArrayView, IxDyn};
+use numpy::{Element, IntoPyArray, PyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
-use spiral_atlas::grid::Grid;
 use std::path::PathBuf;
 
 /// An atlas file, mapped into memory. Made by `open` and `generate`.
@@ -35,20 +35,6 @@ fn view<'py, T: Element>(owner: &Bound<'py, Atlas>, shape: &[usize], values: &[T
     let array = unsafe { PyArray::borrow_from_array(&array, owner.clone().into_any()) }.into_any();
     array.call_method("setflags", (), Some(&[("write", false)].into_py_dict(owner.py())?))?;
     Ok(array)
-}
-
-/// The number of axes of a grid, which is that of columns.
-pub(crate) fn columns(points: &ArrayView2<'_, f64>, grid: &Grid, whose: &str) -> PyResult<usize> {
-    let axes = grid.axes().len();
-    if points.ncols() == axes {
-        return Ok(axes);
-    }
-    Err(PyValueError::new_err(format!("the points have {} columns; {whose} {axes} axes", points.ncols())))
-}
-
-/// Rows as slices, of an array as it lies in memory (`as_standard_layout` copies one that has strides).
-pub(crate) fn rows<'a>(points: &'a CowArray<'_, f64, Ix2>, axes: usize) -> impl Iterator<Item = &'a [f64]> {
-    points.as_slice().unwrap_or_default().chunks_exact(axes)
 }
 
 impl Atlas {
@@ -160,29 +146,19 @@ impl Atlas {
     ///     (nodes, flags, solutions): arrays of shape (n,), of int64, uint8 and uint8. `nodes` has flat indices
     ///     (`numpy.unravel_index` makes indices of each axis of them), and -1 for a point outside the grid by more than
     ///     half a step, whose bytes are 0.
-    fn lookup<'py>(
-        &self,
-        py: Python<'py>,
-        points: PyArrayLike2<'py, f64, AllowTypeChange>,
-    ) -> PyResult<Bound<'py, PyTuple>> {
-        let points = points.as_array();
-        let axes = columns(&points, self.0.grid(), "the atlas has")?;
-        let points = points.as_standard_layout();
-        let (nodes, flags, solutions) = py.detach(|| {
-            let n = points.nrows();
-            let (mut nodes, mut flags, mut solutions) =
-                (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
-            for point in rows(&points, axes) {
-                let (node, flag, count) = match self.0.nearest(point) {
-                    Some((node, entry)) => (node as i64, entry.flags, entry.solutions),
-                    None => (-1, 0, 0),
-                };
-                nodes.push(node);
-                flags.push(flag);
-                solutions.push(count);
-            }
-            (nodes, flags, solutions)
-        });
+    fn lookup<'py>(&self, py: Python<'py>, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
+        let points = Rows::of_grid(points, self.0.grid(), "the atlas has")?;
+        let (mut nodes, mut flags, mut solutions) = (points.room()?, points.room()?, points.room()?);
+        points.each(py, |point| {
+            let (node, flag, count) = match self.0.nearest(point) {
+                Some((node, entry)) => (node as i64, entry.flags, entry.solutions),
+                None => (-1, 0, 0),
+            };
+            nodes.push(node);
+            flags.push(flag);
+            solutions.push(count);
+            Ok(())
+        })?;
         (nodes.into_pyarray(py), flags.into_pyarray(py), solutions.into_pyarray(py)).into_pyobject(py)
     }
 

@@ -1,8 +1,8 @@
 //! Certified cells: verdicts at every point of a box.
 
-use crate::atlas::{columns, rows};
-use crate::error::{raise, raise_row};
-use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike2};
+use crate::error::raise;
+use crate::given::{self, Rows};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 use std::path::PathBuf;
@@ -67,17 +67,15 @@ impl Cells {
     /// Returns:
     ///     (inside, outside): two uint8 arrays of shape (n,), masks of flags. A flag in `inside` holds at every point
     ///     of the cell, a flag in `outside` at none. A flag in neither is not known; outside the box none is.
-    fn lookup<'py>(
-        &self,
-        py: Python<'py>,
-        points: PyArrayLike2<'py, f64, AllowTypeChange>,
-    ) -> PyResult<(Masks<'py>, Masks<'py>)> {
-        let points = points.as_array();
-        let axes = columns(&points, self.0.grid(), "the cells have")?;
-        let (inside, outside): (Vec<u8>, Vec<u8>) = py.detach(|| {
-            let known = |point| self.0.lookup(point).unwrap_or_default();
-            rows(&points.as_standard_layout(), axes).map(known).map(|known| (known.inside, known.outside)).unzip()
-        });
+    fn lookup<'py>(&self, py: Python<'py>, points: &Bound<'py, PyAny>) -> PyResult<(Masks<'py>, Masks<'py>)> {
+        let points = Rows::of_grid(points, self.0.grid(), "the cells have")?;
+        let (mut inside, mut outside) = (points.room()?, points.room()?);
+        points.each(py, |point| {
+            let known = self.0.lookup(point).unwrap_or_default();
+            inside.push(known.inside);
+            outside.push(known.outside);
+            Ok(())
+        })?;
         Ok((inside.into_pyarray(py), outside.into_pyarray(py)))
     }
 
@@ -93,20 +91,21 @@ impl Cells {
     /// Raises:
     ///     ValueError: naming the row and the value, when a point lies outside the family's domain.
     ///     UndecidedError: naming the row.
-    #[pyo3(signature = (points, flags = 255))]
+    #[pyo3(signature = (points, flags = None), text_signature = "($self, points, flags=255)")]
     fn verdict<'py>(
         &self,
         py: Python<'py>,
-        points: PyArrayLike2<'py, f64, AllowTypeChange>,
-        flags: u8,
+        points: &Bound<'py, PyAny>,
+        flags: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Masks<'py>> {
-        let points = points.as_array();
-        let axes = columns(&points, self.0.grid(), "the cells have")?;
-        let held: Result<Vec<u8>, _> = py.detach(|| {
-            let truth = |(i, point)| self.0.verdict(point, flags).map_err(|e| (i, e));
-            rows(&points.as_standard_layout(), axes).enumerate().map(truth).collect()
-        });
-        held.map(|held| held.into_pyarray(py)).map_err(|(row, error)| raise_row(py, row, error))
+        let wanted = given::mask(flags)?;
+        let points = Rows::of_grid(points, self.0.grid(), "the cells have")?;
+        let mut held = points.room()?;
+        points.each(py, |point| {
+            held.push(self.0.verdict(point, wanted)?);
+            Ok(())
+        })?;
+        Ok(held.into_pyarray(py))
     }
 
     /// Reads the whole file and checks the hash of every array.

@@ -1,6 +1,7 @@
 //! Curves in the user's units, as objects.
 
 use crate::error::raise;
+use crate::given;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyImportError, PyValueError};
 use pyo3::prelude::*;
@@ -109,21 +110,21 @@ impl Curve {
     }
 
     /// `n` points at equal arc lengths, both ends included: a float64 array of shape (n, 2).
-    fn points<'py>(&self, py: Python<'py>, n: usize) -> Points<'py> {
-        let points: Vec<[f64; 2]> = self.at_equal_lengths(py, n)?.iter().map(|s| [s.x, s.y]).collect();
+    fn points<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> Points<'py> {
+        let points: Vec<[f64; 2]> = self.at_equal_lengths(py, given::points(n)?)?.iter().map(|s| [s.x, s.y]).collect();
         array(py, &points)
     }
 
     /// The signed curvature at the same `n` points, positive to the left: a float64 array of shape (n,).
-    fn curvature<'py>(&self, py: Python<'py>, n: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let all: Vec<f64> = self.at_equal_lengths(py, n)?.iter().map(|s| s.curvature).collect();
+    fn curvature<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let all: Vec<f64> = self.at_equal_lengths(py, given::points(n)?)?.iter().map(|s| s.curvature).collect();
         Ok(all.into_pyarray(py))
     }
 
     /// All that is known at `n` points at equal arc lengths: float64 arrays of shape (n,) by the names `station`
     /// (length from the start), `x`, `y`, `heading` (radians), `curvature`.
-    fn stations<'py>(&self, py: Python<'py>, n: usize) -> PyResult<Bound<'py, PyDict>> {
-        let all = self.at_equal_lengths(py, n)?;
+    fn stations<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        let all = self.at_equal_lengths(py, given::points(n)?)?;
         let columns = PyDict::new(py);
         for (i, name) in Station::COLUMNS.iter().enumerate() {
             let column: Vec<f64> = all.iter().map(|s| s.numbers()[i]).collect();
@@ -133,22 +134,23 @@ impl Curve {
     }
 
     /// `n` points at a signed distance to the left of the points of `points(n)`: an array of shape (n, 2).
-    fn offset<'py>(&self, py: Python<'py>, distance: f64, n: usize) -> Points<'py> {
+    fn offset<'py>(&self, py: Python<'py>, distance: f64, n: &Bound<'py, PyAny>) -> Points<'py> {
         if !distance.is_finite() {
             return Err(PyValueError::new_err(format!("the distance is {distance}; it must be finite")));
         }
-        let points: Vec<[f64; 2]> = self.at_equal_lengths(py, n)?.iter().map(|s| s.beside(distance)).collect();
+        let points: Vec<[f64; 2]> =
+            self.at_equal_lengths(py, given::points(n)?)?.iter().map(|s| s.beside(distance)).collect();
         array(py, &points)
     }
 
     /// Draws the curve with matplotlib, by `n` points, on `ax` (by default the current axes), and returns the axes.
     /// Other arguments go to `Axes.plot`.
-    #[pyo3(signature = (ax = None, *, n = 200, **kwargs))]
+    #[pyo3(signature = (ax = None, *, n = None, **kwargs), text_signature = "($self, ax=None, *, n=200, **kwargs)")]
     fn plot<'py>(
         &self,
         py: Python<'py>,
         ax: Option<Bound<'py, PyAny>>,
-        n: usize,
+        n: Option<&Bound<'py, PyAny>>,
         kwargs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let missing =
@@ -157,7 +159,7 @@ impl Curve {
             Some(ax) => ax,
             None => py.import("matplotlib.pyplot").map_err(missing)?.call_method0("gca")?,
         };
-        let all = self.at_equal_lengths(py, n)?;
+        let all = self.at_equal_lengths(py, n.map_or(Ok(200), given::points)?)?;
         let column = |f: fn(&Station) -> f64| all.iter().map(f).collect::<Vec<f64>>().into_pyarray(py);
         ax.call_method("plot", (column(|s| s.x), column(|s| s.y)), kwargs)?;
         ax.call_method1("set_aspect", ("equal",))?;

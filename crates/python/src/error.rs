@@ -33,7 +33,12 @@ pub(crate) fn raise(error: Error) -> PyErr {
     let text = error.to_string();
     match error {
         Error::Io { path, source } => match source.raw_os_error() {
-            Some(number) => PyOSError::new_err((number, text, path)),
+            // Python puts number and path beside the words.
+            Some(number) => {
+                let words = text.strip_prefix(&format!("{}: ", path.display())).unwrap_or(&text);
+                let words = words.replace(&format!(" (os error {number})"), "");
+                PyOSError::new_err((number, words, path.into_os_string()))
+            }
             None => PyOSError::new_err(text),
         },
         Error::Atlas { .. } => AtlasError::new_err(text),

@@ -1,14 +1,14 @@
 //! Families, and the exact answers for one datum or many.
 
-use crate::error::{raise, raise_row};
-use numpy::{AllowTypeChange, IntoPyArray, PyArrayLike2, PyArrayMethods};
+use crate::error::raise;
+use crate::given::{self, Rows};
+use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde::Serialize;
-use spiral_atlas::family::{self, Answer, Chart, Family, RowError, Solved, Value};
+use spiral_atlas::family::{self, Answer, Chart, Family, Value};
 use spiral_atlas::recipe::parse_coordinate;
-use std::num::NonZero;
 
 /// What a family is, for `families()`.
 #[derive(Serialize)]
@@ -187,14 +187,15 @@ fn coordinate(axis: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 pub(crate) fn solve_batch<'py>(
     py: Python<'py>,
     family: &str,
-    data: PyArrayLike2<'py, f64, AllowTypeChange>,
+    data: &Bound<'py, PyAny>,
     chart: Option<&str>,
-    threads: Option<NonZero<usize>>,
+    threads: Option<&Bound<'py, PyAny>>,
     curves: bool,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let family = known(family)?;
-    let data = data.as_array();
-    let fits = |c: &Chart| c.axes.len() == data.ncols() && chart.is_none_or(|name| c.name == name);
+    let threads = given::threads(threads)?;
+    let data = Rows::new(data, "data", "k")?;
+    let fits = |c: &Chart| c.axes.len() == data.columns() && chart.is_none_or(|name| c.name == name);
     let chart = family.about().charts.iter().position(fits).ok_or_else(|| {
         let known: Vec<String> =
             family.about().charts.iter().map(|c| format!("{} ({})", c.name, c.axes.join(", "))).collect();
@@ -203,26 +204,32 @@ pub(crate) fn solve_batch<'py>(
             "`{}` has the charts {}; the data have {} columns{asked}",
             family.about().name,
             known.join(" | "),
-            data.ncols()
+            data.columns()
         ))
     })?;
-    let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-    // The rows as they lie in memory, or a copy of them where they have strides.
-    let rows = data.as_standard_layout();
-    let rows = rows.as_slice().unwrap_or_default();
-    let solve = || {
-        let found = if curves {
-            family::solve_batch(family, chart, rows, threads)?
+    let each = family.about().control_points;
+    if curves && each == 0 {
+        let what = format!("the answers of `{}` have no control points; ask for verdicts alone", family.about().name);
+        return Err(PyValueError::new_err(what));
+    }
+    let (mut flags, mut counts) = (data.room()?, data.room()?);
+    let mut points: Vec<[f64; 2]> = if curves { data.room_for(each)? } else { Vec::new() };
+    let solve = |rows: &[f64]| {
+        let codes = if curves {
+            let found = family::solve_batch(family, chart, rows, threads)?;
+            points.extend(found.control_points);
+            found.codes
         } else {
-            Solved { codes: family::verdicts(family, chart, rows, threads)?, control_points: Vec::new() }
+            family::verdicts(family, chart, rows, threads)?
         };
-        let (flags, counts): (Vec<u8>, Vec<u8>) = found.codes.iter().map(|code| (code.flags(), code.counts())).unzip();
-        Ok::<_, RowError>((flags, counts, found.control_points))
+        flags.extend(codes.iter().map(|code| code.flags()));
+        counts.extend(codes.iter().map(|code| code.counts()));
+        Ok(())
     };
-    let (flags, counts, points) = py.detach(solve).map_err(|fault| raise_row(py, fault.row, fault.error))?;
+    data.in_blocks(py, solve)?;
     let mut arrays = vec![flags.into_pyarray(py).into_any(), counts.into_pyarray(py).into_any()];
     if curves {
-        let shape = [data.nrows(), family.about().control_points, 2];
+        let shape = [data.count(), each, 2];
         arrays.push(points.into_flattened().into_pyarray(py).reshape(shape)?.into_any());
     }
     PyTuple::new(py, arrays)

@@ -3,6 +3,7 @@
 use crate::atlas::Atlas;
 use crate::cells::Cells;
 use crate::error::raise;
+use crate::given;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -10,7 +11,6 @@ use spiral_atlas::atlas::{Spec, Writer};
 use spiral_atlas::eval::{Backend, Job, evaluate};
 use spiral_atlas::recipe::{AtlasPlan, Recipe};
 use spiral_atlas::{Result, cells};
-use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -52,13 +52,14 @@ pub(crate) fn generate(
     py: Python<'_>,
     recipe: &Bound<'_, PyAny>,
     folder: Option<PathBuf>,
-    threads: Option<NonZero<usize>>,
+    threads: Option<&Bound<'_, PyAny>>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Vec<Made>> {
     let recipe = read(recipe)?;
-    let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+    let threads = given::threads(threads)?;
     if let Some(folder) = &folder {
-        std::fs::create_dir_all(folder)?;
+        std::fs::create_dir_all(folder)
+            .map_err(|e| raise(spiral_atlas::Error::Io { path: folder.clone(), source: e }))?;
     }
     let make = |plan: &AtlasPlan| {
         let job = Work { recipe: &recipe, plan, folder: folder.as_ref(), threads };

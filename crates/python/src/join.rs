@@ -2,6 +2,7 @@
 
 use crate::curve::Curve;
 use crate::error::raise;
+use crate::given;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::Deserialize;
@@ -69,7 +70,7 @@ pub(crate) fn join(
     family: &str,
     objective: &str,
     longest: Option<f64>,
-    most_pieces: Option<usize>,
+    most_pieces: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Join> {
     let state = |[x, y, direction, curvature]: [f64; 4]| End::State(State { point: [x, y], direction, curvature });
     let plain = Request::new(state(start), state(end), greatest_curvature);
@@ -77,7 +78,7 @@ pub(crate) fn join(
         family: named("family", family)?,
         objective: named("objective", objective)?,
         longest: longest.unwrap_or(plain.longest),
-        most_pieces: most_pieces.unwrap_or(plain.most_pieces),
+        most_pieces: most_pieces.map_or(Ok(plain.most_pieces), given::most_pieces)?,
         ..plain
     };
     Ok(match py.detach(|| joins::join(&request)).map_err(raise)? {

@@ -6,6 +6,7 @@ mod curve;
 mod error;
 mod family;
 mod generate;
+mod given;
 mod join;
 mod legend;
 mod outline;

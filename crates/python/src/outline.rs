@@ -1,13 +1,14 @@
 //! Atlases without their fields, for stores that keep those in another way: blocks of nodes, files, pictures.
 
-use crate::atlas::{Atlas, columns, rows};
+use crate::atlas::Atlas;
 use crate::error::raise;
 use crate::generate::{read, watched};
+use crate::given::{self, Rows};
 use crate::legend;
 use crate::picture::Picture;
 use crate::writer::Writer;
 use numpy::ndarray::ArrayD;
-use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike2, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
@@ -18,7 +19,6 @@ use spiral_atlas::picture;
 use spiral_atlas::recipe::{AtlasPlan, Recipe};
 use spiral_atlas::{Error, Result};
 use std::collections::{BTreeMap, HashMap};
-use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
@@ -121,17 +121,13 @@ impl Outline {
     }
 
     /// Flat index of the node nearest to each point, int64; -1 outside the grid by more than half a step.
-    fn nearest<'py>(
-        &self,
-        py: Python<'py>,
-        points: PyArrayLike2<'py, f64, AllowTypeChange>,
-    ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let points = points.as_array();
-        let axes = columns(&points, self.0.grid(), "the atlas has")?;
-        let nodes: Vec<i64> = py.detach(|| {
-            let node = |point| self.0.nearest(point).map_or(-1, |node| node as i64);
-            rows(&points.as_standard_layout(), axes).map(node).collect()
-        });
+    fn nearest<'py>(&self, py: Python<'py>, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let points = Rows::of_grid(points, self.0.grid(), "the atlas has")?;
+        let mut nodes = points.room()?;
+        points.each(py, |point| {
+            nodes.push(self.0.nearest(point).map_or(-1, |node| node as i64));
+            Ok(())
+        })?;
         Ok(nodes.into_pyarray(py))
     }
 
@@ -154,9 +150,9 @@ impl Outline {
         py: Python<'py>,
         start: Vec<usize>,
         shape: Vec<usize>,
-        threads: Option<NonZero<usize>>,
+        threads: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyAny>)> {
-        let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+        let threads = given::threads(threads)?;
         let nodes: Vec<Vec<usize>> =
             start.iter().zip(&shape).map(|(from, count)| (*from..from + count).collect()).collect();
         let (chunk, report) = watched(py, |_| Ok(()), |stop, _| self.compute(&nodes, threads, stop))?;

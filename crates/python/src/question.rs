@@ -2,6 +2,7 @@
 
 use crate::error::raise;
 use crate::family::{datum, known};
+use crate::given;
 use numpy::PyArray2;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -132,16 +133,20 @@ pub(crate) fn nearest<'py>(
 /// Raises:
 ///     As `ranges`.
 #[pyfunction]
-#[pyo3(signature = (family, axes, within, *, cells = 256, flag = None, **coordinates))]
+#[pyo3(
+    signature = (family, axes, within, *, cells = None, flag = None, **coordinates),
+    text_signature = "(family, axes, within, *, cells=256, flag=None, **coordinates)"
+)]
 pub(crate) fn boundary<'py>(
     py: Python<'py>,
     family: &str,
     axes: [String; 2],
     within: [[f64; 2]; 2],
-    cells: usize,
+    cells: Option<&Bound<'py, PyAny>>,
     flag: Option<&str>,
     coordinates: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let cells = given::cells(cells)?;
     let [first, second] = &axes;
     let (property, point, places) = asked(py, family, flag, coordinates, &[first, second])?;
     let sides = [places[0], places[1]];

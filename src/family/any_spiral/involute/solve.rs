@@ -215,7 +215,7 @@ impl Involute {
     /// As [`Involute::at_length`].
     ///
     /// # Errors
-    /// [`crate::Error::Domain`] for fewer than 2 points.
+    /// [`crate::Error::Domain`] for fewer than 2 points or more than [`crate::transition::MOST_SAMPLES`].
     pub fn samples(&self, count: usize) -> Result<Vec<(f64, InvolutePoint)>> {
         samples(count)?;
         let share = |i: usize| i as f64 / (count - 1) as f64;
