@@ -186,8 +186,8 @@ impl Measured {
     /// Of a path.
     ///
     /// # Errors
-    /// [`Error::Domain`] for numbers of samples outside 2 to [`crate::transition::MOST_SAMPLES`], and for an offset that
-    /// is not finite.
+    /// [`Error::Domain`] for numbers of samples outside 2 to [`crate::transition::MOST_SAMPLES`], and for an offset
+    /// that is not finite.
     pub fn new(course: &Course, samples: Option<u32>, offset: Option<f64>) -> Result<Measured> {
         Ok(Measured {
             summary: course.summary(),
