@@ -93,7 +93,7 @@ impl Easing {
 }
 
 /// How far the corner of two spirals of a length that turn by an angle is from their ends.
-fn leg(family: Family, angle: f64, length: f64) -> f64 {
+pub(super) fn leg(family: Family, angle: f64, length: f64) -> f64 {
     // They meet on the line that halves the corner.
     let [x, y] = Spiral { from: 0.0, to: angle / length, length }.step(family);
     x + y * (0.5 * angle).tan()

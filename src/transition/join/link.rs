@@ -140,9 +140,11 @@ impl Chain {
         Chain { start: Pose { at: start, direction: from }, end, links: links.to_vec(), arcs }
     }
 
-    /// Two spirals without an arc between, whose centre may be too far away to have digits.
-    pub(super) fn corner(start: Pose, end: Vector, links: [Link; 2]) -> Chain {
-        Chain { start, end, links: links.to_vec(), arcs: vec![(links[0].first.to, 0.0)] }
+    /// Spirals without an arc between, where centres may be too far away to have digits.
+    pub(super) fn alone(start: Pose, end: Vector, links: Vec<Link>) -> Chain {
+        let reached = |link: &Link| (link.second.unwrap_or(link.first).to, 0.0);
+        let arcs = links[..links.len() - 1].iter().map(reached).collect();
+        Chain { start, end, links, arcs }
     }
 
     /// Its spirals.

@@ -32,11 +32,14 @@
 //! are proved is taken. In units of the least radius the spirals are 0.4 long or longer: from shorter ones, control
 //! points in doubles could not show the curvature to 1e-12.
 //!
-//! Lines and circles are joined by the same spirals, laid out by the centres of circles: see `link.rs` and `shapes.rs`.
+//! Lines and circles are joined by the same spirals, laid out by the centres of circles: see `link.rs` and `shapes.rs`,
+//! and `alone.rs` for what two lines need no arc for.
 
+mod alone;
 mod best;
 mod ease;
 mod link;
+mod locus;
 mod measure;
 mod request;
 mod shapes;

@@ -1,12 +1,13 @@
 //! Joins of lines and circles: the J, U, C and S shapes, circles in circles, and what leads around where those do not
 //! fit.
 
-use super::super::piece::principal;
+use super::alone::{self, Size};
 use super::best::Best;
 use super::link::{Chain, Link, Node, SHORTEST, root};
+use super::locus::{Locus, SAME, beside, meet};
 use super::request::{End, Family, Objective, Request};
 use super::spiral::{Pose, Spiral};
-use crate::curve::vector::{Vector, add, angle_of, cross, dot, length, scale, sub, turn, unit};
+use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn, unit};
 use crate::error::Result;
 
 /// Curvatures of arcs between, in units of the limit.
@@ -17,14 +18,14 @@ const ANGLES: [f64; 3] = [0.3, 0.6, 1.0];
 const SLANTS: [f64; 3] = [1.02, 1.4, 2.0];
 /// Directions that differ by less, radians, are parallel: well below what joins are exact to.
 const PARALLEL: f64 = 1e-13;
-/// Centres and radii that differ by less, relatively, are the same: a few roundings.
-const SAME: f64 = 16.0 * f64::EPSILON;
 /// Lines whose corner is farther away than this, in least radii, are joined nearer, too.
 const FAR: f64 = 100.0;
 /// So many chains of those within the bounds are compared: the model that orders them tells length to some hundredths.
 const COMPARED: usize = 6;
 /// So many are built at most; each takes the proofs of a few spirals.
 const BUILT: usize = 100;
+/// A chain is built where the model has it no longer than this times the greatest length.
+const LONGER: f64 = 1.1;
 
 /// Offers joins of two lines and circles, and says why there is none, should there be none.
 ///
@@ -40,9 +41,12 @@ pub(super) fn shapes(request: &Request, best: &mut Best) -> Result<String> {
     if same(&nodes) {
         return Ok(format!("the two {from}s are one, travelled the same way: there is nothing to join"));
     }
-    let sought = Sought { family: request.family, objective: request.objective };
+    let Request { family, objective, greatest_curvature: most, .. } = *request;
+    let sought = Sought { family, objective, longest: request.longest * most };
     let mut chains = sought.chains(nodes);
-    chains.retain(|chain| chain.length(request.family).is_finite() && chain.pieces() <= request.most_pieces);
+    // Those that are much too long are not built.
+    let longest = (LONGER * request.longest * most).min(f64::MAX);
+    chains.retain(|chain| chain.length(family) <= longest && chain.pieces() <= request.most_pieces);
     let key = |chain: &Chain| (chain.cost(request.family, request.objective), chain.length(request.family));
     chains.sort_by(|a, b| key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1)));
     let enough = best.kept + COMPARED;
@@ -110,17 +114,12 @@ fn parallel(turned: f64) -> bool {
     turned.sin().abs() <= PARALLEL * turned.abs().max(1.0)
 }
 
-/// Where a centre may be.
-#[derive(Debug, Clone, Copy)]
-enum Locus {
-    Line(Pose),
-    Circle { centre: Vector, radius: f64 },
-}
-
 /// What chains are made for.
 struct Sought {
     family: Family,
     objective: Objective,
+    /// Greatest length, in least radii.
+    longest: f64,
 }
 
 impl Sought {
@@ -137,8 +136,14 @@ impl Sought {
             if far > FAR {
                 self.by_two_arcs(a, b, &mut all);
             }
-            let Some(corner) = corner.filter(|_| far <= super::FARTHEST) else { return all };
-            self.corners([a, b], corner, &mut all);
+            let sizes = Size::all(&PEAKS, self.objective, self.longest).into_iter();
+            let Some(corner) = corner.filter(|_| far <= super::FARTHEST) else {
+                if turned.cos() > 0.0 {
+                    all.extend(sizes.filter_map(|size| alone::beside(self.family, [a, b], size)));
+                }
+                return all;
+            };
+            all.extend(sizes.filter_map(|size| alone::corner(self.family, [a, b], corner, size)));
         }
         for k in PEAKS.into_iter().chain(halfway(&nodes)).flat_map(|k| [k, -k]) {
             for first in self.links(nodes[0].curvature(), k) {
@@ -273,26 +278,6 @@ impl Sought {
         }
     }
 
-    /// Two spirals round the corner of two lines, without an arc.
-    fn corners(&self, [a, b]: [Pose; 2], corner: Vector, all: &mut Vec<Chain>) {
-        let turned = b.direction - a.direction;
-        let angle = principal(turned);
-        let gentle = angle.abs() / 0.4;
-        for peak in PEAKS.into_iter().chain((gentle < PEAKS[3]).then_some(gentle)) {
-            let long = angle.abs() / peak;
-            if 0.5 * angle.abs() > Spiral::most(self.family, 0.0, peak) || long < SHORTEST {
-                continue;
-            }
-            let k = peak.copysign(angle);
-            let links = [Link::direct(0.0, k, long), Link::direct(k, 0.0, long)];
-            let [first, second] = links.map(|link| link.first.step(self.family));
-            // The legs from the corner are equal, and together they lead from end to end.
-            let leg = length(add(first, turn(unit(0.5 * angle), second))) / (2.0 * (0.5 * angle).cos());
-            let start = Pose { at: sub(corner, scale(a.along(), leg)), ..a };
-            all.push(Chain::corner(start, add(corner, scale(b.along(), leg)), links));
-        }
-    }
-
     /// From a line to one the other way: an arc of the right radius.
     fn half_turns(&self, a: Pose, b: Pose, all: &mut Vec<Chain>) {
         let apart = cross(a.along(), sub(b.at, a.at));
@@ -351,51 +336,3 @@ fn halfway(nodes: &[Node; 2]) -> impl Iterator<Item = f64> + use<> {
     let radii = [a + b, (a - b).abs()].into_iter().flat_map(|twice| [0.5 * twice, 0.45 * twice]);
     radii.filter(|radius| radius.is_finite() && *radius >= 1.0).map(|radius| 1.0 / radius)
 }
-
-/// How far a point is from a line.
-fn beside(locus: &Locus, point: Vector) -> f64 {
-    match locus {
-        Locus::Line(line) => cross(line.along(), sub(point, line.at)).abs(),
-        Locus::Circle { .. } => f64::NAN,
-    }
-}
-
-/// Where two meet.
-fn meet(loci: [Locus; 2]) -> [Option<Vector>; 2] {
-    match loci {
-        [Locus::Line(a), Locus::Line(b)] => {
-            let (u, v) = (a.along(), b.along());
-            let t = cross(sub(b.at, a.at), v) / cross(u, v);
-            [t.is_finite().then(|| add(a.at, scale(u, t))), None]
-        }
-        [Locus::Line(line), Locus::Circle { centre, radius }]
-        | [Locus::Circle { centre, radius }, Locus::Line(line)] => {
-            let u = line.along();
-            let to = sub(centre, line.at);
-            let (along, beside) = (dot(u, to), cross(u, to));
-            if beside.is_nan() || beside.abs() > radius {
-                return [None, None];
-            }
-            let half = ((radius - beside) * (radius + beside)).sqrt();
-            [along - half, along + half].map(|t| Some(add(line.at, scale(u, t))))
-        }
-        [Locus::Circle { centre: a, radius: r }, Locus::Circle { centre: b, radius: s }] => {
-            let across = sub(b, a);
-            let apart = length(across);
-            // About one centre: all places are alike.
-            if apart <= SAME * r && (r - s).abs() <= SAME * r {
-                return [Some(add(a, [r, 0.0])), None];
-            }
-            if apart == 0.0 || apart.is_nan() || apart > r + s || apart < (r - s).abs() {
-                return [None, None];
-            }
-            let x = 0.5 * (apart + (r - s) * (r + s) / apart);
-            let y = ((r - x) * (r + x)).max(0.0).sqrt();
-            let along = unit(angle_of(across));
-            [[x, y], [x, -y]].map(|v| Some(add(a, turn(along, v))))
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests;
