@@ -554,6 +554,16 @@ def joins_are_those_of_the_program(browser):
     page.page.click("#presets button:text-is('Two states')")
     page.page.wait_for_timeout(150)
     page.rest()
+    assert "spiral_atlas::join({0, 0, 0, 0}, {180, 150, " in page.copied("cpp")
+    compile(page.copied("python"), "python", "exec")
+    page.page.select_option("#join-objective", "greatest-rate")
+    page.page.wait_for_timeout(150)
+    page.rest()
+    page.copied("cpp")
+    assert "In C++ a join is the shortest" in page.page.inner_text("#notice")
+    page.page.select_option("#join-objective", "length")
+    page.page.wait_for_timeout(150)
+    page.rest()
     before = page.tell("joined()")["path"]["length"]
     page.drag("to-point", -30, 20)
     assert page.tell("joined()")["path"]["length"] != before

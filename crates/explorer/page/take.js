@@ -58,10 +58,15 @@ export function python(s) {
   ].join("\n");
 }
 
+/** A join that is asked for without a number of pieces has at most so many. */
+const MOST_PIECES = 11;
+
 export function cpp(s) {
   if (s.mode === "join") {
     const [from, to] = states(s.join, "C++");
-    const { radius, family } = s.join;
+    const { radius, pieces, family, objective } = s.join;
+    if (objective !== "length" || pieces < MOST_PIECES)
+      throw new Error("In C++ a join is the shortest, of any number of pieces; Python and the command line choose.");
     return [
       "#include <spiral_atlas.hpp>",
       "",
