@@ -14,18 +14,23 @@
 //! - `build.rs`: the trees, level by level, the flags that matter most first, until the budget is used up. Cells are
 //!   independent of each other and results are taken in order, so the bytes do not depend on the number of threads.
 //! - `file.rs`: one safetensors file, mapped and checked. docs/cells.md states it byte by byte.
-//! - `check.rs`: recomputes a file, and attacks it with points.
+//! - `check.rs`: compares a file with cells made anew, and attacks it with points. `verify.rs` judges it by both, and
+//!   by its recipe.
 
 mod build;
 mod check;
 mod classify;
 mod file;
 mod tree;
+#[cfg(feature = "recipe")]
+mod verify;
 
 pub use build::{Built, build};
 pub use check::{Attack, attack, differences};
 pub use file::{Cells, bytes, write};
 pub use tree::Known;
+#[cfg(feature = "recipe")]
+pub use verify::{Verified, verify};
 
 use crate::family::{self, Family};
 use crate::grid::Grid;

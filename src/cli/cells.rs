@@ -1,10 +1,10 @@
 //! What the commands do with an atlas of cells.
 
 use super::Outcome;
-use super::legend::{faults, flags, head, spacing, tail};
+use super::legend::{self, flags, head, spacing, tail};
 use super::output::{self, Object, Product, grouped};
 use spiral_atlas::atlas::{Atlas, Kind};
-use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec};
+use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec, Verified};
 use spiral_atlas::files::{size, write_file};
 use spiral_atlas::plot::Format;
 use spiral_atlas::recipe::{AtlasPlan, PicturePlan, Recipe};
@@ -12,9 +12,6 @@ use spiral_atlas::{Result, atlas, picture};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
-
-/// Rounds of an attack, of some 200 points each.
-const ROUNDS: u64 = 5_000;
 
 /// A file of either kind.
 pub(super) enum Opened {
@@ -61,12 +58,16 @@ pub(super) fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> 
 }
 
 /// Makes cells, with a bar that tells how many have been divided.
-fn build(spec: &Spec, threads: usize, stop: &AtomicBool) -> Result<Built> {
+fn with_bar<T>(name: &str, most_bytes: u64, make: impl FnOnce(&(dyn Fn(u64) + Sync)) -> T) -> T {
     // How many will be divided is not known before: a cell takes some five bytes.
-    let bar = output::progress(spec.name.to_owned(), spec.budget / 5);
-    let built = cells::build(spec, threads, stop, &|divided| bar.set_position(divided));
+    let bar = output::progress(name.to_owned(), most_bytes / 5);
+    let made = make(&|divided| bar.set_position(divided));
     bar.finish_and_clear();
-    built
+    made
+}
+
+fn build(spec: &Spec, threads: usize, stop: &AtomicBool) -> Result<Built> {
+    with_bar(spec.name, spec.budget, |bar| cells::build(spec, threads, stop, bar))
 }
 
 /// Makes the cells of a plan for pictures alone.
@@ -134,15 +135,11 @@ pub(super) fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path, format: 
 }
 
 #[derive(serde::Serialize)]
-struct Verified<'a> {
+struct Report<'a> {
     atlas: &'a Path,
     id: String,
-    /// What is wrong before any cell is looked at; empty is good.
-    faults: Vec<String>,
-    /// Words of the file that differ from those made anew, and the first of them.
-    differences: u64,
-    first_difference: Option<String>,
-    attack: Attack,
+    #[serde(flatten)]
+    found: Verified,
     seconds: f64,
     good: bool,
 }
@@ -151,51 +148,25 @@ struct Verified<'a> {
 pub(super) fn verify(cells: &Cells, threads: usize, json: bool) -> Result<Outcome> {
     let started = Instant::now();
     let stop = super::stop_flag()?;
-    let mut faults: Vec<String> = cells.check_hashes().err().map(|e| e.to_string()).into_iter().collect();
-    let about = cells.about();
-    let plan =
-        Recipe::parse(&about.recipe).ok().map(|recipe| recipe.atlases.into_iter().find(|plan| plan.name == about.name));
-    let same = |plan: &AtlasPlan| {
-        plan.family.about().name == about.family && plan.grid == *cells.grid() && plan.cells.is_some()
-    };
-    // A text that is no recipe (of a file made by a program) says nothing; its cells then have no budget but what
-    // they took.
-    match &plan {
-        Some(None) => faults.push(format!("its recipe has no atlas `{}`", about.name)),
-        Some(Some(plan)) if !same(plan) => {
-            faults.push("its recipe gives another family or other cells than the file has".into())
-        }
-        _ => {}
-    }
-    let budget = plan.flatten().and_then(|plan| plan.cells).unwrap_or(u64::MAX);
-    let family = cells.family();
-    let flags = family.about().flags.iter().map(|f| (f.name, f.doc));
-    if !about.flags.iter().map(|f| (&f.name[..], &f.doc[..])).eq(flags)
-        || about.conventions != family.about().conventions
-    {
-        faults.push(format!("its legend is not that of `{}`", family.about().name));
-    }
-    let attack = cells::attack(cells, ROUNDS, 1, &stop)?;
-    let spec = Spec { name: &about.name, family, grid: cells.grid(), budget, recipe: &about.recipe };
-    let (differences, first_difference) = cells::differences(cells, &build(&spec, threads, &stop)?);
-    let good = faults.is_empty() && differences == 0 && attack.wrong == 0 && attack.verdicts > 0;
-    let (atlas, id, seconds) = (cells.path(), cells.id()?.to_hex().to_string(), started.elapsed().as_secs_f64());
-    let verified = Verified { atlas, id, faults, differences, first_difference, attack, seconds, good };
+    let found = with_bar(&cells.about().name, cells.bytes(), |bar| cells::verify(cells, threads, &stop, bar))?;
+    let (id, seconds) = (cells.id()?.to_hex().to_string(), started.elapsed().as_secs_f64());
+    let report = Report { atlas: cells.path(), id, good: found.holds(), found, seconds };
     if json {
-        output::print_json(&verified)?
+        output::print_json(&report)?
     } else {
-        output::print(&verified.text())?
+        output::print(&report.text())?
     }
-    if !good {
+    if !report.good {
         output::complain(&format!("{}: verification failed", cells.path().display()));
     }
-    Ok(if good { Outcome::Fine } else { Outcome::Bad })
+    Ok(if report.good { Outcome::Fine } else { Outcome::Bad })
 }
 
-impl Verified<'_> {
+impl Report<'_> {
     fn text(&self) -> String {
-        let mut text = faults(self.atlas, &self.id, &self.faults);
-        let Attack { points, verdicts, wrong, first } = &self.attack;
+        let Verified { faults, differences, first_difference, attack } = &self.found;
+        let mut text = legend::faults(self.atlas, &self.id, faults);
+        let Attack { points, verdicts, wrong, first } = attack;
         let (points, verdicts) = (grouped(*points), grouped(*verdicts));
         text += &match (wrong, first) {
             (0, _) => format!("  attacked with {points} points: {verdicts} verdicts of cells, all true\n"),
@@ -207,9 +178,9 @@ impl Verified<'_> {
                 )
             }
         };
-        text += &match &self.first_difference {
+        text += &match first_difference {
             None => "  made anew: every word agrees".to_owned(),
-            Some(first) => format!("  made anew: {} words DIFFER\n    {first}\n ", grouped(self.differences)),
+            Some(first) => format!("  made anew: {} words DIFFER\n    {first}\n ", grouped(*differences)),
         };
         text + &format!(" ({:.2} s)\n", self.seconds)
     }

@@ -23,7 +23,7 @@ const ROOMS: [(&str, &[&str]); 21] = [
     ("eval", &["family", "grid", "num", "error"]),
     ("recipe", &["family", "grid", "num", "files", "plain", "steps", "error"]),
     ("atlas", &["eval", "recipe", "family", "grid", "num", "files", "plain", "error"]),
-    ("cells", &["atlas", "family", "grid", "files", "error"]),
+    ("cells", &["atlas", "recipe", "family", "grid", "files", "error"]),
     ("question", &["family", "num", "queue", "error"]),
     ("transition", &["family", "curve", "num", "plain", "error"]),
     ("path", &["transition", "family", "curve", "num", "queue", "steps", "plain", "error"]),
