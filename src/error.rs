@@ -133,6 +133,15 @@ impl Error {
         Error::Domain(Domain::Angle { what: what.into(), value, limit: limit.into(), way_out: way_out.into() })
     }
 
+    /// A name that is none of those known: "the {what} is `{name}`; it must be a, b or c".
+    pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Error {
+        let known = match known {
+            [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+            _ => known.concat(),
+        };
+        Error::invalid(format!("the {what} is `{name}`; it must be {known}"))
+    }
+
     /// Something outside its domain, in a sentence that names it, its value, what is allowed and the way out.
     pub fn invalid(sentence: impl Into<String>) -> Error {
         Error::Domain(Domain::Other(sentence.into()))
@@ -243,6 +252,9 @@ mod tests {
         assert_eq!(error.to_string(), "paths[2]: the radius is 0; it must be finite and above 0 (change the unit)");
         let error = Error::angle("phi0", 4.0, "below pi", "radians").at("line 3");
         assert_eq!(error.to_string(), "line 3: phi0 is 4 (229.183118 degrees); it must be below pi (radians)");
+        let error = |known| Error::unknown("kind", "x", known).to_string();
+        assert_eq!(error(&["a"]), "the kind is `x`; it must be a");
+        assert_eq!(error(&["a", "b", "c"]), "the kind is `x`; it must be a, b or c");
         assert_eq!(Error::NoPath("none".into()).at("x").to_string(), "x: none");
         assert!(finite("x", f64::NAN).is_err() && positive("x", f64::INFINITY).is_err());
         assert!(samples(1).is_err() && samples(2).is_ok() && samples(LARGEST).is_ok());

@@ -4,22 +4,12 @@
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
+use spiral_atlas::transition::join;
+use spiral_atlas::{family, tools};
 use spiral_atlas_c::*;
 use std::ffi::{CString, c_char};
 use std::ptr::{null, null_mut};
 
-const FAMILIES: [&str; 8] = [
-    "cubic",
-    "ph-quintic",
-    "any-spiral",
-    "reach-cubic",
-    "reach-ph",
-    "trig-quintic",
-    "ph-equal-length",
-    "ph-hermite",
-];
-const KINDS: [&str; 5] = ["cubic", "ph-quintic", "involute", "trig-quintic", "clothoid"];
-const TOOLS: [&str; 7] = ["hermite", "equal-length", "least-curvature", "spline", "plan", "separation", "measure"];
 /// No family has more axes.
 const AXES: usize = 8;
 
@@ -56,7 +46,8 @@ fn fine(status: SpiralStatus) -> bool {
 }
 
 fn call(given: &mut Unstructured) -> Result<()> {
-    let family = Text::one(given, &FAMILIES)?;
+    let families: Vec<&str> = family::all().iter().map(|family| family.about().name).collect();
+    let family = Text::one(given, &families)?;
     let mut datum = [0.0; AXES];
     for x in &mut datum {
         *x = number(given)?;
@@ -96,7 +87,7 @@ fn call(given: &mut Unstructured) -> Result<()> {
                     direction: datum[i + 2],
                     curvature: datum[i + 3],
                 };
-                let (kind, mut curve) = (Text::one(given, &KINDS)?, null_mut());
+                let (kind, mut curve) = (Text::one(given, &join::Family::ALL.map(join::Family::name))?, null_mut());
                 let (joined, limit, longest) = (given.arbitrary()?, number(given)?, number(given)?);
                 let status = if joined {
                     spiral_join(&end(0), &end(4), limit, kind.pointer(), longest, &mut curve)
@@ -123,7 +114,7 @@ fn call(given: &mut Unstructured) -> Result<()> {
                 spiral_ranges_close(ranges);
             }
             _ => {
-                let (tool, request, mut report) = (Text::one(given, &TOOLS)?, Text::any(given)?, null_mut());
+                let (tool, request, mut report) = (Text::one(given, &tools::NAMES)?, Text::any(given)?, null_mut());
                 if fine(spiral_path(tool.pointer(), request.as_ptr(), &mut report)) {
                     assert!(!spiral_report_json(report).is_null());
                 }

@@ -21,6 +21,21 @@ impl Fit {
     }
 }
 
+/// The kinds of curves that [`fit`] finds.
+pub const FITTED: [Kind; 3] = [Kind::Cubic, Kind::PhQuintic, Kind::Involute];
+
+/// The kind of a name, one of [`FITTED`].
+///
+/// # Arguments
+/// - `what`: what the caller's users know the name as, such as "kind".
+///
+/// # Errors
+/// [`Error::Domain`], with the names that there are.
+pub fn fitted(what: &str, name: &str) -> Result<Kind> {
+    let found = FITTED.into_iter().find(|kind| kind.name() == name);
+    found.ok_or_else(|| Error::unknown(what, name, &FITTED.map(Kind::name)))
+}
+
 /// The curves of one kind between two ends, and the chosen spiral among them.
 ///
 /// # Arguments
@@ -34,7 +49,7 @@ impl Fit {
 /// [`involute_between`] refuse; [`Error::Undecided`] at the precision cap. That there is no spiral is no error.
 pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
     above_zero("the greatest length", longest)?;
-    match kind {
+    match fitted("kind", kind.name())? {
         Kind::Cubic => {
             let answer = spiral(ends)?.no_longer_than(longest);
             Ok(Fit {
@@ -51,7 +66,7 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
                 outcome: answer.outcome.map_err(|why| why.sentence("PH quintic spiral")),
             })
         }
-        Kind::Involute => {
+        _ => {
             let (found, frame) = involute_between(ends, [0, 0])?;
             let solutions: Vec<Piece> =
                 InvoluteBetween::of(ends, &found, &frame).map(Piece::Involute).into_iter().collect();
@@ -63,7 +78,6 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
             };
             Ok(Fit { spirals: vec![true; solutions.len()], solutions, outcome })
         }
-        _ => Err(Error::invalid(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
     }
 }
 
@@ -82,7 +96,7 @@ mod tests {
 
     #[test]
     fn each_kind_has_its_spiral_or_a_reason() {
-        for kind in [Kind::Cubic, Kind::PhQuintic, Kind::Involute] {
+        for kind in FITTED {
             let found = fit(&ENDS, kind, f64::INFINITY).unwrap();
             let curve = found.curve().unwrap_or_else(|| panic!("{kind:?}: {:?}", found.outcome));
             assert!(curve.kind() == kind && (curve.start(), curve.end()) == (ENDS.start, ENDS.end));

@@ -44,7 +44,7 @@ pub use crate::error::MOST_SAMPLES;
 pub use clothoid::Clothoid;
 pub use cubic::{Answer, Solution, spiral};
 pub use figure::{EndCircle, Figure, Sample};
-pub use fit::{Fit, fit};
+pub use fit::{FITTED, Fit, fit, fitted};
 pub use involute::{Frame, involute_between, polyline, why_no_spiral};
 pub use nearby::nearby;
 pub use none::{Bound, Need, NoSpiral};

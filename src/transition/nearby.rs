@@ -6,9 +6,9 @@
 
 use super::placement::Ends;
 use super::words::rounded;
-use super::{Kind, cubic, ph_quintic};
+use super::{Kind, cubic, fitted, ph_quintic};
 use crate::curve::vector::length;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::family::any_spiral::AnySpiral;
 use crate::family::{Family, verdict};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -45,18 +45,12 @@ type Way = [f64; 4];
 /// six digits where they differ from the given ones.
 ///
 /// # Errors
-/// [`Error::Domain`] for another kind, and those of [`super::Placement::normalise`].
+/// [`crate::Error::Domain`] for another kind, and those of [`super::Placement::normalise`].
 pub fn nearby(ends: &Ends, kind: Kind) -> Result<Option<Ends>> {
-    let exists: fn(&Ends) -> bool = match kind {
+    let exists: fn(&Ends) -> bool = match fitted("kind", kind.name())? {
         Kind::Cubic => cubic::exists,
         Kind::PhQuintic => ph_quintic::exists,
-        Kind::Involute => any,
-        _ => {
-            return Err(Error::invalid(format!(
-                "the kind is `{}`; it must be cubic, ph-quintic or involute",
-                kind.name()
-            )));
-        }
+        _ => any,
     };
     let (_, half_chord) = ends.chord()?;
     if exists(ends) {
@@ -157,7 +151,7 @@ mod tests {
     /// A little out of the region, far out, at directions of no spiral, and with a straight end.
     #[test]
     fn what_is_found_has_a_spiral() {
-        for kind in [Kind::Cubic, Kind::PhQuintic, Kind::Involute] {
+        for kind in crate::transition::FITTED {
             assert_eq!(nearby(&ENDS, kind).unwrap(), Some(ENDS));
             for ends in [
                 Ends { end_curvature: 0.012, ..ENDS },

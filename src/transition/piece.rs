@@ -72,12 +72,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The kind of a name.
-    pub fn by_name(name: &str) -> Option<Kind> {
-        use Kind::*;
-        [Cubic, PhQuintic, TrigQuintic, Involute, Line, Arc, Clothoid].into_iter().find(|kind| kind.name() == name)
-    }
-
     /// Its name, as in JSON.
     pub fn name(self) -> &'static str {
         match self {

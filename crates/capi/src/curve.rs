@@ -4,7 +4,7 @@ use crate::atlas::c_text;
 use crate::{Fault, Result, SpiralStatus, given, place, results, status::guard, text};
 use spiral_atlas::Error;
 use spiral_atlas::transition::join::{Family, Request, State, join};
-use spiral_atlas::transition::{Ends, Kind, Piece, fit, stations};
+use spiral_atlas::transition::{Ends, Piece, fit, fitted, stations};
 use std::ffi::{CString, c_char};
 
 /// A curve of one or more pieces.
@@ -95,8 +95,7 @@ pub unsafe extern "C" fn spiral_fit(
     guard(|| {
         // SAFETY: the caller's promises.
         let (start, end, name, slot) = unsafe { asked(start, end, kind, curve)? };
-        let kind = Kind::by_name(name)
-            .ok_or_else(|| Fault::domain(format!("the kind is `{name}`; it must be cubic, ph-quintic or involute")))?;
+        let kind = fitted("kind", name)?;
         let ends = Ends {
             start: [start.x, start.y],
             end: [end.x, end.y],
@@ -131,17 +130,7 @@ pub unsafe extern "C" fn spiral_join(
     guard(|| {
         // SAFETY: the caller's promises.
         let (start, end, name, slot) = unsafe { asked(start, end, kind, curve)? };
-        let family = [
-            ("cubic", Family::Cubic),
-            ("ph-quintic", Family::PhQuintic),
-            ("trig-quintic", Family::TrigQuintic),
-            ("involute", Family::Involute),
-            ("clothoid", Family::Clothoid),
-        ];
-        let (_, family) = family.into_iter().find(|(known, _)| *known == name).ok_or_else(|| {
-            let known = "cubic, ph-quintic, trig-quintic, involute or clothoid";
-            Fault::domain(format!("the kind is `{name}`; it must be {known}"))
-        })?;
+        let family = Family::by_name(name)?;
         let state = |e: &SpiralEnd| State { point: [e.x, e.y], direction: e.direction, curvature: e.curvature };
         let request = Request { family, longest, ..Request::new(state(start), state(end), greatest_curvature) };
         match join(&request)? {

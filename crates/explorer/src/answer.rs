@@ -2,14 +2,14 @@
 
 use serde::Deserialize;
 use serde_json::{Value, json};
+use spiral_atlas::Result;
 use spiral_atlas::export::{OpenDrive, opendrive};
 use spiral_atlas::path::Course;
 use spiral_atlas::transition::join::{self, join};
 use spiral_atlas::transition::{
-    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, involute_between, nearby, ph_spiral,
-    polyline, spiral, why_no_spiral,
+    self, EndCircle, InvoluteBetween, Kind, NoSpiral, Piece, Placement, Turn, Why, fitted, involute_between, nearby,
+    ph_spiral, polyline, spiral, why_no_spiral,
 };
-use spiral_atlas::{Error, Result};
 
 /// Points of a curve that is drawn, less one.
 const STEPS: usize = 160;
@@ -111,7 +111,7 @@ impl Curves {
 
 /// The curve of one kind.
 fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
-    match kind {
+    match fitted("kind", kind.name())? {
         Kind::Cubic => {
             let answer = spiral(ends)?;
             let piece = answer.chosen().map(|s| (s.piece(), json!({ "margin": s.margin, "f0": s.f0, "f1": s.f1 })));
@@ -126,7 +126,7 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let why = answer.outcome.as_ref().err().map(|why| (why.sentence("PH quintic spiral"), json!(why)));
             told(piece, why, answer.solutions.iter().map(|s| other(&Piece::PhQuintic(s.curve))).collect())
         }
-        Kind::Involute => {
+        _ => {
             let (found, frame) = involute_between(ends, [0, 0])?;
             let Some((curve, between)) = found.curve().zip(InvoluteBetween::of(ends, &found, &frame)) else {
                 let text = why_no_spiral(ends, &found).unwrap_or_default();
@@ -145,7 +145,6 @@ fn curve(ends: &transition::Ends, kind: Kind) -> Result<Value> {
             let facts = json!({ "theta": curve.theta(), "t0": curve.t0(), "turns": curve.turns() });
             drawn(&Piece::Involute(between), &facts, &points)
         }
-        _ => Err(Error::invalid(format!("the kind is `{}`; it must be cubic, ph-quintic or involute", kind.name()))),
     }
 }
 

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Deserialize;
 use spiral_atlas::path::Course;
-use spiral_atlas::transition::{self, Ends, Kind, Piece, Station, direction_of, stations};
+use spiral_atlas::transition::{self, Ends, Piece, Station, direction_of, stations};
 
 /// A curve of one or more pieces, in your own unit of length. Made by `fit`, `join` and `Curve.from_dict`.
 #[pyclass(frozen, eq, module = "spiral_atlas")]
@@ -254,9 +254,7 @@ pub(crate) fn fit(
 ) -> PyResult<Fit> {
     let (start_direction, end_direction) = (start_direction.angle()?, end_direction.angle()?);
     let ends = Ends { start, end, start_direction, end_direction, start_curvature, end_curvature };
-    let kind = Kind::by_name(family).ok_or_else(|| {
-        PyValueError::new_err(format!("the family is `{family}`; it must be cubic, ph-quintic or involute"))
-    })?;
+    let kind = transition::fitted("family", family).map_err(raise)?;
     let found = py.detach(|| transition::fit(&ends, kind, longest.unwrap_or(f64::INFINITY))).map_err(raise)?;
     let solutions: Vec<Py<Curve>> =
         found.solutions.into_iter().map(|p| Py::new(py, Curve::from(p))).collect::<PyResult<_>>()?;

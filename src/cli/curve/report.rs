@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use spiral_atlas::family::reach::{self, Level};
 use spiral_atlas::path::{Course, Summary};
 use spiral_atlas::transition::segment::{Base, Request, add_segment};
-use spiral_atlas::transition::{Ends, Fit, Kind, Piece, Station, fit};
+use spiral_atlas::transition::{Ends, FITTED, Fit, Kind, Piece, Station, fit};
 use spiral_atlas::{Error, Result};
 use std::io::Write;
 
@@ -178,7 +178,7 @@ impl Others {
             Kind::Involute => has(&involute),
             _ => has(&fit(ends, *kind, longest)),
         };
-        let others = [Kind::Cubic, Kind::PhQuintic, Kind::Involute].into_iter().filter(|other| *other != kind);
+        let others = FITTED.into_iter().filter(|other| *other != kind);
         let segment = Request::between(ends).ok().flatten();
         let added = |kind: reach::Kind| {
             let request = segment?;

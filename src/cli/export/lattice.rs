@@ -1,6 +1,5 @@
 //! `export lattice`: motion primitives for nav2.
 
-use super::super::join::FAMILIES;
 use super::super::{Outcome, numbers, output};
 use spiral_atlas::Result;
 use spiral_atlas::export::{Lattice, LatticeOptions, lattice};
@@ -40,7 +39,7 @@ pub(super) struct LatticeArgs {
     #[arg(default_value_t = 0.9)]
     distinctness: f64,
     /// What kind of spirals.
-    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&FAMILIES))]
+    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&Family::ALL.map(Family::name)))]
     family: Family,
     /// Where the file goes; standard output for - and unless given.
     #[arg(long, value_name = "FILE.json")]

@@ -1,7 +1,7 @@
 //! What a join is asked for, and what it is.
 
 use super::super::Turn;
-use super::super::piece::Piece;
+use super::super::piece::{Kind, Piece};
 use super::super::stations::{Station, stations};
 use super::measure::{Measures, without_noise};
 use crate::error::{Error, Result, above_zero, finite, positive};
@@ -76,6 +76,33 @@ pub enum Family {
     TrigQuintic,
     /// Clothoids, for comparison.
     Clothoid,
+}
+
+impl Family {
+    /// All that joins can use.
+    pub const ALL: [Family; 5] =
+        [Family::Cubic, Family::PhQuintic, Family::Involute, Family::TrigQuintic, Family::Clothoid];
+
+    /// Its name, as in JSON.
+    pub fn name(self) -> &'static str {
+        let kind = match self {
+            Family::Cubic => Kind::Cubic,
+            Family::PhQuintic => Kind::PhQuintic,
+            Family::Involute => Kind::Involute,
+            Family::TrigQuintic => Kind::TrigQuintic,
+            Family::Clothoid => Kind::Clothoid,
+        };
+        kind.name()
+    }
+
+    /// The family of a name.
+    ///
+    /// # Errors
+    /// [`Error::Domain`], with the names that there are.
+    pub fn by_name(name: &str) -> Result<Family> {
+        let found = Family::ALL.into_iter().find(|family| family.name() == name);
+        found.ok_or_else(|| Error::unknown("kind", name, &Family::ALL.map(Family::name)))
+    }
 }
 
 /// Of several joins that keep the limits, the one that has least of this.
