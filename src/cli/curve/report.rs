@@ -4,10 +4,10 @@ use super::super::numbers::are_radii;
 use super::super::{Outcome, output};
 use super::Reportable;
 use serde::{Serialize, Serializer};
-use spiral_atlas::family::reach::{self, Level};
+use spiral_atlas::family::reach;
 use spiral_atlas::path::{Course, Summary};
-use spiral_atlas::transition::segment::{Base, Request, add_segment};
-use spiral_atlas::transition::{Ends, FITTED, Fit, Kind, Piece, Station, fit};
+use spiral_atlas::transition::segment::{Base, Request};
+use spiral_atlas::transition::{Ends, Others, Piece, Station};
 use spiral_atlas::{Error, Result};
 use std::io::Write;
 
@@ -25,7 +25,7 @@ pub(super) struct Report<'f, F: Reportable> {
     #[serde(skip)]
     ask: Option<String>,
     #[serde(flatten)]
-    others: Option<Others>,
+    advice: Option<Advice>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<Vec<Station>>,
 }
@@ -113,9 +113,9 @@ impl<'f, F: Reportable> Report<'f, F> {
         let ask = asked.and_then(|e| are_radii(e.start, e.end, [e.start_curvature, e.end_curvature]));
         let reason = reason.map(|why| ask.as_ref().map_or(why.clone(), |ask| format!("{why}; {ask}")));
         let unsure = found.between().filter(|_| wish.advice && reason.is_some());
-        let others = unsure.map(|(ends, kind)| Others::new(ends, kind, wish.longest()));
+        let advice = unsure.map(|(ends, kind)| Advice::new(&Others::new(ends, kind, wish.longest()), ends));
         let samples = wish.samples.map(|n| paths.first().map_or(Ok(Vec::new()), |path| path.stations(n, found)));
-        Ok(Report { found, paths, reason, ask, others, samples: samples.transpose()? })
+        Ok(Report { found, paths, reason, ask, advice, samples: samples.transpose()? })
     }
 
     pub(super) fn outcome(&self) -> Outcome {
@@ -133,7 +133,7 @@ impl<'f, F: Reportable> Report<'f, F> {
             .as_ref()
             .filter(|_| self.found.spirals().is_err())
             .map_or(String::new(), |ask| format!("\n{ask}"));
-        text += &self.others.as_ref().map_or(String::new(), Others::advice);
+        text += &self.advice.as_ref().map_or(String::new(), Advice::text);
         output::stream(|out| {
             writeln!(out, "{text}")?;
             match self.samples.as_ref().filter(|samples| !samples.is_empty()) {
@@ -155,9 +155,9 @@ impl<'f, F: Reportable> Report<'f, F> {
     }
 }
 
-/// Other families that have a spiral where one has none.
-#[derive(Debug, Default, Serialize)]
-struct Others {
+/// What else would do, as it is printed.
+#[derive(Debug, Serialize)]
+struct Advice {
     /// Those that take the same ends.
     families: Vec<&'static str>,
     /// Commands for a segment added to the straight end, where one of the ends is straight.
@@ -165,35 +165,16 @@ struct Others {
     segments: Vec<String>,
 }
 
-impl Others {
-    /// All families that join two ends by a spiral no longer than allowed, but for the one that was asked: each is
-    /// asked too. One that fails counts as none. Where no involute exists no spiral does, so that nobody is asked.
-    fn new(ends: &Ends, kind: Kind, longest: f64) -> Others {
-        let involute = fit(ends, Kind::Involute, longest);
-        if involute.as_ref().is_ok_and(|found| found.solutions.is_empty()) {
-            return Others::default();
-        }
-        let has = |found: &Result<Fit>| found.as_ref().is_ok_and(|found| found.outcome.is_ok());
-        let joins = |kind: &Kind| match kind {
-            Kind::Involute => has(&involute),
-            _ => has(&fit(ends, *kind, longest)),
-        };
-        let others = FITTED.into_iter().filter(|other| *other != kind);
-        let segment = Request::between(ends).ok().flatten();
-        let added = |kind: reach::Kind| {
-            let request = segment?;
-            let added = add_segment(kind, &request).ok()?.ok()?;
-            let spiral = added.level != Level::Exists && added.piece.length() <= longest;
-            spiral.then(|| command(kind, &request, ends.end))
-        };
-        Others {
-            families: others.filter(joins).map(Kind::name).collect(),
-            segments: [reach::Kind::Cubic, reach::Kind::Ph].into_iter().filter_map(added).collect(),
+impl Advice {
+    fn new(others: &Others, ends: &Ends) -> Advice {
+        Advice {
+            families: others.kinds.iter().map(|kind| kind.name()).collect(),
+            segments: others.segments.iter().map(|(kind, request)| command(*kind, request, ends.end)).collect(),
         }
     }
 
     /// What to type for them.
-    fn advice(&self) -> String {
+    fn text(&self) -> String {
         let mut text = String::new();
         if !self.families.is_empty() {
             let names: Vec<String> = self.families.iter().map(|name| format!("`curve {name}`")).collect();
