@@ -88,6 +88,13 @@ pub enum Domain {
         /// What to do.
         way_out: Cow<'static, str>,
     },
+    /// A text: "{text} is no number; write {instead}, with a point".
+    NoNumber {
+        /// What was given.
+        text: String,
+        /// The number, where a decimal comma makes it none.
+        instead: Option<String>,
+    },
     /// Anything else, in a sentence.
     Other(String),
 }
@@ -102,6 +109,10 @@ impl Display for Domain {
             Domain::Angle { what, value, limit, way_out } => {
                 write!(f, "{what} is {}; it must be {limit}", written_angle(*value))?;
                 Some(way_out)
+            }
+            Domain::NoNumber { text, instead } => {
+                write!(f, "{text:?} is no number")?;
+                return instead.as_ref().map_or(Ok(()), |number| write!(f, "; write {number}, with a point"));
             }
             Domain::Other(sentence) => return f.write_str(sentence),
         };

@@ -2,8 +2,10 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::de::DeserializeOwned;
+use spiral_atlas::error::{Domain, Error};
 use spiral_atlas::recipe::{parse_curvature, parse_number};
 use spiral_atlas::transition::MOST_SAMPLES;
+use spiral_atlas::transition::join::Family;
 
 /// A curvature is hardly meant that is so many times one over the distance of the ends.
 const LARGE: f64 = 1e3;
@@ -12,9 +14,9 @@ type Parsed<T> = std::result::Result<T, String>;
 
 /// A number.
 pub(super) fn number(text: &str) -> Parsed<f64> {
-    parse_number(text).map_err(|e| match e.to_string() {
-        comma if comma.contains("with a point") => comma,
-        none => format!("{none}; write it like 0.5, -3 or 1e-3"),
+    parse_number(text).map_err(|e| match e {
+        Error::Domain(Domain::NoNumber { instead: Some(_), .. }) => e.to_string(),
+        _ => format!("{e}; write it like 0.5, -3 or 1e-3"),
     })
 }
 
@@ -50,6 +52,11 @@ pub(super) fn samples(text: &str) -> Parsed<u32> {
 /// One of the names that a type is read from.
 pub(super) fn named<T: DeserializeOwned + Clone + Send + Sync + 'static>(
     names: &[&'static str],
-) -> impl TypedValueParser<Value = T> {
+) -> impl TypedValueParser<Value = T> + use<T> {
     PossibleValuesParser::new(names.iter().copied()).try_map(|name| serde_json::from_value(name.into()))
+}
+
+/// One of the families of joins.
+pub(super) fn joined() -> impl TypedValueParser<Value = Family> {
+    named(&Family::ALL.map(Family::name))
 }

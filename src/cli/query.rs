@@ -37,7 +37,7 @@ use std::path::PathBuf;
               spiral-atlas query --phi0 40deg --phi1 80deg --kappa0 3 --kappa1 4 --nearest --weights inf,inf,1,1")]
 pub(super) struct Args {
     /// The family; that of the atlas, or `cubic`, unless given.
-    #[arg(long, value_name = "NAME", value_parser = named)]
+    #[arg(long, value_name = "NAME", value_parser = by_name)]
     family: Option<&'static dyn Family>,
     #[command(flatten)]
     coordinates: Coordinates,
@@ -54,11 +54,6 @@ pub(super) struct Args {
     json: bool,
     #[command(flatten)]
     question: QuestionArgs,
-}
-
-/// The family of a name, in letters of either size.
-fn named(name: &str) -> Result<&'static dyn Family> {
-    by_name(&name.to_lowercase()).or_else(|_| by_name(name))
 }
 
 /// Runs the command.

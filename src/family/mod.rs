@@ -307,12 +307,12 @@ fn names(able: impl Fn(&dyn Family) -> bool) -> String {
     all.join(", ")
 }
 
-/// The family of a name.
+/// The family of a name, in letters of either size.
 ///
 /// # Errors
 /// [`Error::Domain`], with the names that there are.
 pub fn by_name(name: &str) -> Result<&'static dyn Family> {
-    let found = all().iter().copied().find(|f| f.about().name == name);
+    let found = all().iter().copied().find(|f| f.about().name.eq_ignore_ascii_case(name));
     found.ok_or_else(|| Error::invalid(format!("no family is named `{name}`; there are: {}", names(|_| true))))
 }
 

@@ -1,6 +1,6 @@
 //! Numbers as they are written.
 
-use crate::error::{Error, Result};
+use crate::error::{Domain, Error, Result};
 
 /// Reads a number.
 ///
@@ -10,12 +10,8 @@ pub fn parse_number(text: &str) -> Result<f64> {
     let trimmed = text.trim();
     trimmed.parse().map_err(|_| {
         let point = trimmed.replacen(',', ".", 1);
-        let way_out = if point != trimmed && point.parse::<f64>().is_ok() {
-            format!("; write {point}, with a point")
-        } else {
-            String::new()
-        };
-        Error::invalid(format!("{text:?} is no number{way_out}"))
+        let instead = (point != trimmed && point.parse::<f64>().is_ok()).then_some(point);
+        Error::Domain(Domain::NoNumber { text: text.into(), instead })
     })
 }
 

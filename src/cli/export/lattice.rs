@@ -39,7 +39,7 @@ pub(super) struct LatticeArgs {
     #[arg(default_value_t = 0.9)]
     distinctness: f64,
     /// What kind of spirals.
-    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&Family::ALL.map(Family::name)))]
+    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::joined())]
     family: Family,
     /// Where the file goes; standard output for - and unless given.
     #[arg(long, value_name = "FILE.json")]

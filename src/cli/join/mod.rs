@@ -77,7 +77,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "NUMBER", value_parser = numbers::curvature, allow_hyphen_values = true)]
     greatest_curvature: Option<f64>,
     /// What kind of spirals.
-    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::named::<Family>(&Family::ALL.map(Family::name)))]
+    #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::joined())]
     family: Family,
     /// What is to be least; a rate is |dκ/ds|, how fast the steering must turn.
     #[arg(long, value_name = "NAME", default_value = "length", value_parser = numbers::named::<Objective>(&OBJECTIVES))]
