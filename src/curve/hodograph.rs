@@ -10,6 +10,7 @@
 use super::extrema::{self, product};
 use crate::num::bernstein::halve;
 use crate::num::{Ball, Number, Real, formula};
+use crate::steps::step;
 use num_complex::Complex64;
 use std::cmp::Ordering::{Greater, Less};
 
@@ -201,6 +202,7 @@ impl<N: Real> Hodograph<N> {
         let most = if self.bits() <= 53 { 40 } else { 640 };
         let mut waiting = vec![(self.clone(), 0.0, 0)];
         while let Some((piece, from, depth)) = waiting.pop() {
+            step();
             let width = 2f64.powi(-depth);
             match piece.compared(v, if from == 0.0 { touching } else { 0 }) {
                 Compared::Below => {}

@@ -20,6 +20,8 @@ mod curves;
 mod datum;
 mod range;
 mod shader;
+#[cfg(test)]
+mod steps;
 mod straight;
 mod table;
 mod truth;

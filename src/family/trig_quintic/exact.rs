@@ -60,7 +60,7 @@ pub(super) fn bernstein<N: Number>(c: [N; K]) -> [N; K] {
 }
 
 /// The form divided by `1 - τ`, its last coefficient being 0, times `(1 - τ) + τ`.
-fn without_last(c: [Interval; K]) -> [Interval; K] {
+pub(super) fn without_last(c: [Interval; K]) -> [Interval; K] {
     let zero = c[0].scale(0.0);
     std::array::from_fn(|i| {
         let this = if i + 1 < K { &c[i] } else { &zero };

@@ -142,3 +142,27 @@ fn thresholds_of_two_doubles_are_those_of_intervals() {
     }
     assert!(told > 35 && found > 10, "{told} told, {found} of them thresholds");
 }
+
+/// Where the curvature's slope at the end alone sets the threshold, and that lies exactly between two singles.
+///
+/// Then `9 ratio = 20 (1 + q)`, which is so near to 4.4, for angles near π/2.
+#[test]
+fn thresholds_between_two_singles_are_decided() {
+    let mut noise = Noise(3);
+    let (mut found, mut most) = ([0; 2], 0);
+    for i in 0..200 {
+        // An odd number times 2⁻²² is the middle of two singles here; a multiple of 5 gives q few digits.
+        let ratio = f64::from(5 * (2 * (1_800_000 + 301 * i) + 1)) * 2f64.powi(-22);
+        let (q, m) = (0.45 * ratio - 1.0, 0.5 + 0.1 * noise.next());
+        assert_eq!(end_slope(ratio, q), Equal, "{ratio} {q}");
+        let shape = Shape { ratio, theta: 1.555 + 0.015 * noise.next(), m, p: -4.0 + 5.0 * noise.next(), q };
+        let (steps, least) = counted(|| least_ratio(&shape).unwrap());
+        // Where the tie itself is a spiral, it is the threshold.
+        if judge(&shape, 256).unwrap() & SPIRAL != 0 {
+            assert_eq!(least, ratio as f32, "{shape:?}");
+            found[usize::from(f64::from(least) < ratio)] += 1;
+        }
+        most = most.max(steps);
+    }
+    assert!(found.into_iter().all(|rounded| rounded > 80) && most < 20, "{found:?} rounded up and down, {most} steps");
+}

@@ -8,15 +8,17 @@
 //! No theorem says that a smaller ratio gives no spiral, and for small m large ratios give none at all; hence the
 //! definition.
 
-use super::exact::{HALVINGS, Shape, bernstein};
+use super::exact::{HALVINGS, Shape, bernstein, without_last};
 use super::filter::{ERROR, UNIT, decide, is_ordinary};
 use super::guess::{DEGREE, LEAST, MOST, guess};
+use super::plain::end_slope;
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
 use crate::num::bernstein::{Certain, positive};
 use crate::num::{Interval, Number, Real, TWIN_BITS, Twin, Verdict, climb, formula};
 use std::array::from_fn;
+use std::cmp::Ordering::Equal;
 
 /// Relative error of f and of its derivative, in Bernstein's basis or by Horner's rule, against their sums of absolute
 /// terms: the coefficients, for which products of polynomials add up to 7 terms on three levels; powers (6), weights
@@ -43,7 +45,7 @@ pub(super) fn least_ratio(shape: &Shape) -> Result<f32> {
 pub(super) fn by_twins(shape: &Shape) -> Option<f32> {
     let frame = Frame::of(1.0, Twin::sin_cos(shape.theta))?;
     let c = in_ratio(&frame, [shape.m, shape.p, shape.q].map(|x| Twin::of(x, TWIN_BITS)), -1.0).map(bernstein);
-    Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0 }.near(hint(shape))
+    Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0, tie: None }.near(hint(shape))
 }
 
 /// Where doubles say that it is; better numbers need not follow.
@@ -56,13 +58,24 @@ fn hint(shape: &Shape) -> Option<u32> {
 /// # Errors
 /// As there.
 pub(super) fn exact_least_ratio(shape: &Shape) -> Result<f32> {
-    let hint = hint(shape);
+    let (hint, tie) = (hint(shape), tie(shape.q));
     climb(shape, "a scalar", |bits| {
         let frame = Frame::exact(1.0, shape.theta, bits)?;
-        let c = in_ratio(&frame, [shape.m, shape.p, shape.q].map(|x| Interval::new(x, bits)), -1.0).map(bernstein);
-        Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0 }.near(hint)
+        let c = in_ratio(&frame, [shape.m, shape.p, shape.q].map(|x| Interval::new(x, bits)), -1.0);
+        let tie = tie.map(|ratio| (ratio, c.clone().map(without_last).map(bernstein)));
+        Sweep { c: c.map(bernstein), size: [[0.0; K]; DEGREE + 1], error: 0.0, tie }.near(hint)
     })
     .map(|(value, _)| value)
+}
+
+/// The ratio between two singles at which κ'(1) = 0, if it lies exactly there.
+///
+/// There f has the factor 1 - τ, and no precision tells its sign at the end. Elsewhere the tie is no ratio that is
+/// asked.
+fn tie(q: f64) -> Option<f64> {
+    // The middle next to a ratio is that below its single or that above.
+    let near = ((20.0 * (1.0 + q) / 9.0) as f32).to_bits();
+    [near.saturating_sub(1), near].into_iter().map(middle).find(|&ratio| end_slope(ratio, q) == Equal)
 }
 
 /// In doubles; `None` where they might overflow.
@@ -70,7 +83,7 @@ fn fast(shape: &Shape) -> Option<Sweep<f64>> {
     let frame = Frame::new(1.0, shape.theta).filter(|_| is_ordinary(shape.m, 1.0))?;
     let [c, size] = [-1.0, 1.0]
         .map(|sign| in_ratio(&frame, [shape.m, shape.p, shape.q], sign).map(|c| from_fn(|i| c[i] * BERNSTEIN[i])));
-    Some(Sweep { c, size, error: F_ERROR })
+    Some(Sweep { c, size, error: F_ERROR, tie: None })
 }
 
 /// The coefficients of f by powers of the ratio; a frame of ratio 1.
@@ -140,6 +153,8 @@ struct Sweep<N> {
     size: [[f64; K]; DEGREE + 1],
     /// Error relative to these; 0 for numbers that know their own.
     error: f64,
+    /// [`tie`], and there f divided by 1 - τ, times (1 - τ) + τ.
+    tie: Option<(f64, [[N; K]; DEGREE + 1])>,
 }
 
 /// What a piece of the range holds.
@@ -181,6 +196,8 @@ impl<N: Certain> Sweep<N> {
                 return None;
             }
             match self.piece(upper(place), f64::from(MOST), PIECES) {
+                // No ratio below the tie gives a spiral, so the tie is the threshold: its single is the even one.
+                Piece::Spirals if self.tied(upper(place)).is_some() => return Some(f32::from_bits(place + place % 2)),
                 Piece::Spirals => return Some(f32::from_bits(place)),
                 Piece::Unclear => return None,
                 Piece::None(ratio) => {
@@ -203,13 +220,17 @@ impl<N: Certain> Sweep<N> {
         high
     }
 
+    /// What stands for f at a ratio if that is the tie.
+    fn tied(&self, ratio: f64) -> Option<&[[N; K]; DEGREE + 1]> {
+        self.tie.as_ref().filter(|(tie, _)| *tie == ratio).map(|(_, c)| c)
+    }
+
     /// Whether a ratio gives a spiral.
     fn spiral(&self, ratio: f64) -> Verdict {
+        let c = self.tied(ratio).unwrap_or(&self.c);
         let mut powers = [1.0; DEGREE + 1];
-        let value = from_fn(|i| {
-            let rest = self.c[..DEGREE].iter().rev();
-            rest.fold(self.c[DEGREE][i].clone(), |sum, c| formula!(sum * { ratio } + c[i]))
-        });
+        let value =
+            from_fn(|i| c[..DEGREE].iter().rev().fold(c[DEGREE][i].clone(), |sum, c| formula!(sum * { ratio } + c[i])));
         for k in 1..=DEGREE {
             powers[k] = powers[k - 1] * ratio;
         }
