@@ -41,6 +41,7 @@ const FEWEST_ROWS: usize = 8;
 #[inline(always)]
 pub(super) fn fill_by_blocks<S: Simd, R: Blocks>(simd: S, rows: &R, grid: &Grid, start: u64, out: &mut [Code]) {
     let [.., third, fourth] = grid.axes() else { return fill(simd, rows, grid, start, out) };
+    assert_eq!(grid.axes().len(), R::ANGLES + 2, "the blocks lie in the last two coordinates");
     let (height, width) = (third.values().len(), fourth.values().len());
     if height.min(width) < R::LEAST {
         return fill(simd, rows, grid, start, out);

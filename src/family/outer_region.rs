@@ -31,7 +31,8 @@ fn sine(x: f64) -> Ball {
 
 /// Holds and fails: what is certain of `u v > sin²(δ/2)`, where `delta` is a bound of `δ >= 0`, from below or above.
 ///
-/// One unit is for the rounding of δ, which the square doubles.
+/// The rounding of δ is one unit of it. A sine changes by no larger share than its angle, since `x cot x <= 1` up to
+/// π/2; so two units more are enough for it.
 fn compare(u: &Ball, v: &Ball, delta: f64) -> (bool, bool) {
     let half = Ball::near(sin(0.5 * delta.max(0.0)), SIN_ERROR + 2.0);
     let over = formula!(u * v - half * half);

@@ -35,9 +35,13 @@ impl Ball {
         Ball { value, error }
     }
 
-    /// A number known to `units` of 2^-53, relative.
+    /// A number known to `units` of 2^-53, relative to the number; below 1000 units.
+    ///
+    /// Relative to the value these are `units / (1 - units UNIT)` units, at most `1 + 2^-43` times as many. Two
+    /// roundings of the error itself are less than the rest of the factor.
     pub(crate) fn near(value: f64, units: f64) -> Ball {
-        Ball { value, error: value.abs() * (units * UNIT * GROW) + TINY }
+        const RELATIVE_TO_VALUE: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
+        Ball { value, error: value.abs() * (units * UNIT * RELATIVE_TO_VALUE) + TINY }
     }
 
     /// From the smallest to the largest of its numbers, a little widened.

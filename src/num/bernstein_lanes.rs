@@ -11,7 +11,8 @@ const UNIT: f64 = 0.5 * f64::EPSILON;
 /// `error`, after so many halvings at most.
 ///
 /// As in [`super::bernstein::positive`]: coefficients bound a piece from below, and a halving adds `K - 1` units of its
-/// largest coefficient. All lanes share the pieces. A lane that is not among them may be positive too.
+/// largest coefficient. All lanes share the pieces. A lane that is not among them may be positive too. A lane with a
+/// coefficient or an error that is no number is never among them.
 #[inline(always)]
 pub(crate) fn positive_lanes<S: Simd, const K: usize>(
     simd: S,
@@ -25,12 +26,13 @@ pub(crate) fn positive_lanes<S: Simd, const K: usize>(
     waiting.push((*c, error, wanted));
     let (mut left, mut failed) = (halvings, 0);
     while let Some((c, error, lanes)) = waiting.pop() {
-        let (mut least, mut largest) = (c[0], c[0].abs());
+        // Compared one by one, so that a coefficient that is no number counts as not positive.
+        let (mut above, mut largest) = (c[0].simd_gt(error), c[0].abs());
         for c in &c[1..] {
-            least = least.min(*c);
+            above &= c.simd_gt(error);
             largest = largest.max(c.abs());
         }
-        let open = lanes & !failed & !least.simd_gt(error).to_bitmask();
+        let open = lanes & !failed & !above.to_bitmask();
         // Where an end is not positive, no halving makes it so.
         let ends = (c[0].simd_gt(error) & c[K - 1].simd_gt(error)).to_bitmask();
         failed |= open & if left == 0 { open } else { !ends };
@@ -56,7 +58,8 @@ pub(crate) fn positive_lanes<S: Simd, const K: usize>(
 }
 
 /// Lanes where `Σ ci s^i` is certainly negative at some s > 0, given how far each coefficient may be off, with what
-/// follows from its size: Horner's scheme adds less than `2K` units of the absolute terms.
+/// follows from its size: Horner's scheme adds less than `2K` units of the absolute terms. A value that is infinite or
+/// no number is never certain.
 #[inline(always)]
 pub(crate) fn negative_lanes<S: Simd, const K: usize>(simd: S, c: &[S::f64s; K], errors: &[S::f64s; K], s: f64) -> u64 {
     let (mut value, mut bound) = (c[K - 1], errors[K - 1]);
@@ -64,7 +67,8 @@ pub(crate) fn negative_lanes<S: Simd, const K: usize>(simd: S, c: &[S::f64s; K],
         value = value * s + c[i];
         bound = bound * s + errors[i];
     }
-    value.simd_lt(S::f64s::splat(simd, 0.0) - bound).to_bitmask()
+    let finite = value.simd_ge(S::f64s::splat(simd, f64::MIN));
+    (finite & value.simd_lt(S::f64s::splat(simd, 0.0) - bound)).to_bitmask()
 }
 
 #[cfg(test)]
@@ -88,6 +92,24 @@ mod tests {
         }
         let low = [0.2, 0.5, 1.0, 2.0, 5.0].map(|s| negative_lanes(simd, &powers, &errors, s) & 1 == 1);
         (positive_lanes(simd, &lanes, zero, 1, 12) == 1, low.contains(&true))
+    }
+
+    /// Wherever the number that is none stands, and where a sum leaves the range of doubles.
+    #[test]
+    fn no_sign_of_what_is_no_number() {
+        for place in 0..8 {
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                for sign in [1.0, -1.0] {
+                    let mut c = [sign; 8];
+                    c[place] = bad;
+                    let found = dispatch!(Level::new(), simd => signs(simd, &c));
+                    assert!(!found.0 || bad == f64::INFINITY && sign == 1.0, "{c:?}");
+                    assert!(!found.1, "{c:?}");
+                }
+            }
+        }
+        let large = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e308, -1e308];
+        assert_eq!(dispatch!(Level::new(), simd => signs(simd, &large)), (false, false));
     }
 
     /// Random polynomials of degree 7, many of them close to 0 somewhere.

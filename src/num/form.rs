@@ -204,7 +204,8 @@ impl<const K: usize, const H: usize> Number for Form<K, H> {
             value: self.value * k,
             slope: self.slope.map(|x| x * k),
             bend: self.bend.map(|x| x * k),
-            error: ((self.error + UNIT * size) * k.abs()) * GROW + TINY,
+            // A small size times the unit could underflow, and a large k would then make more of that than TINY.
+            error: (self.error * k.abs() + UNIT * (size * k.abs())) * GROW + TINY,
         }
     }
     #[inline(always)]

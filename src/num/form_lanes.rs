@@ -84,7 +84,8 @@ impl<S: Simd> FormLanes<S> {
             value: self.value * k,
             slope: [self.slope[0] * k, self.slope[1] * k],
             bend: [self.bend[0] * k, self.bend[1] * k, self.bend[2] * k],
-            error: (self.error + self.size() * UNIT) * k * GROW + TINY,
+            // As in `times` of [`super::Form`].
+            error: (self.error * k + (self.size() * k) * UNIT) * GROW + TINY,
         }
     }
 }
@@ -151,7 +152,8 @@ impl<S: Simd> Number for FormLanes<S> {
             value: self.value * k,
             slope: [self.slope[0] * k, self.slope[1] * k],
             bend: [self.bend[0] * k, self.bend[1] * k, self.bend[2] * k],
-            error: (self.error + self.size() * UNIT) * (k.abs() * GROW) + TINY,
+            // As in `times` of [`super::Form`].
+            error: (self.error * k.abs() + (self.size() * k.abs()) * UNIT) * GROW + TINY,
         }
     }
     #[inline(always)]

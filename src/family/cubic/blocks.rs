@@ -10,10 +10,14 @@
 //! for 0 < x < 3: F' = 0 is `4akxy = 1`, which with the two parabolas is `4(3 - x)(3 - y) = xy`, so `y = 4(3 - x)/(4 -
 //! x)`. Both a and k fall up to x = 2 and rise from there on. So two rising branches start at the cusp a = k = 1/4.
 //! One, up to x = 2, is `k = A(a)`, from 1/4 to 1/3; the other is `a = A(k)`. With A = 1/4 below 1/4, the middle root
-//! exists exactly when `k > A(a)` and `a > A(k)`. A does not fall. So a block has it everywhere when its corners (least
-//! a, greatest k) and (greatest a, least k) have it. Outside the wedge, where a > k it is the first condition that
-//! fails, since `A(t) <= max(t, 1/4)`; and it fails in the whole block when it does so at (least a, greatest k).
-//! Likewise with a and k exchanged.
+//! exists exactly when `k > A(a)` and `a > A(k)`, in the wedge between the branches. For it is the root with F' > 0. It
+//! cannot leave the square, since F' = -1 where x = 0 or y = 0, and it can vanish only by meeting another root, on the
+//! curve. So it exists everywhere or nowhere in the wedge, and likewise outside; it does at a = k = 1 (x = y, 2ax > 1),
+//! and it does not at a = k = 1/8 (Δ < 0, one root). A does not fall. So a block has it everywhere when its corners
+//! (least a, greatest k) and (greatest a, least k) have it. Outside the wedge, where a > k it is the first condition
+//! that fails, since `A(t) <= max(t, 1/4)`: along the curve the derivative of `ln(k/a)` by x is `3(x - 2)²` over
+//! positive factors, and k = a at x = 2. It fails in the whole block when it does so at (least a, greatest k). Likewise
+//! with a and k exchanged.
 //!
 //! **Roots** are enclosed as in `region/root.rs`, by forms of second order in the two coordinates of the block.
 //!

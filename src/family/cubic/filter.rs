@@ -145,7 +145,8 @@ fn half_theorem<S: Simd>(side: &Side<S>, w: S::f64s, delta: S::f64s) -> (u64, u6
     let [b0, b1, b2] = side.value;
     let [e0, e1, e2] = side.error;
     let product = b0 * b2;
-    // The root's inequality, squared: certain only where the signs under it are, which the first two conditions see to.
+    // The root's inequality, squared. It follows only where B0 and B2 are not negative. Where one of them is, this half
+    // fails anyway: so "no" is right, and "yes" asks for both signs.
     let over = product * w * 8.0 - b1 * b1;
     let error = ((b0.abs() * e2 + b2.abs() * e0 + e0 * e2) * (w + delta) + product.abs() * delta) * THROUGH
         + (b1.abs() * 2.0 + e1) * e1

@@ -9,8 +9,10 @@
 //! ## Counting roots
 //! With `F(x) = 3 - x - k(3 - a x²)²`: F(0) = 3 - 9k, at y = 0 (x = √(3/a)) F has the sign of a - 1/3, and F = 0 with
 //! x > 0 implies x <= 3. Descartes' rule allows 0 or 2 positive roots for k > 1/3 and 1 or 3 otherwise, and the
-//! discriminant of F divided by positive factors is `Δ = 768a²k² - 256ak(a+k) + 96ak - 1`. Always one or two real roots
-//! are negative, so:
+//! discriminant of F divided by positive factors is `Δ = 768a²k² - 256ak(a+k) + 96ak - 1`. Negative roots are no
+//! solutions. The same rule allows one of them for k < 1/3 and 0 or 2 for k > 1/3; there `F(-√(3/a)) > 0 > F(0)` shows
+//! that there are 2. Roots with y < 0 are no solutions either. F' = 4akxy - 1 is negative there, so there is one such
+//! root for a > 1/3 and none for a < 1/3. Hence:
 //!
 //! | | k > 1/3 | k < 1/3 |
 //! | --- | --- | --- |

@@ -7,7 +7,7 @@ use super::poly::Bounds;
 pub(super) const TRIED: f64 = 2.5;
 /// A root's δ stays below one over this of the root.
 pub(super) const SMALL: f64 = 64.0;
-/// `|y - y*| <= a (2x + δ) δ + η`, and δ is below x/60: so many `a x δ`.
+/// `|y - y*| <= a (2x + δ) δ + η`, and δ with the rounded ends is below x/54: so many `a x δ`.
 pub(super) const THROUGH_X: f64 = 2.1;
 /// Units by which the rounded ends x - δ and x + δ may be off: up to 2 each, for x up to 3.
 pub(super) const ENDS: f64 = 4.0;

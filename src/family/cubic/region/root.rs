@@ -21,6 +21,10 @@
 //! r, F falls when F(r) < 0, `A r² >= 1` and F'(r) < 0. On `(0, l]` every F(·; a, k) is convex and negative at l. So
 //! it has just one root there where F(0) > 0, that is k < 1/3, and none elsewhere. F' < 0 at that root: it is the
 //! left one in the sense of the module. With K >= 1/3, l = 0 will do.
+//!
+//! The cut changes nothing up to r: y falls along x, y > 0 at m (F'(m) > 0 would fail otherwise), and r < 3 is taken
+//! only for A < 1/3, so that `y(r) = 3 - A r² > 0`. Beyond, F falls until y = 0 and is 3 - x < 0 from `x = √(3/A) > 3`
+//! on.
 
 use super::Four;
 use crate::num::bernstein::Certain;

@@ -121,7 +121,8 @@ pub(super) fn root<S: Simd>(equations: &Equations<S>, bracket: &Bracket<S>, want
         z *= up * (up * 0.5 + one) + one;
     }
     let close = equations.splat(CLOSE);
-    let [off0, off1] = [r0, r1].map(|r| r.abs() * HEIGHT + equations.bounds.height);
+    let off0 = r0.abs() * HEIGHT + equations.bounds.height;
+    let off1 = r1.abs() * HEIGHT + equations.bounds.height;
     let t_off = (off0 + off1) * ROOM / bracket.pace;
     let z_off = (off0 + bracket.steepest * t_off) * ROOM;
     let inside = t.simd_ge(bracket.from) & t.simd_le(bracket.to);
