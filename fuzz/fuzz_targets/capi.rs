@@ -89,8 +89,11 @@ fn call(given: &mut Unstructured) -> Result<()> {
                 };
                 let (kind, mut curve) = (Text::one(given, &join::Family::ALL.map(join::Family::name))?, null_mut());
                 let (joined, limit, longest) = (given.arbitrary()?, number(given)?, number(given)?);
+                let least = Text::one(given, &join::Objective::ALL.map(join::Objective::name))?;
+                let pieces = given.arbitrary()?;
                 let status = if joined {
-                    spiral_join(&end(0), &end(4), limit, kind.pointer(), longest, &mut curve)
+                    let (kind, least) = (kind.pointer(), least.pointer());
+                    spiral_join(&end(0), &end(4), limit, kind, least, longest, pieces, &mut curve)
                 } else {
                     spiral_fit(&end(0), &end(4), kind.pointer(), longest, &mut curve)
                 };

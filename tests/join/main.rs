@@ -227,3 +227,12 @@ fn the_checker_can_fail() {
     let other = Request { from: State { direction: 0.3 + 1e-9, ..from }.into(), ..request };
     assert!(check(&other, &good).unwrap_err().contains("start"));
 }
+
+#[test]
+fn objectives_have_the_names_of_json() {
+    for objective in Objective::ALL {
+        assert_eq!(serde_json::to_value(objective).unwrap(), objective.name());
+        assert_eq!(Objective::by_name(objective.name()).unwrap(), objective);
+    }
+    assert!(Objective::by_name("beauty").is_err());
+}

@@ -321,17 +321,21 @@ SpiralStatus spiral_fit(const SpiralEnd *start,
                         SpiralCurve **curve);
 
 // A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
-// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic",
-// "trig-quintic", "involute" or "clothoid" (null stands for "cubic"). A path longer than `longest` counts as none;
-// infinity is no limit. SPIRAL_NONE where none was found: the last error says why.
+// `greatest_curvature`, with spirals of the kind "cubic", "ph-quintic", "trig-quintic", "involute" or "clothoid" (null
+// stands for "cubic"): of the joins tried the one that has least of the `objective`, "length", "greatest-curvature",
+// "greatest-rate" (of change of curvature) or "bending-energy" (null stands for "length"). A path longer than
+// `longest`, or of more than `most_pieces` pieces, counts as none; infinity and SIZE_MAX are no limits. SPIRAL_NONE
+// where none was found: the last error says why.
 //
 // # Safety
-// `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
+// `start`, `end`, `kind`, `objective` and `curve` are null or valid; `kind` and `objective` end with a zero byte.
 SpiralStatus spiral_join(const SpiralEnd *start,
                          const SpiralEnd *end,
                          double greatest_curvature,
                          const char *kind,
+                         const char *objective,
                          double longest,
+                         size_t most_pieces,
                          SpiralCurve **curve);
 
 // Closes a curve. Null is allowed.

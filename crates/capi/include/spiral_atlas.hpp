@@ -328,7 +328,8 @@ public:
 
 private:
     friend std::optional<Curve> fit(const End &, const End &, const std::string &, double, std::string *);
-    friend std::optional<Curve> join(const End &, const End &, double, const std::string &, double, std::string *);
+    friend std::optional<Curve> join(const End &, const End &, double, const std::string &, const std::string &, double,
+                                     std::size_t, std::string *);
     explicit Curve(SpiralCurve *curve) : handle_(curve) {}
     detail::Handle<SpiralCurve, spiral_curve_close> handle_;
 };
@@ -350,13 +351,19 @@ inline std::optional<Curve> fit(const End &start, const End &end, const std::str
 }
 
 /// A path from one state to another by proved spirals, arcs and lines, with continuous curvature that never exceeds
-/// `greatest_curvature`; the shortest of those tried, or none; then `reason`, where it is given, says why.
+/// `greatest_curvature`, or none; then `reason`, where it is given, says why.
+///
+/// `kind` is "cubic", "ph-quintic", "trig-quintic", "involute" or "clothoid". Of the joins tried it is the one with the
+/// least "length", "greatest-curvature", "greatest-rate" or "bending-energy", as `objective` says. A join longer than
+/// `longest`, or of more than `most_pieces` pieces, counts as none.
 inline std::optional<Curve> join(const End &start, const End &end, double greatest_curvature,
-                                 const std::string &kind = "cubic",
+                                 const std::string &kind = "cubic", const std::string &objective = "length",
                                  double longest = std::numeric_limits<double>::infinity(),
+                                 std::size_t most_pieces = std::numeric_limits<std::size_t>::max(),
                                  std::string *reason = nullptr) {
     SpiralCurve *curve = nullptr;
-    const SpiralStatus status = spiral_join(&start, &end, greatest_curvature, kind.c_str(), longest, &curve);
+    const SpiralStatus status = spiral_join(&start, &end, greatest_curvature, kind.c_str(), objective.c_str(), longest,
+                                            most_pieces, &curve);
     if (status == SPIRAL_NONE) {
         if (reason != nullptr) *reason = spiral_last_error();
         return std::nullopt;

@@ -3,7 +3,7 @@
 use crate::atlas::c_text;
 use crate::{Fault, Result, SpiralStatus, given, place, results, status::guard, text};
 use spiral_atlas::Error;
-use spiral_atlas::transition::join::{Family, Request, State, join};
+use spiral_atlas::transition::join::{Family, Objective, Request, State, join};
 use spiral_atlas::transition::{Ends, Piece, fit, fitted, stations};
 use std::ffi::{CString, c_char};
 
@@ -69,10 +69,16 @@ unsafe fn asked<'a>(
     curve: *mut *mut SpiralCurve,
 ) -> Result<(&'a SpiralEnd, &'a SpiralEnd, &'a str, &'a mut *mut SpiralCurve)> {
     // SAFETY: the caller's promises.
-    unsafe {
-        let name = if kind.is_null() { "cubic" } else { text(kind, "kind")? };
-        Ok((given(start, "start")?, given(end, "end")?, name, place(curve, "curve")?))
-    }
+    unsafe { Ok((given(start, "start")?, given(end, "end")?, text_or(kind, "kind", "cubic")?, place(curve, "curve")?)) }
+}
+
+/// A text, or what a null pointer stands for.
+///
+/// # Safety
+/// As of [`text`].
+unsafe fn text_or<'a>(pointer: *const c_char, name: &str, usual: &'a str) -> Result<&'a str> {
+    // SAFETY: the caller's promise.
+    if pointer.is_null() { Ok(usual) } else { unsafe { text(pointer, name) } }
 }
 
 /// The curve of monotone curvature between two ends anywhere in the plane.
@@ -112,28 +118,35 @@ pub unsafe extern "C" fn spiral_fit(
 }
 
 /// A path of proved spirals, arcs and lines from one state to another, with continuous curvature that never exceeds
-/// `greatest_curvature`: of the joins tried the shortest, with spirals of the kind "cubic", "ph-quintic",
-/// "trig-quintic", "involute" or "clothoid" (null stands for "cubic"). A path longer than `longest` counts as none;
-/// infinity is no limit. SPIRAL_NONE where none was found: the last error says why.
+/// `greatest_curvature`, with spirals of the kind "cubic", "ph-quintic", "trig-quintic", "involute" or "clothoid" (null
+/// stands for "cubic"): of the joins tried the one that has least of the `objective`, "length", "greatest-curvature",
+/// "greatest-rate" (of change of curvature) or "bending-energy" (null stands for "length"). A path longer than
+/// `longest`, or of more than `most_pieces` pieces, counts as none; infinity and SIZE_MAX are no limits. SPIRAL_NONE
+/// where none was found: the last error says why.
 ///
 /// # Safety
-/// `start`, `end`, `kind` and `curve` are null or valid; `kind` ends with a zero byte.
+/// `start`, `end`, `kind`, `objective` and `curve` are null or valid; `kind` and `objective` end with a zero byte.
 #[unsafe(no_mangle)]
+#[expect(clippy::too_many_arguments, reason = "C has no optional arguments")]
 pub unsafe extern "C" fn spiral_join(
     start: *const SpiralEnd,
     end: *const SpiralEnd,
     greatest_curvature: f64,
     kind: *const c_char,
+    objective: *const c_char,
     longest: f64,
+    most_pieces: usize,
     curve: *mut *mut SpiralCurve,
 ) -> SpiralStatus {
     guard(|| {
         // SAFETY: the caller's promises.
         let (start, end, name, slot) = unsafe { asked(start, end, kind, curve)? };
+        // SAFETY: the caller's promises.
+        let objective = Objective::by_name(unsafe { text_or(objective, "objective", "length")? })?;
         let family = Family::by_name(name)?;
         let state = |e: &SpiralEnd| State { point: [e.x, e.y], direction: e.direction, curvature: e.curvature };
-        let request = Request { family, longest, ..Request::new(state(start), state(end), greatest_curvature) };
-        match join(&request)? {
+        let plain = Request::new(state(start), state(end), greatest_curvature);
+        match join(&Request { family, objective, longest, most_pieces, ..plain })? {
             Ok(found) => *slot = Box::into_raw(Box::new(SpiralCurve::new(found.pieces)?)),
             Err(why) => return Err(Fault(SpiralStatus::SPIRAL_NONE, why)),
         }

@@ -140,7 +140,7 @@ static void joins(void) {
     const char *kinds[] = {"cubic", "ph-quintic", "involute", NULL};
     SpiralCurve *curve = NULL;
     for (size_t i = 0; i < 4; i++) {
-        CHECK(spiral_join(&start, &end, 0.0166, kinds[i], 1e4, &curve) == SPIRAL_OK);
+        CHECK(spiral_join(&start, &end, 0.0166, kinds[i], NULL, 1e4, SIZE_MAX, &curve) == SPIRAL_OK);
         CHECK(strcmp(spiral_curve_kind(curve), "path") == 0 &&
               strstr(spiral_curve_json(curve), "{\"pieces\":[") == spiral_curve_json(curve));
         SpiralStation stations[501];
@@ -153,9 +153,30 @@ static void joins(void) {
         spiral_curve_close(curve);
         curve = NULL;
     }
-    CHECK(spiral_join(&start, &end, 0.0166, NULL, 100, &curve) == SPIRAL_NONE && says("100") && curve == NULL);
-    CHECK(spiral_join(&start, &end, 0, NULL, INFINITY, &curve) == SPIRAL_DOMAIN && says("greatest curvature"));
-    CHECK(spiral_join(&start, &end, 0.0166, "arc", INFINITY, &curve) == SPIRAL_DOMAIN && says("`arc`"));
+    /* A gentle join is longer than the shortest, and turns the wheel more slowly. */
+    double lengths[2], rates[2] = {0};
+    for (size_t i = 0; i < 2; i++) {
+        const char *objective = i == 0 ? "length" : "greatest-rate";
+        SpiralStation stations[501];
+        CHECK(spiral_join(&start, &end, 0.0166, NULL, objective, 400, 11, &curve) == SPIRAL_OK);
+        CHECK(spiral_curve_stations(curve, stations, 501) == SPIRAL_OK);
+        lengths[i] = spiral_curve_length(curve);
+        for (size_t k = 1; k < 501; k++)
+            rates[i] = fmax(rates[i], fabs(stations[k].curvature - stations[k - 1].curvature) / lengths[i] * 500);
+        spiral_curve_close(curve);
+        curve = NULL;
+    }
+    CHECK(lengths[0] < lengths[1] && lengths[1] <= 400 && rates[1] < 0.9 * rates[0]);
+    CHECK(spiral_join(&start, &end, 0.0166, NULL, NULL, INFINITY, 1, &curve) == SPIRAL_NONE && says("1 piece") &&
+          curve == NULL);
+    CHECK(spiral_join(&start, &end, 0.0166, NULL, NULL, INFINITY, 0, &curve) == SPIRAL_DOMAIN && says("pieces are 0"));
+    CHECK(spiral_join(&start, &end, 0.0166, NULL, NULL, 100, SIZE_MAX, &curve) == SPIRAL_NONE && says("100"));
+    CHECK(spiral_join(&start, &end, 0, NULL, NULL, INFINITY, 9, &curve) == SPIRAL_DOMAIN && says("greatest curvature"));
+    CHECK(spiral_join(&start, &end, 0.0166, "arc", NULL, INFINITY, 9, &curve) == SPIRAL_DOMAIN && says("`arc`"));
+    CHECK(spiral_join(&start, &end, 0.0166, NULL, "beauty", INFINITY, 9, &curve) == SPIRAL_DOMAIN &&
+          says("`beauty`; it must be length, greatest-curvature, greatest-rate or bending-energy"));
+    CHECK(spiral_join(&start, &end, 0.0166, NULL, "\xff", INFINITY, 9, &curve) == SPIRAL_ARGUMENT &&
+          says("`objective` is no UTF-8"));
 }
 
 static void questions(void) {

@@ -96,7 +96,11 @@ int main(int, char **arguments) {
     CHECK(!sa::fit({0, 0, 0.7, 0.004}, {200, 0, 1.4, 0.04}, "involute", 1e300, &reason) && !reason.empty());
     const auto ramp = sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166);
     CHECK(ramp && ramp->kind() == "path" && std::abs(ramp->stations(3)[2].y - 150) < 1e-9);
-    CHECK(!sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166, "cubic", 100, &reason));
+    const auto gentle = sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166, "cubic", "greatest-rate", 400);
+    CHECK(gentle && gentle->length() > ramp->length() && gentle->length() <= 400);
+    CHECK(!sa::join({0, 0, 0, 0}, {180, 150, 1.7, 0}, 0.0166, "cubic", "length", 1e4, 1, &reason));
+    CHECK(reason.find("1 piece") != std::string::npos);
+    throws(SPIRAL_DOMAIN, "`beauty`", [] { sa::join({0, 0, 0, 0}, {1, 0, 0, 0}, 1, "cubic", "beauty"); });
     CHECK(sa::path("spline", "{\"points\": [[0, 0], [1, 1]]}").find("\"kind\":\"ph-quintic\"") != std::string::npos);
     throws(SPIRAL_DOMAIN, "points[1]", [] { sa::path("spline", "{\"points\": [[0, 0], 7]}"); });
     throws(SPIRAL_DOMAIN, "NaN", [] { sa::fit({std::nan(""), 0, 0, 0}, {1, 0, 0, 0}); });

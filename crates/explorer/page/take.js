@@ -58,19 +58,16 @@ export function python(s) {
   ].join("\n");
 }
 
-/** A join that is asked for without a number of pieces has at most so many. */
-const MOST_PIECES = 11;
-
 export function cpp(s) {
   if (s.mode === "join") {
     const [from, to] = states(s.join, "C++");
     const { radius, pieces, family, objective } = s.join;
-    if (objective !== "length" || pieces < MOST_PIECES)
-      throw new Error("In C++ a join is the shortest, of any number of pieces; Python and the command line choose.");
     return [
+      "#include <cmath>",
       "#include <spiral_atlas.hpp>",
       "",
-      `const auto curve = spiral_atlas::join({${from}}, {${to}}, ${1 / radius}, "${family}");`,
+      `const auto curve = spiral_atlas::join({${from}}, {${to}}, ${1 / radius},`,
+      `                                      "${family}", "${objective}", INFINITY, ${pieces});`,
     ].join("\n");
   }
   const e = s.ends;

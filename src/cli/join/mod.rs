@@ -80,7 +80,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME", default_value = "cubic", value_parser = numbers::joined())]
     family: Family,
     /// What is to be least; a rate is |dκ/ds|, how fast the steering must turn.
-    #[arg(long, value_name = "NAME", default_value = "length", value_parser = numbers::named::<Objective>(&OBJECTIVES))]
+    #[arg(long, value_name = "NAME", default_value = "length")]
+    #[arg(value_parser = numbers::named::<Objective>(&Objective::ALL.map(Objective::name)))]
     objective: Objective,
     /// A join longer than this counts as none; in your unit of length.
     #[arg(long, value_name = "LENGTH", value_parser = numbers::number, allow_hyphen_values = true)]
@@ -106,7 +107,6 @@ pub(super) struct Args {
 }
 
 const ENDS: &str = "What is joined";
-const OBJECTIVES: [&str; 4] = ["length", "greatest-curvature", "greatest-rate", "bending-energy"];
 
 /// What is printed of a single join.
 #[derive(serde::Serialize)]

@@ -120,6 +120,31 @@ pub enum Objective {
     BendingEnergy,
 }
 
+impl Objective {
+    /// All that joins can have least.
+    pub const ALL: [Objective; 4] =
+        [Objective::Length, Objective::GreatestCurvature, Objective::GreatestRate, Objective::BendingEnergy];
+
+    /// Its name, as in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Objective::Length => "length",
+            Objective::GreatestCurvature => "greatest-curvature",
+            Objective::GreatestRate => "greatest-rate",
+            Objective::BendingEnergy => "bending-energy",
+        }
+    }
+
+    /// The objective of a name.
+    ///
+    /// # Errors
+    /// [`Error::Domain`], with the names that there are.
+    pub fn by_name(name: &str) -> Result<Objective> {
+        let found = Objective::ALL.into_iter().find(|objective| objective.name() == name);
+        found.ok_or_else(|| Error::unknown("objective", name, &Objective::ALL.map(Objective::name)))
+    }
+}
+
 /// A join to be found, of two states or of two lines and circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
