@@ -525,7 +525,6 @@ def what_is_taken_away_is_the_same(browser):
         # Sines and roots may differ in their last place.
         pairs = zip(map(float, re.findall(number, road)), map(float, re.findall(number, native)), strict=True)
         assert all(abs(a - b) <= 1e-10 * max(1, abs(a)) for a, b in pairs), kind
-    compile(page.copied("python"), "python", "exec")
     svg = ElementTree.fromstring(page.saved("svg"))
     assert svg.tag.endswith("svg") and "class" not in ElementTree.tostring(svg).decode()
     for what in ("png", "slice"):
@@ -555,7 +554,6 @@ def joins_are_those_of_the_program(browser):
     page.page.wait_for_timeout(150)
     page.rest()
     assert "spiral_atlas::join({0, 0, 0, 0}, {180, 150, " in page.copied("cpp")
-    compile(page.copied("python"), "python", "exec")
     page.page.select_option("#join-objective", "greatest-rate")
     page.page.wait_for_timeout(150)
     page.rest()
@@ -574,6 +572,38 @@ def joins_are_those_of_the_program(browser):
     page.page.wait_for_timeout(200)
     assert page.page.inner_text("#join-reason .head") == "No join found"
     page.close()
+
+
+def alike(a, b):
+    """Whether two JSON texts say the same, but for what two machines round on their own."""
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(alike(a[key], b[key]) for key in a)
+    if isinstance(a, list):
+        return len(a) == len(b) and all(map(alike, a, b))
+    return a == b if isinstance(a, str) else math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)
+
+
+@test
+def copied_programs_find_what_is_shown(browser):
+    output = lambda *command: subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    joins = "#mode=join&from=state,0,0,0,0&to=state,180,150,1.6,0&objective=greatest-rate&pieces=9&family=ph-quintic"
+    for link, name in (("#kind=ph-quintic", "fit"), (joins, "join")):
+        page = Page(browser, link)
+        page.page.wait_for_function("() => explorer.answer()" if name == "fit" else "() => explorer.joined()?.path")
+        if name == "fit":
+            shown = [page.tell("answer()")["curves"]["ph-quintic"]["piece"]]
+        else:
+            shown = page.tell("joined()")["path"]["pieces"]
+        python = page.copied("python") + f"\nimport json\nprint()\nprint(json.dumps({name}.curve.to_dict()))"
+        cpp = page.copied("cpp") + "\n#include <cstdio>\nint main() { std::puts(curve->json().c_str()); }\n"
+        page.close()
+        (folder / "copied.cpp").write_text(cpp)
+        prefix, made = folder / "prefix", str(folder / "copied")
+        output("c++", "-std=c++17", f"-I{prefix}/include", made + ".cpp", "-o", made,
+               f"{prefix}/lib/libspiral_atlas_c.a", "-lpthread", "-ldl", "-lm")
+        for printed in (output(sys.executable, "-c", python), output(made)):
+            taken = json.loads(printed.splitlines()[-1])
+            assert alike(shown, taken.get("pieces", [taken])), (name, shown, taken)
 
 
 # No spiral, and the longest usual reason.
