@@ -6,6 +6,7 @@ mod dubins;
 mod gentle;
 #[cfg(feature = "export")]
 mod lattice;
+mod objectives;
 mod shapes;
 
 use check::{Checked, check};

@@ -17,17 +17,19 @@ impl<'r> Best<'r> {
         Best { request, join: None, kept: 0 }
     }
 
-    /// Of equal ones the first is kept.
-    pub(super) fn offer(&mut self, pieces: Vec<Piece>) {
+    /// Of equal ones the first is kept. The length, if it is within the bounds.
+    pub(super) fn offer(&mut self, pieces: Vec<Piece>) -> Option<f64> {
         let Request { objective, longest, most_pieces, greatest_curvature, .. } = *self.request;
         let join = Join::new(pieces, greatest_curvature);
         if join.pieces.len() > most_pieces || join.measures.length.is_nan() || join.measures.length > longest {
-            return;
+            return None;
         }
+        let length = join.measures.length;
         self.kept += 1;
         if self.join.as_ref().is_none_or(|best| value(&join, objective) < value(best, objective)) {
             self.join = Some(join);
         }
+        Some(length)
     }
 }
 

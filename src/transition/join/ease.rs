@@ -10,15 +10,14 @@
 
 use super::super::piece::principal;
 use super::link::{LEAST_LINE, SHORTEST};
-use super::request::{Family, Objective};
+use super::request::Family;
 use super::spiral::{Pose, Spiral};
-use super::turns::{LEAST, Turn};
-use crate::curve::vector::{add, angle_of, dot, scale, sub, turn};
+use super::turns::{Costs, LEAST, Turn};
+use crate::curve::vector::{Vector, add, angle_of, dot, scale, sub, turn};
 use std::f64::consts::PI;
 
-/// Lengths of spirals in units of the least radius, for the shortest join and for gentle ones.
-const SHORT: &[f64] = &[0.4];
-const GENTLE: &[f64] = &[0.4, 1.2, 4.8];
+/// Lengths of spirals in units of the least radius.
+const USUAL: &[f64] = &[0.4, 1.2, 4.8];
 /// The most that a turn turns, radians: its spirals are proved for half of it.
 const MOST: f64 = 1.2;
 /// A turn by less than this, radians, is a rounding.
@@ -35,22 +34,25 @@ pub(super) struct Easing {
     at: Pose,
     /// Of a spiral.
     length: f64,
+    /// The cosine of the most it turns.
+    narrow: f64,
     /// From the straight place to the corner, for the smallest angles.
     leg: f64,
-    /// Length of what leads to the straight place, nearly.
+    /// Length of what leads to the straight place.
     long: f64,
 }
 
+/// The length of two gentle turns and the line between is known to this share before they are found.
+const NEARLY: f64 = 0.1;
+
 impl Easing {
     /// All of those tried from a pose with a curvature towards a place at a distance.
-    pub(super) fn all(family: Family, at: Pose, curvature: f64, objective: Objective, apart: f64) -> Vec<Easing> {
-        let usual = if objective == Objective::Length { SHORT } else { GENTLE };
+    pub(super) fn all(family: Family, at: Pose, curvature: f64, apart: f64) -> Vec<Easing> {
         // Two turns and what leads to them, should both ends be curved, take nearly all of the way.
         let spirals = if curvature == 0.0 { 4.0 } else { 6.0 };
         let room = 0.96 * apart / (spirals * Spiral { from: 0.0, to: 0.1, length: 1.0 }.stretched(family));
-        let mut lengths: Vec<f64> = usual.iter().copied().filter(|length| *length <= room).collect();
-        let all_of_it = objective != Objective::Length || lengths.is_empty();
-        lengths.extend([room, 0.5 * room, LEAST].into_iter().filter(|length| all_of_it && *length >= SHORTEST));
+        let usual = USUAL.iter().copied().filter(|length| *length <= room);
+        let lengths = usual.chain([room, 0.5 * room, LEAST].into_iter().filter(|length| *length >= SHORTEST));
         let easing = |length: f64| {
             let before = (curvature != 0.0).then_some(Spiral { from: curvature, to: 0.0, length });
             let at = before.map_or(at, |spiral| Pose {
@@ -58,10 +60,10 @@ impl Easing {
                 direction: at.direction + spiral.angle(),
             });
             let long = before.map_or(0.0, |before| before.long(family));
-            Easing { before, at, length, leg: leg(family, 1e-3, length), long }
+            Easing { before, at, length, narrow: MOST.min(length).cos(), leg: leg(family, 1e-3, length), long }
         };
         let turns_little = |length: &f64| 0.5 * curvature.abs() * length <= 0.5 * MOST;
-        lengths.into_iter().filter(turns_little).map(easing).collect()
+        lengths.filter(turns_little).map(easing).collect()
     }
 
     /// The turn with a corner at a distance ahead.
@@ -74,7 +76,7 @@ impl Easing {
             heading: at.direction,
             centre: add(at.at, scale(at.along(), leg)),
             exit: spirals.map(|s| s[1]),
-            long: long + 2.0 * leg,
+            spirals: Costs { length: long + 2.0 * leg, ..Costs::default() },
             reach: [leg, 0.0],
         }
     }
@@ -108,62 +110,81 @@ pub(super) struct Eased {
 
 /// One of the two turns.
 #[derive(Clone, Copy)]
-enum Part<'a> {
-    Given(&'a Turn),
-    Gentle(&'a Easing),
+struct Part<'a> {
+    /// Of a gentle one what is hardly wrong for any small angle.
+    turn: &'a Turn,
+    easing: Option<&'a Easing>,
 }
 
 impl Part<'_> {
-    /// What is hardly wrong for any small angle.
-    fn first(&self) -> Turn {
-        match self {
-            Part::Given(turn) => **turn,
-            Part::Gentle(easing) => easing.with_leg(easing.leg, 0.0),
-        }
-    }
-
     fn towards(&self, family: Family, direction: f64) -> Option<Turn> {
-        match self {
-            Part::Given(turn) => Some(**turn),
-            Part::Gentle(easing) => easing.towards(family, direction),
-        }
+        self.easing.map_or(Some(*self.turn), |easing| easing.towards(family, direction))
     }
 
-    fn arc(&self, direction: f64) -> f64 {
-        match self {
-            Part::Given(turn) => turn.arc(direction),
-            Part::Gentle(_) => 0.0,
-        }
+    /// Whether a line may follow.
+    fn faces(&self, line: &Tangent, sign: f64) -> bool {
+        self.easing.is_none_or(|easing| sign * dot(line.along, easing.at.along()) >= easing.narrow * line.square)
+    }
+
+    /// With its arc, and what it costs.
+    fn left(&self, family: Family, turn: Turn, direction: f64) -> (Turn, f64) {
+        if self.easing.is_some() { (turn.costed(family), 0.0) } else { (turn, turn.arc(direction)) }
     }
 }
 
-/// All gentle turns with each other and with the given turns at the other end.
-pub(super) fn eased(family: Family, turns: [&[Turn]; 2], easings: &[Vec<Easing>; 2]) -> Vec<Eased> {
-    let gentle = |end: usize| easings[end].iter().map(Part::Gentle);
-    let given = |end: usize| turns[end].iter().map(Part::Given);
+/// All gentle turns with each other and with the given turns at the other end, but for paths that are longer than
+/// `most` by far.
+pub(super) fn eased(family: Family, turns: [&[Turn]; 2], easings: &[Vec<Easing>; 2], most: f64) -> Vec<Eased> {
+    let firsts = [0, 1].map(|end| easings[end].iter().map(|easing| easing.with_leg(easing.leg, 0.0)));
+    let firsts = firsts.map(|firsts| firsts.collect::<Vec<_>>());
+    let gentle = |end: usize| firsts[end].iter().zip(&easings[end]).map(|(turn, e)| Part { turn, easing: Some(e) });
+    let given = |end: usize| turns[end].iter().map(|turn| Part { turn, easing: None });
     let first = gentle(0).flat_map(|a| gentle(1).chain(given(1)).map(move |b| [a, b]));
     let second = given(0).flat_map(|a| gentle(1).map(move |b| [a, b]));
-    first.chain(second).filter_map(|parts| joined(family, parts)).collect()
+    first.chain(second).filter_map(|parts| joined(family, parts, most * (1.0 + NEARLY))).collect()
 }
 
-fn joined(family: Family, parts: [Part; 2]) -> Option<Eased> {
-    let mut turns = parts.map(|part| part.first());
-    let mut before = f64::NAN;
+fn joined(family: Family, parts: [Part; 2], most: f64) -> Option<Eased> {
+    let line = tangent(parts.map(|part| part.turn), most)?;
+    if !parts[0].faces(&line, 1.0) || !parts[1].faces(&line, -1.0) {
+        return None;
+    }
+    let mut before = line.direction();
     for _ in 0..ROUNDS {
-        let (direction, line) = tangent([&turns[0], &turns[1]])?;
+        let turns = [parts[0].towards(family, before)?, parts[1].towards(family, before + PI)?];
+        let line = tangent([&turns[0], &turns[1]], most)?;
+        let direction = line.direction();
         if principal(direction - before).abs() <= SETTLED {
-            return Some(Eased { turns, arcs: [parts[0].arc(direction), parts[1].arc(direction + PI)], line });
+            let [a, b] = [0, 1].map(|i| parts[i].left(family, turns[i], direction + PI * i as f64));
+            return Some(Eased { turns: [a.0, b.0], arcs: [a.1, b.1], line: line.length });
         }
-        turns = [parts[0].towards(family, direction)?, parts[1].towards(family, direction + PI)?];
         before = direction;
     }
     None
 }
 
-/// Direction and length of the line between two turns.
-pub(super) fn tangent([a, b]: [&Turn; 2]) -> Option<(f64, f64)> {
+/// The line between two turns.
+pub(super) struct Tangent {
+    /// Along it, as long as `square`.
+    along: Vector,
+    /// The square of the distance of the two centres.
+    square: f64,
+    pub length: f64,
+}
+
+impl Tangent {
+    pub(super) fn direction(&self) -> f64 {
+        angle_of(self.along)
+    }
+}
+
+/// The line between two turns, where there is one in a path of a length at most.
+pub(super) fn tangent([a, b]: [&Turn; 2], most: f64) -> Option<Tangent> {
+    let spirals = a.spirals.length + b.spirals.length;
     let (across, reach) = (sub(b.centre, a.centre), add(a.reach, b.reach));
-    let along = (dot(across, across) - reach[1] * reach[1]).max(-1.0).sqrt();
-    let line = along - reach[0];
-    (line >= LEAST_LINE).then(|| (angle_of(across) - reach[1].atan2(along), line))
+    let square = dot(across, across);
+    let along = (square - reach[1] * reach[1]).max(-1.0).sqrt();
+    let length = along - reach[0];
+    let fits = length >= LEAST_LINE && spirals + length <= most;
+    fits.then(|| Tangent { along: turn(across, [along, -reach[1]]), square, length })
 }

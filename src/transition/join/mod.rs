@@ -28,9 +28,11 @@
 //! there. Two turns with a line between them have then `C2 - C1 = R(ψ) ((l, 0) + u1 - u2)`, and three turns have a
 //! middle centre at two known distances: all closed forms.
 //!
-//! Turns of several curvatures and of spirals of several lengths are tried in all pairs. The best pair whose spirals
-//! are proved is taken. In units of the least radius the spirals are 0.4 long or longer: from shorter ones, control
-//! points in doubles could not show the curvature to 1e-12.
+//! Turns of several curvatures and of spirals of several lengths are tried in all pairs, the same for each objective. A
+//! model ranks them. The best by each objective are built and measured, so no answer is beaten by that to another
+//! objective. For the shortest join the model is good enough alone, and pairs that are too long are left out early. A
+//! join is made of spirals that are proved. In units of the least radius the spirals are 0.4 long or longer: from
+//! shorter ones, control points in doubles could not show the curvature to 1e-12.
 //!
 //! Lines and circles are joined by the same spirals, laid out by the centres of circles: see `link.rs` and `shapes.rs`,
 //! and `alone.rs` for what two lines need no arc for.

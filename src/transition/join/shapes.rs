@@ -56,7 +56,7 @@ pub(super) fn shapes(request: &Request, best: &mut Best) -> Result<String> {
             continue;
         }
         match chain.build(request, origin)? {
-            Ok(pieces) => best.offer(pieces),
+            Ok(pieces) => drop(best.offer(pieces)),
             Err(spiral) => missing.push(spiral),
         }
         built += 1;

@@ -7,97 +7,198 @@ use super::ease::{Easing, eased, tangent};
 use super::link::{SHORTEST, add_arc, root};
 use super::request::{Family, Objective, Request, State};
 use super::spiral::{Pose, Spiral, between, pinned, reversed};
-use super::turns::{Turn, reach, turns, wrapped};
-use crate::curve::vector::{Vector, add, angle_of, cross, dot, length, scale, sub, turn, unit};
+use super::turns::{Costs, MIDDLE, Middle, Turn, rungs, turns, wrapped};
+use crate::curve::vector::{add, angle_of, cross, dot, length, scale, sub, turn, unit};
 use crate::error::Result;
 use std::f64::consts::PI;
 
 /// A way is built where the model has it no longer than this times the greatest length; it is off by a few hundredths.
 const LONGER: f64 = 1.1;
-/// The middle turn of three.
-const MIDDLE: Spiral = Spiral { from: 1.0, to: 0.0, length: 0.4 };
+/// How many of the best ways by each objective are built. Curvatures are known, rates to a fifth for most.
+const BUILT: [(Objective, usize); 4] = [
+    (Objective::Length, 1),
+    (Objective::GreatestCurvature, 2),
+    (Objective::GreatestRate, 6),
+    (Objective::BendingEnergy, 4),
+];
 
 /// A way that is found but not built yet: turns by their places in the lists, and how far their arcs go round.
 #[derive(Debug, Clone, Copy)]
 struct Way {
-    cost: f64,
-    /// Nearly.
-    length: f64,
+    costs: Costs,
     first: usize,
     last: usize,
     arcs: [f64; 2],
     /// The side of a middle turn, +1 left, and its arc; without it there is a line.
     middle: Option<(f64, f64)>,
+    /// The length of what was built, should it be within the bounds.
+    built: Option<Option<f64>>,
+}
+
+/// By how much the model is off the length of a path, relative.
+fn off(family: Family) -> f64 {
+    if family == Family::Involute { 0.003 } else { 1e-5 }
 }
 
 /// Offers joins of two states.
 ///
 /// # Errors
 /// Those of the spirals, where lengths leave the range of doubles.
-pub(super) fn states(request: &Request, [from, to]: [&State; 2], best: &mut Best) -> Result<()> {
-    let Request { greatest_curvature: most, family, objective, most_pieces, .. } = *request;
-    for piece in simple(family, [from, to])? {
+pub(super) fn states(request: &Request, ends: [&State; 2], best: &mut Best) -> Result<()> {
+    for piece in simple(request.family, ends)? {
         best.offer(vec![piece]);
     }
-    if let Some(pieces) = corner(request, [from, to])? {
+    if let Some(pieces) = corner(request, ends)? {
         best.offer(pieces);
     }
-    let across = scale(sub(to.point, from.point), most);
-    let here = Pose { at: [0.0, 0.0], direction: from.direction };
-    let there = Pose { at: across, direction: to.direction + PI };
-    let given = [(here, from.curvature / most), (there, -to.curvature / most)];
-    let apart = length(across);
-    let [mut starts, mut ends] = given.map(|(at, k)| turns(family, at, k, objective, apart));
-    let middles = [1.0, -1.0].map(|side| Middle::new(family, side));
-    let mut ways = Vec::new();
-    for (i, a) in starts.iter().enumerate() {
-        for (j, b) in ends.iter().enumerate() {
-            ways.extend(by_line([a, b], objective).map(|way| Way { first: i, last: j, ..way }));
-            if a.exit == b.exit || (a.curvature.abs() == 1.0 && b.curvature.abs() == 1.0) {
-                ways.extend(by_turn(objective, &middles, a, b).into_iter().flatten().map(|way| Way {
-                    first: i,
-                    last: j,
-                    ..way
-                }));
-            }
-        }
-    }
-    let easings = given.map(|(at, k)| Easing::all(family, at, k, objective, apart));
-    for eased in eased(family, [&starts, &ends], &easings) {
-        let [a, b] = &eased.turns;
-        let way = along([a, b], eased.arcs, eased.line, objective);
-        ways.push(Way { first: starts.len(), last: ends.len(), ..way });
-        starts.push(*a);
-        ends.push(*b);
-    }
-    // Those that are much too long are not built, each of which takes the proofs of a few spirals.
-    ways.retain(|way| way.length / most <= LONGER * request.longest);
-    // A model of the cost orders them, and the shortest of equals come first.
-    ways.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.length.total_cmp(&b.length)));
-    // Length is told by the model to a thousandth, the others to a fifth.
-    let enough = best.kept + if objective == Objective::Length { 1 } else { 6 };
-    let mut shut = [vec![false; starts.len()], vec![false; ends.len()]];
-    for way in ways {
-        let (a, b) = (&starts[way.first], &ends[way.last]);
-        let between =
-            if way.middle.is_some_and(|(_, arc)| arc > 0.0) { 3 } else { 1 + usize::from(way.middle.is_some()) };
-        if shut[0][way.first]
-            || shut[1][way.last]
-            || a.pieces(way.arcs[0]) + b.pieces(way.arcs[1]) + between > most_pieces
-        {
-            continue;
-        }
-        match build(request, [from, to], [a, b], &way)? {
-            Built::Join(pieces) => {
-                best.offer(pieces);
-                if best.kept >= enough {
-                    break;
-                }
-            }
-            Built::Shut(end) => shut[end][if end == 0 { way.first } else { way.last }] = true,
-        }
+    let shortest = request.objective == Objective::Length;
+    Ways::new(request, ends, shortest, best).build(best)?;
+    if shortest && best.join.is_none() {
+        Ways::new(request, ends, false, best).build(best)?;
     }
     Ok(())
+}
+
+/// All ways that are tried, or those that could be the shortest.
+struct Ways<'r> {
+    request: &'r Request,
+    ends: [&'r State; 2],
+    turns: [Vec<Turn>; 2],
+    all: Vec<Way>,
+    /// Only the shortest counts.
+    shortest: bool,
+    /// Longer ones need not be found.
+    most: f64,
+}
+
+impl<'r> Ways<'r> {
+    fn new(request: &'r Request, [from, to]: [&'r State; 2], shortest: bool, best: &Best) -> Ways<'r> {
+        let Request { greatest_curvature: most, family, .. } = *request;
+        let across = scale(sub(to.point, from.point), most);
+        let here = Pose { at: [0.0, 0.0], direction: from.direction };
+        let there = Pose { at: across, direction: to.direction + PI };
+        let given = [(here, from.curvature / most), (there, -to.curvature / most)];
+        let apart = length(across);
+        let rungs = rungs(family, apart);
+        let turns = given.map(|(at, k)| {
+            let mut turns = turns(family, at, k, &rungs);
+            turns.sort_by(|a, b| a.spirals.length.total_cmp(&b.spirals.length));
+            turns
+        });
+        // Those that are much too long are not built, each of which takes the proofs of a few spirals.
+        let longest = LONGER * request.longest * most;
+        let mut ways = Ways { request, ends: [from, to], turns, all: Vec::new(), shortest, most: longest };
+        if let Some(join) = best.join.as_ref().filter(|_| shortest) {
+            ways.bound(join.measures.length * most);
+        }
+        ways.find();
+        let easings = given.map(|(at, k)| Easing::all(family, at, k, apart));
+        let [starts, ends] = &ways.turns;
+        for eased in eased(family, [starts, ends], &easings, ways.most) {
+            let [a, b] = eased.turns;
+            let places = [ways.turns[0].len(), ways.turns[1].len()];
+            if ways.add([&a, &b], places, along([&a, &b], eased.arcs, eased.line)) {
+                ways.turns[0].push(a);
+                ways.turns[1].push(b);
+            }
+        }
+        let most = ways.most;
+        ways.all.retain(|way| way.costs.length <= most);
+        ways
+    }
+
+    /// A path of a length is known.
+    fn bound(&mut self, length: f64) {
+        if self.shortest {
+            self.most = self.most.min(length * (1.0 + 2.0 * off(self.request.family)));
+        }
+    }
+
+    /// Adds a way, if it is within the bounds.
+    fn add(&mut self, [a, b]: [&Turn; 2], [first, last]: [usize; 2], way: Way) -> bool {
+        let between =
+            if way.middle.is_some_and(|(_, arc)| arc > 0.0) { 3 } else { 1 + usize::from(way.middle.is_some()) };
+        let pieces = a.pieces(way.arcs[0]) + b.pieces(way.arcs[1]) + between;
+        let fits = way.costs.length <= self.most && pieces <= self.request.most_pieces;
+        if fits {
+            self.bound(way.costs.length);
+            self.all.push(Way { first, last, ..way });
+        }
+        fits
+    }
+
+    /// Finds those of two turns that are given, with a line or a third turn between.
+    fn find(&mut self) {
+        let middles = [1.0, -1.0].map(|side| Middle::new(self.request.family, side));
+        let turns = std::mem::take(&mut self.turns);
+        for (i, a) in turns[0].iter().enumerate() {
+            for (j, b) in turns[1].iter().enumerate() {
+                // Those that follow are no shorter.
+                if a.spirals.length + b.spirals.length > self.most {
+                    break;
+                }
+                if let Some(line) = tangent([a, b], self.most) {
+                    let direction = line.direction();
+                    let arcs = [a.arc(direction), b.arc(direction + PI)];
+                    self.add([a, b], [i, j], along([a, b], arcs, line.length));
+                }
+            }
+        }
+        for (i, a) in turns[0].iter().enumerate() {
+            for (j, b) in turns[1].iter().enumerate() {
+                if a.exit == b.exit || (a.is_sharp() && b.is_sharp()) {
+                    for way in by_turn(&middles, a, b, self.most).into_iter().flatten() {
+                        self.add([a, b], [i, j], way);
+                    }
+                }
+            }
+        }
+        self.turns = turns;
+    }
+
+    /// Builds and offers the best.
+    fn build(mut self, best: &mut Best) -> Result<()> {
+        let mut shut = self.turns.each_ref().map(|turns| vec![false; turns.len()]);
+        let off = off(self.request.family);
+        for (objective, enough) in BUILT.into_iter().take(if self.shortest { 1 } else { BUILT.len() }) {
+            // The shortest of equals come first.
+            self.all.sort_by(|a, b| {
+                let by = |way: &Way| way.costs.by(objective);
+                by(a).total_cmp(&by(b)).then(a.costs.length.total_cmp(&b.costs.length))
+            });
+            let (mut kept, mut shortest) = (0, f64::INFINITY);
+            for way in &mut self.all {
+                let near = objective == Objective::Length && way.costs.length * (1.0 - off) < shortest;
+                if kept >= enough && !near {
+                    break;
+                }
+                if shut[0][way.first] || shut[1][way.last] {
+                    continue;
+                }
+                let length = match way.built {
+                    Some(length) => length,
+                    None => match build(
+                        self.request,
+                        self.ends,
+                        [&self.turns[0][way.first], &self.turns[1][way.last]],
+                        way,
+                    )? {
+                        Built::Join(pieces) => best.offer(pieces),
+                        Built::Shut(end) => {
+                            shut[end][if end == 0 { way.first } else { way.last }] = true;
+                            continue;
+                        }
+                    },
+                };
+                way.built = Some(length);
+                if let Some(length) = length {
+                    kept += 1;
+                    shortest = shortest.min(length * self.request.greatest_curvature);
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Whether both are one; a rounding of a full turn is none.
@@ -181,55 +282,23 @@ fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece
 }
 
 /// Two turns with a line between.
-fn by_line(turns: [&Turn; 2], objective: Objective) -> Option<Way> {
-    let (direction, line) = tangent(turns)?;
-    Some(along(turns, [turns[0].arc(direction), turns[1].arc(direction + PI)], line, objective))
+fn along([a, b]: [&Turn; 2], arcs: [f64; 2], line: f64) -> Way {
+    let costs = a.costs(arcs[0]).and(b.costs(arcs[1])).and(Costs { length: line, ..Costs::default() });
+    Way { costs, first: 0, last: 0, arcs, middle: None, built: None }
 }
 
-/// The same with arcs and a line of known lengths.
-fn along([a, b]: [&Turn; 2], arcs: [f64; 2], line: f64, objective: Objective) -> Way {
-    let length = a.length(arcs[0]) + line + b.length(arcs[1]);
-    let cost = together(objective, [a.cost(arcs[0], objective), b.cost(arcs[1], objective)]);
-    let cost = if objective == Objective::Length { length } else { cost };
-    Way { cost, length, first: 0, last: 0, arcs, middle: None }
-}
-
-/// Costs of parts in one.
-fn together<const N: usize>(objective: Objective, costs: [f64; N]) -> f64 {
-    match objective {
-        Objective::Length | Objective::BendingEnergy => costs.iter().sum(),
-        _ => costs.into_iter().fold(0.0, f64::max),
-    }
-}
-
-/// A third turn between two, of the limit of curvature, to the left or to the right.
-struct Middle {
-    side: f64,
-    exit: Spiral,
-    /// Length of its spirals, nearly.
-    long: f64,
-    /// As of a [`Turn`]: ahead, and seen backwards, where it turns the other way.
-    ahead: Vector,
-    behind: Vector,
-}
-
-impl Middle {
-    fn new(family: Family, side: f64) -> Middle {
-        let exit = Spiral { from: side, ..MIDDLE };
-        let long = 2.0 * exit.long(family);
-        Middle { side, exit, long, ahead: reach(family, &exit), behind: reach(family, &Spiral { from: -side, ..exit }) }
-    }
-}
-
-/// Two turns with a third between.
-fn by_turn(objective: Objective, middles: &[Middle; 2], a: &Turn, b: &Turn) -> [Option<Way>; 4] {
+/// Two turns with a third between, in a path of a length at most.
+fn by_turn(middles: &[Middle; 2], a: &Turn, b: &Turn, most: f64) -> [Option<Way>; 4] {
     let mut ways = [None; 4];
+    if a.spirals.length + middles[0].spirals.length + b.spirals.length > most {
+        return ways;
+    }
     let across = sub(b.centre, a.centre);
     let apart = length(across);
     for (n, way) in ways.iter_mut().enumerate() {
         let flank = if n % 2 == 0 { 1.0 } else { -1.0 };
-        let Middle { side, exit, long, ahead, behind } = middles[n / 2];
-        let (into, out) = (add(a.reach, behind), add(ahead, b.reach));
+        let middle = &middles[n / 2];
+        let (into, out) = (add(a.reach, middle.behind), add(middle.ahead, b.reach));
         let (r, s) = (length(into), length(out));
         if apart == 0.0 || apart >= r + s || apart <= (r - s).abs() {
             continue;
@@ -239,14 +308,10 @@ fn by_turn(objective: Objective, middles: &[Middle; 2], a: &Turn, b: &Turn) -> [
         let centre = add(a.centre, scale(turn(across, [x, y]), 1.0 / apart));
         let first = angle_of(sub(centre, a.centre)) - angle_of(into);
         let second = angle_of(sub(b.centre, centre)) - angle_of(out);
-        let arc = wrapped(side * (second - first) - 2.0 * exit.angle().abs());
+        let arc = wrapped(middle.side * (second - first) - 2.0 * middle.angle);
         let arcs = [a.arc(first), b.arc(second + PI)];
-        let model = Turn { before: [Some(exit), None], curvature: side, ..*a };
-        let model = Turn { exit: Some(exit), long, ..model };
-        let costs = [a.cost(arcs[0], objective), model.cost(arc, objective), b.cost(arcs[1], objective)];
-        let length = a.length(arcs[0]) + model.length(arc) + b.length(arcs[1]);
-        *way =
-            Some(Way { cost: together(objective, costs), length, first: 0, last: 0, arcs, middle: Some((side, arc)) });
+        let costs = a.costs(arcs[0]).and(middle.costs(arc)).and(b.costs(arcs[1]));
+        *way = Some(Way { costs, first: 0, last: 0, arcs, middle: Some((middle.side, arc)), built: None });
     }
     ways
 }
@@ -266,8 +331,8 @@ fn build(request: &Request, [from, to]: [&State; 2], [a, b]: [&Turn; 2], way: &W
     match way.middle {
         None => pieces.push(Piece::Line(Line { start: here.at, end: there.at })),
         Some((side, arc)) => {
-            let entry = Spiral { from: 0.0, to: side, length: MIDDLE.length };
-            let exit = Spiral { from: side, ..MIDDLE };
+            let entry = Spiral { from: 0.0, to: side, length: MIDDLE };
+            let exit = Spiral { from: side, to: 0.0, length: MIDDLE };
             let Some((first, at)) = entry.piece(family, here, most)? else { return Ok(Built::Shut(0)) };
             pieces.push(first);
             let at = add_arc(&mut pieces, at, side * most, arc);

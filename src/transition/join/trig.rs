@@ -2,8 +2,8 @@
 //! circle within a circle.
 
 use super::super::piece::{Piece, TrigPart};
-use crate::curve::TrigBezier;
 use crate::curve::vector::{Vector, sub, turn, unit};
+use crate::curve::{TrigBezier, gauss};
 use crate::error::Result;
 use crate::family::trig_quintic::{SPIRAL, Scaling, Shape, flags};
 use crate::num::roots::find;
@@ -61,6 +61,11 @@ impl TrigWay {
     /// How far the part turns.
     pub(super) fn angle(&self) -> f64 {
         self.shape.theta - self.begins()
+    }
+
+    /// How long the part is.
+    pub(super) fn length(&self) -> f64 {
+        gauss(|t| [self.curve.jet(t).speed()], self.from, 1.0)[0]
     }
 
     /// From where the part begins to where it ends, for a start along (1, 0), turning left.
