@@ -75,7 +75,7 @@ fn rates<N: Real>(w: &[[N; 2]; 3]) -> Option<Rates<N>> {
     let re = |i: usize, j: usize| formula!(w[i][0] * w[j][0] + w[i][1] * w[j][1]);
     // By the difference, which for nearly straight curves is small and exact.
     let im = |i: usize, j: usize| {
-        let step = [0, 1].map(|k| w[j][k].sub(&w[i][k]));
+        let step = [0, 1].map(|k| formula!(w[j][k] - w[i][k]));
         formula!(w[i][0] * step[1] - w[i][1] * step[0])
     };
     let middle = formula!(2.0 * re(1, 1) + re(0, 2)).over(&N::of(3.0, w[0][0].bits()))?;

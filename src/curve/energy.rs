@@ -44,7 +44,7 @@ impl<N: Real> Piece<N> {
         let turn = self.turn.iter().fold(zero.clone(), |sum, h| sum.add(&h.size()));
         let mut most = zero.clone();
         for s in &self.speed {
-            most = most.add(&turn.mul(&turn).over(s)?.over(s)?.over(s)?);
+            most = most.add(&formula!(turn * turn).over(s)?.over(s)?.over(s)?);
         }
         self.speed.iter().all(N::is_positive).then(|| most.mul(&self.width()).union(&zero))
     }
@@ -104,13 +104,13 @@ pub(crate) fn energy<N: Real>(speed: &[N; 5], turn: &[N; 3]) -> Option<N> {
         waiting.push(Piece::new(s1, t1, depth, piece.from + half));
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let sum = found.iter().fold(N::of(0.0, bits), |sum, (_, part)| sum.add(part));
+    let sum = found.iter().fold(N::of(0.0, bits), |sum, (_, part)| formula!(sum + part));
     waiting.iter().try_fold(sum, |sum, piece| Some(sum.add(&piece.at_most()?)))
 }
 
 fn combine<N: Number, const D: usize>(b: &[N; D], by: [f64; D]) -> N {
     let sum = b.iter().zip(by).filter(|(_, k)| *k != 0.0).map(|(x, k)| x.times(k));
-    sum.reduce(|sum, x| sum.add(&x)).unwrap_or_else(|| b[0].clone())
+    sum.reduce(|sum, x| formula!(sum + x)).unwrap_or_else(|| b[0].clone())
 }
 
 fn middle<N: Number>(b: &[N; 5]) -> N {
@@ -140,11 +140,11 @@ fn series<N: Real>(speed: &[N; 5], c: &[N; 4], turn: &[N; 3]) -> Option<N> {
     let h = [combine(turn, [0.25, 0.5, 0.25]), combine(turn, [-0.5, 0.0, 0.5]), combine(turn, [0.25, -0.5, 0.25])];
     // h² in powers of u.
     let e = [
-        h[0].mul(&h[0]),
+        formula!(h[0] * h[0]),
         formula!(2.0 * (h[0] * h[1])),
         formula!(h[1] * h[1] + 2.0 * (h[0] * h[2])),
         formula!(2.0 * (h[1] * h[2])),
-        h[2].mul(&h[2]),
+        formula!(h[2] * h[2]),
     ];
     let number = |x: f64| N::of(x, bits);
     // The last five coefficients, the latest first.

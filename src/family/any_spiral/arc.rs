@@ -53,7 +53,7 @@ fn series<N: Angle>(y: &N, ratio: impl Fn(f64) -> f64) -> N {
     let (mut sum, mut term) = (N::of(1.0, bits), N::of(1.0, bits));
     loop {
         term = formula!(-(term * y)).over(&N::of(ratio(k), bits)).expect("a positive ratio");
-        let next = sum.add(&term);
+        let next = formula!(sum + term);
         if tiny.sub(&term.size()).is_positive() {
             return sum.union(&next);
         }
@@ -64,10 +64,10 @@ fn series<N: Angle>(y: &N, ratio: impl Fn(f64) -> f64) -> N {
 impl<N: Angle> Arc<N> {
     fn new(theta: &N, q: &N) -> Option<Arc<N>> {
         let (sin, cos) = theta.sine_cosine();
-        let (square, three) = (theta.mul(theta), N::of(3.0, theta.bits()));
+        let (square, three) = (formula!(theta * theta), N::of(3.0, theta.bits()));
         // P, A and `1 - sin² θ/θ²`: their series near 0, where a small θ would cost the precision of its square.
         let (p, a, part) = if theta.most() < SERIES_BELOW {
-            let third = square.mul(theta).over(&three)?;
+            let third = formula!(square * theta).over(&three)?;
             let rest = series(&square.times(4.0), |k| (2.0 * k + 2.0) * (2.0 * k + 3.0));
             let w = series(&square, |k| (2.0 * k + 3.0) * (k + 2.0) * 0.5);
             let p = series(&square, |k| 2.0 * k * (2.0 * k + 3.0));
@@ -79,7 +79,7 @@ impl<N: Angle> Arc<N> {
         // t0 = θ √(1 + g), and t1 = t0 - θ = θ g/(1 + √(1 + g)).
         let g = part.over(q)?;
         let root = g.plus(1.0).sqrt()?;
-        let (t0, t1) = (theta.mul(&root), theta.mul(&g.over(&root.plus(1.0))?));
+        let (t0, t1) = (formula!(theta * root), theta.mul(&g.over(&root.plus(1.0))?));
         Some(Arc { theta: theta.clone(), sin, cos, p, a, t0, t1 })
     }
 }

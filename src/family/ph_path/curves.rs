@@ -148,14 +148,14 @@ impl<N: Real> Given<N> {
         let [l0, l1] = &self.size;
         let (a, b) = (l0.sqrt()?, l1.sqrt()?);
         let [first, last] = half;
-        let w = [first.map(|x| x.mul(&a)), last.map(|x| x.mul(&b))];
+        let w = [first.map(|x| formula!(x * a)), last.map(|x| formula!(x * b))];
         let [re, im] = square(&w);
         // Z is real in these cases, exactly.
         let root = match self.symmetry {
             Symmetry::Arch => on_axis(re)?,
             Symmetry::Line => {
                 // From the speeds: where their product is a square, the root is exact, and a zero is recognised.
-                let across = l0.mul(l1).sqrt()?.times(if paper { 10.0 } else { -10.0 });
+                let across = formula!(l0 * l1).sqrt()?.times(if paper { 10.0 } else { -10.0 });
                 on_axis(formula!(across - 15.0 * (l0 + l1) + 120.0))?
             }
             _ => Root::Anywhere(root(&re, &im)),
@@ -170,27 +170,27 @@ impl<N: Real> Given<N> {
         let (p0, q0) = (formula!(60.0 * (length + 1.0)), formula!(60.0 * (length - 1.0)));
         // 15x² + 15y² - 10xy.
         let form = |x: &N, y: &N| {
-            let apart = x.sub(y);
+            let apart = formula!(x - y);
             formula!(5.0 * (apart * apart) + 10.0 * (x * x + y * y))
         };
         let g = formula!(5.0 * (c0 * s1 + c1 * s0 - 3.0 * (c0 * s0 + c1 * s1)));
         let (a, b) = (p0.mul(&form(s0, s1)), q0.mul(&form(c0, c1)));
-        let (sum, apart, product) = (a.add(&b), a.sub(&b), p0.mul(&q0));
+        let (sum, apart, product) = (formula!(a + b), formula!(a - b), formula!(p0 * q0));
         // g = 0 in these cases, exactly.
         let aligned = matches!(self.symmetry, Symmetry::Arch | Symmetry::Line);
         let above = if aligned { apart.certain_sign(0.0)? == Greater } else { apart.approx() >= 0.0 };
         let over = if above { apart } else { apart.times(-1.0) };
         let mixed = if aligned { over.clone() } else { loose_root(&formula!(over * over + 4.0 * (g * g * product))) };
-        let whole = sum.add(&mixed);
+        let whole = formula!(sum + mixed);
         let z = product.times(2.0).over(&whole)?;
         let size = z.sqrt()?;
-        let w = half.clone().map(|unit| unit.map(|x| x.mul(&size)));
-        let safe = over.add(&mixed).mul(if above { &p0 } else { &q0 }).over(&whole)?.sqrt();
+        let w = half.clone().map(|unit| unit.map(|x| formula!(x * size)));
+        let safe = formula!(over + mixed).mul(if above { &p0 } else { &q0 }).over(&whole)?.sqrt();
         let root = match (aligned, above, safe) {
             (true, true, safe) => Root::Real(safe?),
             (true, false, safe) => Root::Imaginary(safe?),
             (false, _, safe) => {
-                let parts = safe.and_then(|safe| Some([g.mul(&z).over(&safe)?, safe]));
+                let parts = safe.and_then(|safe| Some([formula!(g * z).over(&safe)?, safe]));
                 Root::Anywhere(match parts {
                     Some([other, safe]) if above => [safe, other],
                     Some(both) => both,
@@ -228,7 +228,7 @@ fn root<N: Real>(re: &N, im: &N) -> Complex<N> {
     let tight = || {
         let size = formula!(re * re + im * im).sqrt()?;
         let real = re.approx() >= 0.0;
-        let safe = if real { size.add(re) } else { size.sub(re) }.times(0.5).sqrt()?;
+        let safe = if real { formula!(size + re) } else { formula!(size - re) }.times(0.5).sqrt()?;
         let other = im.over(&safe.times(2.0))?;
         Some(if real { [safe, other] } else { [other, safe] })
     };

@@ -142,26 +142,26 @@ impl<N: Number> Curves<N> {
     /// Both left-hand sides at t.
     #[inline(always)]
     pub(super) fn at(&self, t: &N) -> [Cubic<N>; 2] {
-        let t2 = t.mul(t);
-        let t3 = t2.mul(t);
+        let t2 = formula!(t * t);
+        let t3 = formula!(t2 * t);
         let first = t.times(self.scale[0] * self.scale[1]);
         let fourth = formula!(self.own[1] * (t2 * t2));
-        let second = self.own[0].add(&fourth);
+        let second = formula!(self.own[0] + fourth);
         let fourth = fourth.times(4.0);
-        let (flat, bent) = (self.flat[1].mul(&t2), self.across[0].mul(t));
-        let both = self.both.mul(&t3);
+        let (flat, bent) = (formula!(self.flat[1] * t2), formula!(self.across[0] * t));
+        let both = formula!(self.both * t3);
         let thrice = both.times(3.0);
-        let bent_end = self.across[1].mul(&t3);
+        let bent_end = formula!(self.across[1] * t3);
         let sixth = formula!(self.last[1] * (t3 * t3));
         [
             // pq t + 3Cq² t²,  3α'p + 3β'q t⁴ + 3Cα'q t,  4α'β' t³ + 2Cα'²
             Cubic {
-                c: [first.add(&flat), second.add(&bent), both.add(&self.last[0])],
+                c: [formula!(first + flat), formula!(second + bent), formula!(both + self.last[0])],
                 j: [formula!(first + 2.0 * flat), fourth.add(&bent), thrice.clone()],
             },
             // pq t + 3Cp²,  3α'p + 3β'q t⁴ + 3Cβ'p t³,  4α'β' t³ + 2Cβ'² t⁶
             Cubic {
-                c: [first.add(&self.flat[0]), second.add(&bent_end), both.add(&sixth)],
+                c: [formula!(first + self.flat[0]), formula!(second + bent_end), formula!(both + sixth)],
                 j: [first, formula!(fourth + 3.0 * bent_end), formula!(thrice + 6.0 * sixth)],
             },
         ]
@@ -179,32 +179,32 @@ impl<N: Real> Curves<N> {
     /// heights and slopes there; all may be enclosures over an interval. For w changes with x as `w m`, m as `-k s'`,
     /// and `Σ w m = 0`.
     pub(super) fn slope_changes(&self, t: &N, at: impl Fn(usize) -> (N, N)) -> Option<[Changes<N>; 2]> {
-        let t2 = t.mul(t);
-        let t3 = t2.mul(t);
+        let t2 = formula!(t * t);
+        let t3 = formula!(t2 * t);
         let first = t.times(self.scale[0] * self.scale[1]);
         let fourth = formula!(self.own[1] * (t2 * t2));
-        let both = self.both.mul(&t3);
+        let both = formula!(self.both * t3);
         let shared = [(first, 1, 1), (self.own[0].clone(), 0, 2), (fourth, 4, 2), (both, 3, 3)];
         let own = [
-            [(self.flat[1].mul(&t2), 2, 1), (self.across[0].mul(t), 1, 2), (self.last[0].clone(), 0, 3)],
+            [(formula!(self.flat[1] * t2), 2, 1), (formula!(self.across[0] * t), 1, 2), (self.last[0].clone(), 0, 3)],
             [(self.flat[0].clone(), 0, 1), (self.across[1].mul(&t3), 3, 2), (formula!(self.last[1] * (t3 * t3)), 6, 3)],
         ];
         let change = |i: usize| {
             let (z, s) = at(i);
-            let z2 = z.mul(&z);
-            let powers = [z.clone(), z2.clone(), z2.mul(&z)];
+            let z2 = formula!(z * z);
+            let powers = [z.clone(), z2.clone(), formula!(z2 * z)];
             let turned = [1.0, 2.0, 3.0].map(|k| s.times(-k));
             let none = z.times(0.0);
             let [mut weight, mut square, mut cube, mut mixed] = [none.clone(), none.clone(), none.clone(), none];
             for (coefficient, j, k) in shared.iter().chain(&own[i]) {
-                let w = coefficient.mul(&powers[k - 1]);
+                let w = formula!(coefficient * powers[k - 1]);
                 let m = turned[k - 1].plus(f64::from(*j));
-                let (wm, k) = (w.mul(&m), *k as f64);
-                let wm2 = wm.mul(&m);
+                let (wm, k) = (formula!(w * m), *k as f64);
+                let wm2 = formula!(wm * m);
                 weight = formula!(weight + w * { k });
                 mixed = formula!(mixed + wm * { k });
                 cube = formula!(cube + wm2 * m);
-                square = square.add(&wm2);
+                square = formula!(square + wm2);
             }
             let first = square.over(&weight)?;
             let second = formula!(cube - 3.0 * (first * mixed)).over(&weight)?;
@@ -216,7 +216,7 @@ impl<N: Real> Curves<N> {
     /// D'' and D''' at a knot.
     pub(super) fn change(&self, knot: &Knot<N>) -> Option<[N; 2]> {
         let [from, to] = self.slope_changes(&knot.t, |i| (knot.z[i].clone(), knot.s[i].clone()))?;
-        Some([to.first.sub(&from.first), to.second.sub(&from.second)])
+        Some([formula!(to.first - from.first), formula!(to.second - from.second)])
     }
 }
 

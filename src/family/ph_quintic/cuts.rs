@@ -47,7 +47,7 @@ pub(super) fn cuts<N: Real>(
         // Nearer to a double solution than the precision tells.
         side(&knot.gap)?;
         let last = kept.last().map_or(&from.t, |knot| &knot.t);
-        if knot.t.sub(last).is_positive() && to.t.sub(&knot.t).is_positive() {
+        if formula!(knot.t - last).is_positive() && formula!(to.t - knot.t).is_positive() {
             kept.push(knot);
         }
     }
@@ -72,7 +72,7 @@ fn zero<N: Real, F: Fn(N) -> Option<Knot<N>>>(
     (side(b)? != before).then_some(())?;
     let (mut low, mut high) = (from.t.clone(), to.t.clone());
     let enough = N::power_of_two(from.t.bits() as i32 / 4 * 3, from.t.bits());
-    let mut t = low.add(&high.sub(&low).mul(&a.over(&a.sub(b))?)).middle();
+    let mut t = low.add(&formula!(high - low).mul(&a.over(&formula!(a - b))?)).middle();
     for _ in 0..MOST_STEPS {
         let bent = at(march, (march.knot)(t)?)?;
         let value = &bent.d[order - 1];
@@ -81,7 +81,7 @@ fn zero<N: Real, F: Fn(N) -> Option<Knot<N>>>(
             Some(sign) if sign == before => low = bent.knot.t.clone(),
             Some(_) => high = bent.knot.t.clone(),
         }
-        let within = |t: &N| t.sub(&low).is_positive() && high.sub(t).is_positive();
+        let within = |t: &N| formula!(t - low).is_positive() && formula!(high - t).is_positive();
         let step = value
             .over(&bent.d[order])
             .map(|step| (step.mul(&enough).most(), formula!(bent.knot.t - bent.knot.t * step).middle()));
@@ -115,7 +115,7 @@ fn fork<N: Real, F: Fn(N) -> Option<Knot<N>>>(
     let size = middle.knot.t.mul(&N::power_of_two(exponent, bits));
     let knot = |h: f64| (march.knot)(formula!(middle.knot.t + size * { h }).middle());
     // Four times its size is around all zeros of the cubic.
-    let inside = |knot: &Knot<N>| knot.t.sub(&from.t).is_positive() && to.t.sub(&knot.t).is_positive();
+    let inside = |knot: &Knot<N>| formula!(knot.t - from.t).is_positive() && formula!(to.t - knot.t).is_positive();
     let [left, right] = [knot(-4.0)?, knot(4.0)?];
     let outer = [if inside(&left) { &left } else { from }, if inside(&right) { &right } else { to }];
     let mut cuts = vec![left.clone()];

@@ -143,7 +143,7 @@ impl<N: Real> March<N> {
         let (low, high) = March::limits(&self.curves, &self.fast)?;
         self.outermost(-1, |knot| {
             let [z0, z1] = &knot.z;
-            z0.sub(&high).is_positive() || low.as_ref().is_some_and(|low| z1.sub(low).is_positive())
+            formula!(z0 - high).is_positive() || low.as_ref().is_some_and(|low| formula!(z1 - low).is_positive())
         })
     }
 
@@ -151,9 +151,9 @@ impl<N: Real> March<N> {
     fn last(&self) -> Option<Knot<N>> {
         let (low, high) = March::limits(&self.curves.reversed(), &self.fast.reversed())?;
         self.outermost(1, |knot| {
-            let square = knot.t.mul(&knot.t);
-            let [y0, y1] = [square.mul(&knot.z[0]), square.mul(&knot.z[1])];
-            y1.sub(&high).is_positive() || low.as_ref().is_some_and(|low| y0.sub(low).is_positive())
+            let square = formula!(knot.t * knot.t);
+            let [y0, y1] = [formula!(square * knot.z[0]), formula!(square * knot.z[1])];
+            formula!(y1 - high).is_positive() || low.as_ref().is_some_and(|low| formula!(y0 - low).is_positive())
         })
     }
 
@@ -168,16 +168,16 @@ impl<N: Real> March<N> {
     fn enclose(&self, a: &Knot<N>, b: &Knot<N>) -> Option<Root<N>> {
         let side = a.gap.certain_sign(0.0)?;
         let (mut low, mut high) = (a.t.clone(), b.t.clone());
-        let within = |t: &N, low: &N, high: &N| t.sub(low).is_positive() && high.sub(t).is_positive();
+        let within = |t: &N, low: &N, high: &N| formula!(t - low).is_positive() && formula!(high - t).is_positive();
         let guess = Some(self.guess(a, b)).filter(|t| t.is_normal()).map(|t| N::of(t, self.bits()));
         let mut knot =
             self.knot(guess.filter(|t| within(t, &low, &high)).map_or_else(|| middle(&low, &high), Some)?)?;
-        let step = |knot: &Knot<N>| knot.gap.over(&knot.s[1].sub(&knot.s[0]));
+        let step = |knot: &Knot<N>| knot.gap.over(&formula!(knot.s[1] - knot.s[0]));
         let bits = self.bits() as i32;
         let enough = N::power_of_two(bits / 4 * 3, self.bits());
         for _ in 0..MOST_STEPS {
             let moved = step(&knot)?;
-            if moved.mul(&enough).most() < 1.0 {
+            if formula!(moved * enough).most() < 1.0 {
                 break;
             }
             match knot.gap.certain_sign(0.0) {
@@ -190,7 +190,7 @@ impl<N: Real> March<N> {
             let newton = if moved.most() < 0.25 {
                 Some(formula!(knot.t - knot.t * moved).middle())
             } else {
-                let turn = knot.s[0].sub(&knot.s[1]).approx();
+                let turn = formula!(knot.s[0] - knot.s[1]).approx();
                 times_exp(&knot.t, (knot.z[0].ln() - knot.z[1].ln()) / turn)
             };
             knot = self.knot(newton.filter(|t| within(t, &low, &high)).map_or_else(|| middle(&low, &high), Some)?)?;
@@ -204,8 +204,8 @@ impl<N: Real> March<N> {
         let most = (2.0 * scaled(power)).max(2f64.powi(4 - bits + power));
         let mut reach = N::power_of_two(-power, self.bits()).times(most);
         for _ in 0..4 {
-            let delta = knot.t.mul(&reach);
-            let (left, right) = (knot.t.sub(&delta).middle(), knot.t.add(&delta).middle());
+            let delta = formula!(knot.t * reach);
+            let (left, right) = (formula!(knot.t - delta).middle(), formula!(knot.t + delta).middle());
             if !(inside(&left) && inside(&right)) {
                 return None;
             }
@@ -260,7 +260,7 @@ pub(super) fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Verdict {
             return Verdict::No;
         }
     }
-    let monotone = a.s[1].sub(&b.s[0]).is_positive() || a.s[0].sub(&b.s[1]).is_positive();
+    let monotone = formula!(a.s[1] - b.s[0]).is_positive() || formula!(a.s[0] - b.s[1]).is_positive();
     if monotone { Verdict::of(at_a != at_b && at_a != Ordering::Equal) } else { Verdict::Undecided }
 }
 
@@ -287,7 +287,7 @@ fn between<N: Real>(a: &N, b: &N) -> Option<N> {
         let t = low.sqrt() * high.sqrt() * 1.037;
         return Some(N::of(t, a.bits()));
     }
-    let apart = b.sub(a);
+    let apart = formula!(b - a);
     formula!(apart - a * N::power_of_two(nearest(a.bits()), a.bits()))
         .is_positive()
         .then(|| formula!(a + 0.469 * apart).middle())

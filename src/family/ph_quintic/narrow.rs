@@ -27,7 +27,7 @@ fn by_residual<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Opt
     // a and b in the box, and 3A², 3B², 3αA³B, 3βAB³, 2α²A⁶, 2β²B⁶ there.
     let a = to.z[1].sqrt()?.union(&from.z[1].sqrt()?);
     let b = from.t.mul(&from.z[1].sqrt()?).union(&to.t.mul(&to.z[1].sqrt()?));
-    let (a2, b2) = (a.mul(&a), b.mul(&b));
+    let (a2, b2) = (formula!(a * a), formula!(b * b));
     let [alpha, beta] = &curves.bend;
     let (bend0, bend1) = (formula!(alpha * a2 * a), formula!(beta * b2 * b));
     let (flat0, flat1) = (a2.times(3.0 * p * p), b2.times(3.0 * q * q));
@@ -42,7 +42,7 @@ fn by_residual<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Opt
     let turns = |x: &N, j: f64, k: f64| formula!(x * (s * { -k } + { j }));
     let gains = formula!(flat1 * rest + turns(&mixed1, 1.0, 2.0) + flat0 * s);
     let losses = formula!(3.0 * (last1 * s) + turns(&mixed0, 3.0, 2.0) + 3.0 * (last0 * rest));
-    let rise = gains.sub(&losses).certain_sign(0.0)?;
+    let rise = formula!(gains - losses).certain_sign(0.0)?;
     // A rising H is a falling D.
     rise.is_ne().then_some(!same)
 }

@@ -63,7 +63,7 @@ fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four
     let side = a.gap.certain_sign(0.0)?;
     let moved = |t: &Four| {
         let knot = march.knot(*t)?;
-        Some(t.mul(&knot.gap.over(&knot.s[1].sub(&knot.s[0]))?))
+        Some(t.mul(&knot.gap.over(&formula!(knot.s[1] - knot.s[0]))?))
     };
     let mut t = Four::of(march.guess(a, b), 53);
     for _ in 0..Four::ORDERS {
@@ -74,7 +74,7 @@ fn root(march: &March<Four>, a: &Knot<Four>, b: &Knot<Four>) -> Option<Root<Four
     let sign = |t: Four| march.knot(t)?.gap.certain_sign(0.0);
     for _ in 0..6 {
         let (left, right) = (t.plus(-reach), t.plus(reach));
-        if !(left.is_positive() && b.t.sub(&left).is_positive() && right.sub(&a.t).is_positive()) {
+        if !(left.is_positive() && formula!(b.t - left).is_positive() && formula!(right - a.t).is_positive()) {
             return None;
         }
         if sign(left) == Some(side) && sign(right) == Some(side.reverse()) {

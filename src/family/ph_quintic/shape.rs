@@ -30,10 +30,10 @@ impl<N: Number> CurveShape<N> {
     #[inline(always)]
     pub(super) fn of(curves: &Curves<N>, t: &N, z: &N, [one, third]: [&N; 2]) -> CurveShape<N> {
         let ([p, q], [alpha, beta], cos) = (curves.scale, &curves.bend, &curves.cos);
-        let t2 = t.mul(t);
-        let t3 = t2.mul(t);
+        let t2 = formula!(t * t);
+        let t3 = formula!(t2 * t);
         // Coordinates of w1, divided by a³.
-        let (u, v) = (beta.mul(&t3), alpha);
+        let (u, v) = (formula!(beta * t3), alpha);
         let cross = formula!(cos * t * { p * q });
         let square = formula!(u * (u + 2.0 * (cos * v)) + v * v);
         CurveShape {
@@ -50,7 +50,7 @@ impl<N: Number> CurveShape<N> {
 
     /// Bernstein coefficients of κ' up to a positive function, times 10.
     pub(super) fn quintic(&self) -> Quintic<N> {
-        self.sums().map(|[gain, loss]| gain.sub(&loss))
+        self.sums().map(|[gain, loss]| formula!(gain - loss))
     }
 
     /// The same as what adds to each and what is taken away: sums of positive terms.

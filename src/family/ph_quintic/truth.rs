@@ -202,7 +202,7 @@ pub(super) fn chosen<N: Measured>(
     let mut best = (*first, energy_of(pair, &solutions[*first], energy)?);
     for i in &spirals[1..] {
         let energy = energy_of(pair, &solutions[*i], energy)?;
-        match energy.sub(&best.1).certain_sign(0.0)? {
+        match formula!(energy - best.1).certain_sign(0.0)? {
             std::cmp::Ordering::Less => best = (*i, energy),
             std::cmp::Ordering::Greater => {}
             std::cmp::Ordering::Equal => return None,

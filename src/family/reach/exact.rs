@@ -52,7 +52,7 @@ fn shape<N: Rooted>(
         return Some(None);
     }
     let (to_alpha, to_beta) = factors(kind);
-    let square = angle.length.mul(&angle.length);
+    let square = formula!(angle.length * angle.length);
     let (alpha, beta) = (a.times(to_alpha).over(&square)?, b.times(to_beta).over(&square)?);
     let shape = match kind {
         Kind::Cubic => {
@@ -119,7 +119,7 @@ fn ph_root<N: Rooted>(alpha: &N, beta: &N, g: &N) -> Option<Option<N>> {
         return Some(None);
     }
     let root = N::root(&residual, &from)?;
-    (sign(&root.sub(&from))? == Greater).then_some(Some(root))
+    (sign(&formula!(root - from))? == Greater).then_some(Some(root))
 }
 
 /// Numbers that find the root of G above a place where G is negative.
@@ -162,7 +162,7 @@ impl<N: Real> Residual<'_, N> {
     /// G.
     fn value(&self, u: &N) -> N {
         let (left, right) = ph_sides(self.beta, &ph_m(self.alpha, self.g, u), u);
-        left.sub(&right)
+        formula!(left - right)
     }
 
     /// `uG` and `uG' - 3G`: value and slope, both times u⁴, which changes neither signs nor Newton's steps.

@@ -41,13 +41,13 @@ impl Angle {
         match kind {
             Kind::Cubic => {
                 let sine = theta.sine();
-                Angle { g: theta.cosine(), square: sine.mul(&sine), over: Three::of(1.0, 53) }
+                Angle { g: theta.cosine(), square: formula!(sine * sine), over: Three::of(1.0, 53) }
             }
             Kind::Ph => {
                 let half = theta.times(0.5);
                 let (sine, cosine) = (half.sine(), half.cosine());
-                let g = cosine.mul(&cosine);
-                Angle { g, square: sine.mul(&sine), over: g }
+                let g = formula!(cosine * cosine);
+                Angle { g, square: formula!(sine * sine), over: g }
             }
         }
     }
@@ -64,7 +64,7 @@ struct Case {
 
 fn cubic(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> Case {
     let Angle { g, square, .. } = angle;
-    let a2 = a.mul(a);
+    let a2 = formula!(a * a);
     let side = formula!(2.0 * (b * square));
     let room = formula!(side - 3.0 * a2);
     let first = formula!(27.0 * (g * (a2 * a)) - square * (9.0 * a2 + side));
@@ -75,7 +75,7 @@ fn cubic(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> C
     let first = positive(&first);
     let shape = a.times(3.0).inverse().map(|inverse| {
         let m = formula!(3.0 * (side * inverse * inverse) - 1.0);
-        [m, square.mul(&inverse)]
+        [m, formula!(square * inverse)]
     });
     Case { exists, first, shape: shape.filter(|_| a.low() > 0.0) }
 }
@@ -94,7 +94,7 @@ fn ph(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> Case
         let twelve = g.times(12.0);
         let u0 = formula!(twelve * twelve + 3.0 * alpha).sqrt()?.add(&twelve).over(&alpha)?;
         let (left, right) = ph_sides(&beta, &Three::of(0.0, 53), &u0);
-        let room = right.sub(&left);
+        let room = formula!(right - left);
         let shape = ph_root(&alpha, &beta, g).map(|u| [ph_m(&alpha, g, &u), u]);
         Some((room, shape))
     };
@@ -118,7 +118,7 @@ fn ph(angle: &Angle, a: &Three, b: &Three, pull: &mut [f64; MOST_SIDES]) -> Case
 fn ph_root(alpha: &Three, beta: &Three, g: &Three) -> Option<Three> {
     let residual = |u: &Three| {
         let (left, right) = ph_sides(beta, &ph_m(alpha, g, u), u);
-        left.sub(&right)
+        formula!(left - right)
     };
     let slope = |u: f64| {
         let m = ph_m(&alpha.value, &g.value, &u);

@@ -74,7 +74,7 @@ impl Rounded for Interval {
 /// `r e^(ix)`.
 pub(super) fn polar<N: Angle>(r: &N, x: &N) -> [N; 2] {
     let (sin, cos) = x.sine_cosine();
-    [r.mul(&cos), r.mul(&sin)]
+    [formula!(r * cos), formula!(r * sin)]
 }
 
 impl Wanted<Twin> {
@@ -126,7 +126,7 @@ impl<N: Rounded> Map<N> {
         [theta, t1, &rho, &half_chord].into_iter().all(N::is_known).then_some(())?;
         // λ = α - α*, α* = ω + θ; any full turns do.
         let omega = formula!(wanted.rest + N::pi(bits) * { f64::from(wanted.half_turns) });
-        let ahead = omega.add(theta);
+        let ahead = formula!(omega + theta);
         let lambda = N::of(datum.alpha, bits).sub(&ahead);
         Some(Map { arc, half_chord, omega, ahead, rho, lambda })
     }
@@ -169,12 +169,12 @@ impl Numbers {
         // q = (1 - 1/m) e^(iα) at the start, and (1 - m) e^(iβ) at the end, where λ + β = ω - θ up to full turns.
         let factor = |angle: &N, by: &N, other: &N| {
             let ([x, y], [u, v]) = (polar(&one, angle), polar(by, other));
-            [x.sub(&u), y.sub(&v)]
+            [formula!(x - u), formula!(y - v)]
         };
         let scale = rho.over(half_chord)?;
         let start = End { side: 1.0, t: t1, scale, q: factor(&alpha, &inverse, ahead) };
-        let (last, scale) = (t0.add(theta), inverse.over(half_chord)?);
-        let end = End { side: -1.0, t: &last, scale, q: factor(&beta, rho, &omega.sub(theta)) };
+        let (last, scale) = (formula!(t0 + theta), inverse.over(half_chord)?);
+        let end = End { side: -1.0, t: &last, scale, q: factor(&beta, rho, &formula!(omega - theta)) };
         // θ from the nearest multiple of π.
         let nearest = theta.nearest()?;
         let turns = (nearest / PI).round();
@@ -206,7 +206,7 @@ impl<N: Rounded> End<'_, N> {
         let steep = exponent(scale) + exponent(x).max(exponent(y)).max(0);
         let s = (-steep).div_euclid(2).min(-steep - exponent(t)).min(exponent(theta) - 1).min(0);
         let s = N::power_of_two(s as i32, bits);
-        let whole = s.add(t);
+        let whole = formula!(s + t);
         let unit = formula!(scale * s * whole);
         let reach = theta.over(&s)?;
         let size = formula!(x * x + y * y).sqrt()?;
@@ -218,10 +218,10 @@ impl<N: Rounded> End<'_, N> {
             near: t.over(&whole)?.rounded()?,
             far: s.over(&whole)?.rounded()?,
             scale: unit.rounded()?,
-            grow: [unit.mul(x).rounded()?, unit.mul(y).rounded()?],
+            grow: [formula!(unit * x).rounded()?, formula!(unit * y).rounded()?],
             angle,
             bend: formula!(size * theta * reach).rounded()?,
-            swing: x.mul(theta).rounded()?,
+            swing: formula!(x * theta).rounded()?,
             sway: y.rounded()?,
             curvature,
         })

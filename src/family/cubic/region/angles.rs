@@ -24,8 +24,8 @@ impl Angles {
         let (first, second) = (Four::centred(phi0, 0), Four::centred(phi1, 1));
         let (sin0, sin1) = (first.sine(), second.sine());
         let inverse = first.sine_of_sum(&second).inverse()?;
-        let (q0, q1) = (sin0.mul(&inverse), sin1.mul(&inverse));
-        let (g0, g1) = (q0.mul(&q0), q1.mul(&q1));
+        let (q0, q1) = (formula!(sin0 * inverse), formula!(sin1 * inverse));
+        let (g0, g1) = (formula!(q0 * q0), formula!(q1 * q1));
         let p = q0.mul(&second.cosine());
         Some(Angles {
             p,

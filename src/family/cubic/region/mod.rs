@@ -106,7 +106,7 @@ fn any_normalised(sides: &[[f64; 2]; 4]) -> (Verdict, [f64; MOST_SIDES]) {
         let angles = angles_of(phi0, phi1)?;
         let (kappa0, kappa1) = (angles.curve0.inverse()?, angles.curve1.inverse()?);
         let [first, second, a, k]: [Four; 4] = std::array::from_fn(|i| Four::centred([phi0, phi1, a, k][i], i));
-        Some([first, second, a.mul(&kappa0), k.mul(&kappa1)])
+        Some([first, second, formula!(a * kappa0), formula!(k * kappa1)])
     };
     let known = forms().map_or(Verdict::Undecided, |forms| rising(&forms, &mut pull));
     if phi0[1] < phi1[0] {
@@ -142,8 +142,10 @@ fn prove(normalised: bool, sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
         return facts;
     };
     let ends = [Four::centred(kappa0, 2), Four::centred(kappa1, 3)];
-    let data =
-        Data::new(angles, if normalised { ends } else { [angles.curve0.mul(&ends[0]), angles.curve1.mul(&ends[1])] });
+    let data = Data::new(
+        angles,
+        if normalised { ends } else { [formula!(angles.curve0 * ends[0]), formula!(angles.curve1 * ends[1])] },
+    );
     let solvable = data.solvable();
     // What holds of some datum only where it has roots needs both curvatures positive.
     let rooted = kappa0[0] > 0.0 && kappa1[0] > 0.0;
@@ -181,7 +183,7 @@ struct Data {
 impl Data {
     fn new(angles: Angles, [a, k]: [Four; 2]) -> Data {
         let above = [&a, &k].map(|x| positive(&formula!(3.0 * x - 1.0)));
-        let ak = a.mul(&k);
+        let ak = formula!(a * k);
         let delta = formula!(ak * (768.0 * ak - 256.0 * (a + k) + 96.0) - 1.0);
         let wedge = if above == [Verdict::Yes; 2] { Verdict::Yes } else { positive(&delta) };
         Data { angles, a, k, above, wedge, delta }
@@ -301,10 +303,10 @@ fn monotone(start: &[Four; 3], end: &[Four; 3], x: &Four, y: &Four) -> Verdict {
     }
     let quintic = [
         formula!(5.0 * (y * y * start[0])),
-        y.mul(&start[1]),
-        y.mul(&start[2]),
-        x.mul(&end[2]),
-        x.mul(&end[1]),
+        formula!(y * start[1]),
+        formula!(y * start[2]),
+        formula!(x * end[2]),
+        formula!(x * end[1]),
         formula!(5.0 * (x * x * end[0])),
     ];
     unit_sign(&quintic)

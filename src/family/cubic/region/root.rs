@@ -28,7 +28,7 @@
 
 use super::Four;
 use crate::num::bernstein::Certain;
-use crate::num::{Ball, Number, Real, formula};
+use crate::num::{Ball, Real, formula};
 use std::cmp::Ordering::{Greater, Less};
 
 /// Covers the roundings of the bounds of an enclosure: fewer than 100 operations on numbers that are not negative.
@@ -120,9 +120,9 @@ fn enclose(a: &Four, k: &Four, x0: f64) -> Option<Root> {
             at += 1;
         }
     }
-    let (ax, ky) = (a.mul(&x), k.mul(&y));
+    let (ax, ky) = (formula!(a * x), formula!(k * y));
     let rest = |minus: &Four, other: &Four| formula!(3.0 - (minus + other)).most();
-    let (first, second) = (rest(&ax.mul(&x), &y), rest(&ky.mul(&y), &x));
+    let (first, second) = (rest(&formula!(ax * x), &y), rest(&formula!(ky * y), &x));
     let slope = formula!(ax * ky * -4.0 + 1.0);
     let least = slope.low().max(-slope.high());
     // Not for NaN either.
@@ -155,9 +155,9 @@ pub(super) fn span(a: &Four, k: &Four) -> Option<[f64; 2]> {
     // F, F', y and a x² at x.
     let at = |x: f64| {
         let x = exact(x);
-        let ax = a.mul(&x);
+        let ax = formula!(a * x);
         let y = formula!(3.0 - ax * x);
-        let ky = k.mul(&y);
+        let ky = formula!(k * y);
         let value = formula!(3.0 - (x + ky * y));
         (value, formula!(4.0 * (ax * ky) - 1.0), y, formula!(ax * x - 1.0))
     };
