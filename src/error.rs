@@ -59,6 +59,9 @@ pub enum Error {
     Interrupted,
 }
 
+/// What to do where a length leaves the range of doubles.
+pub(crate) const OTHER_UNIT: &str = "change the unit of length";
+
 /// Shorthand for results of this library.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
@@ -151,6 +154,11 @@ impl Error {
             _ => known.concat(),
         };
         Error::invalid(format!("the {what} is `{name}`; it must be {known}"))
+    }
+
+    /// A number too large or too small for a double: "{what} leaves the range of doubles; {way_out}".
+    pub(crate) fn beyond_doubles(what: impl Display, way_out: &str) -> Error {
+        Error::invalid(format!("{what} leaves the range of doubles; {way_out}"))
     }
 
     /// Something outside its domain, in a sentence that names it, its value, what is allowed and the way out.

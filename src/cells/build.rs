@@ -225,13 +225,13 @@ pub(super) fn shape(grid: &Grid, flags: usize) -> Result<Layout> {
     Ok(Layout { axes: counts.len(), flags, depth: resolution.ilog2(), top: top.ilog2() })
 }
 
-fn prover<'a>(spec: &Spec<'a>, region: &'static dyn crate::family::Region, chart: usize) -> Prover<'a> {
+fn prover(spec: &Spec, region: &'static dyn crate::family::Region, chart: usize) -> Prover {
     let Spec { family, grid, .. } = *spec;
     let mut log = [false; MOST_AXES];
     for (log, axis) in log.iter_mut().zip(grid.axes()) {
         *log = matches!(axis.spacing(), Spacing::Log { .. });
     }
-    Prover { family, grid, region, chart, axes: grid.axes().len(), log }
+    Prover { family, region, chart, axes: grid.axes().len(), log }
 }
 
 /// The edges of cells.

@@ -1,9 +1,7 @@
 //! What is proved of one cell.
 
 use super::tree::{Known, MOST_AXES};
-use crate::error::Result;
-use crate::family::{Code, Facts, Family, Region};
-use crate::grid::{Axis, Grid, Spacing};
+use crate::family::{Facts, Family, Region};
 use std::collections::VecDeque;
 
 /// Most boxes that are tried for a cell before it is MIXED.
@@ -20,9 +18,8 @@ pub(super) type Bounds = [[f64; MOST_AXES]; 2];
 
 /// The proofs of a family on some axes.
 #[derive(Clone, Copy)]
-pub(super) struct Prover<'g> {
+pub(super) struct Prover {
     pub family: &'static dyn Family,
-    pub grid: &'g Grid,
     pub region: &'static dyn Region,
     pub chart: usize,
     pub axes: usize,
@@ -30,7 +27,7 @@ pub(super) struct Prover<'g> {
     pub log: [bool; MOST_AXES],
 }
 
-impl Prover<'_> {
+impl Prover {
     fn facts(&self, bounds: &Bounds, wanted: u8) -> Facts {
         self.region.facts(self.chart, &bounds[0][..self.axes], &bounds[1][..self.axes], wanted)
     }
@@ -72,15 +69,13 @@ impl Prover<'_> {
 
     /// Whether two corners differ in a flag: no proof can succeed then, and none need be tried.
     fn crosses(&self, cell: &Bounds, flag: u8) -> bool {
-        let axis = |i: usize| Axis::new(self.grid.axes()[i].name(), Spacing::Values(vec![cell[0][i], cell[1][i]]));
-        let corners = || Grid::new((0..self.axes).map(axis).collect::<Result<_>>()?);
-        let Ok(corners) = corners() else { return false };
-        let Ok(table) = self.family.table(&corners) else { return false };
-        let mut codes = [Code::UNDECIDED; 1 << MOST_AXES];
-        let codes = &mut codes[..1 << self.axes];
-        table.filter(0, codes);
-        let has = |holds: bool| codes.iter().any(|c| *c != Code::UNDECIDED && (c.flags() & flag != 0) == holds);
-        has(true) && has(false)
+        let has = |corner: usize| {
+            let point: [f64; MOST_AXES] = std::array::from_fn(|i| cell[corner >> i & 1][i]);
+            Some(self.family.code(self.chart, &point[..self.axes])?.flags() & flag != 0)
+        };
+        // Opposite corners first, which differ most.
+        let mut known = (0..1 << (self.axes - 1)).flat_map(|i| [i, (1 << self.axes) - 1 - i]).filter_map(has);
+        known.next().is_some_and(|first| known.any(|other| other != first))
     }
 
     /// Halves along the axis that moves most what is open; `None` where that axis has no number between its ends.

@@ -1,7 +1,7 @@
 //! All curves that solve a problem, and the one to take.
 
 use super::PhQuintic;
-use crate::error::{Error, Result};
+use crate::error::{Error, OTHER_UNIT, Result};
 use serde::Serialize;
 
 /// One of several curves that solve a problem.
@@ -33,7 +33,7 @@ impl Choice {
             if curve.is_finite() && candidate.absolute_rotation.is_finite() {
                 return Ok(candidate);
             }
-            Err(Error::invalid(format!("{what}: a solution leaves the range of doubles (change the unit of length)")))
+            Err(Error::beyond_doubles(format!("{what}: a solution"), OTHER_UNIT))
         };
         let candidates = curves.into_iter().map(candidate).collect::<Result<Vec<_>>>()?;
         let best = best(&candidates, 0..candidates.len());

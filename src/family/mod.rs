@@ -42,6 +42,11 @@ impl Code {
         Code((counts as u16) << 8 | flags as u16)
     }
 
+    /// Itself, where it is no [`Code::UNDECIDED`].
+    pub(crate) fn decided(self) -> Option<Code> {
+        (self != Code::UNDECIDED).then_some(self)
+    }
+
     /// The `flags` byte of an atlas.
     pub const fn flags(self) -> u8 {
         self.0 as u8
@@ -198,10 +203,13 @@ pub trait Family: Sync {
         let answer = self.answer(chart, point)?;
         Ok((answer.code, answer.control_points().map(<[_]>::to_vec)))
     }
-    /// The f64 step for one datum, without the work of making a grid: its code, or `None` where the grid must tell,
-    /// outside the domain, too.
-    fn code(&self, _chart: usize, _point: &[f64]) -> Option<Code> {
-        None
+    /// The f64 step for one datum: its code, or `None` where that is not proved, or outside the domain. A family may
+    /// have it without the work of making a grid.
+    fn code(&self, chart: usize, point: &[f64]) -> Option<Code> {
+        let grid = single(self.about(), chart, point).ok()?;
+        let mut code = [Code::UNDECIDED];
+        self.table(&grid).ok()?.filter(0, &mut code);
+        code[0].decided()
     }
     /// Proofs over whole boxes of data, where the family has them.
     fn region(&self) -> Option<&dyn Region> {
@@ -244,6 +252,12 @@ pub(crate) fn wrong_count(given: usize, must: usize) -> Error {
     Error::domain("the number of coordinates of the datum", given as f64, must.to_string())
 }
 
+/// The grid of one node.
+fn single(about: &About, chart: usize, point: &[f64]) -> Result<Grid> {
+    let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
+    Grid::new(about.charts[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)
+}
+
 /// The code of one datum, as a grid of one node has it.
 ///
 /// # Errors
@@ -251,15 +265,10 @@ pub(crate) fn wrong_count(given: usize, must: usize) -> Error {
 /// precision cap.
 pub fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
     demand_ieee()?;
-    if let Some(code) = family.code(chart, point) {
-        return Ok(code);
+    match family.code(chart, point) {
+        Some(code) => Ok(code),
+        None => Ok(family.table(&single(family.about(), chart, point)?)?.exact(0)?.0),
     }
-    let axis = |(name, x): (&&str, &f64)| Axis::new(name, Spacing::Values(vec![*x]));
-    let grid = Grid::new(family.about().charts[chart].axes.iter().zip(point).map(axis).collect::<Result<_>>()?)?;
-    let table = family.table(&grid)?;
-    let mut code = [Code::UNDECIDED];
-    table.filter(0, &mut code);
-    if code[0] == Code::UNDECIDED { Ok(table.exact(0)?.0) } else { Ok(code[0]) }
 }
 
 /// A family on one grid.

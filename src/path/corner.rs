@@ -3,7 +3,7 @@
 
 use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
-use crate::error::{Error, Result, above_zero};
+use crate::error::{Error, OTHER_UNIT, Result, above_zero};
 use num_complex::Complex64;
 
 /// A path of two straight legs turns: half the turning angle θ, as cosine c and sine s.
@@ -135,9 +135,7 @@ impl Turn {
         let curve = PhQuintic::between(pair(complex(at) - first), pair(complex(at) + last), self.preimage(reach));
         match curve.is_finite() {
             true => Ok(curve),
-            false => {
-                Err(Error::invalid(format!("corner: a curve of reach {reach:?} at {at:?} leaves the range of doubles")))
-            }
+            false => Err(Error::beyond_doubles(format!("corner: a curve of reach {reach:?} at {at:?}"), OTHER_UNIT)),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::tridiagonal::Tridiagonal;
 use super::{complex, finite, pair};
 use crate::curve::PhQuintic;
-use crate::error::{Error, Result};
+use crate::error::{Error, OTHER_UNIT, Result};
 use crate::plain::count;
 use num_complex::Complex64;
 
@@ -92,9 +92,7 @@ fn checked(points: &[[f64; 2]], closed: bool) -> Result<Vec<[f64; 2]>> {
         ));
     }
     if let Some(i) = all.windows(2).position(|w| !(w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]).is_finite()) {
-        return fail(format!(
-            "the distance from points[{i}] to the next leaves the range of doubles (change the unit of length)"
-        ));
+        return Err(Error::beyond_doubles(format!("the distance from points[{i}] to the next"), OTHER_UNIT));
     }
     Ok(all)
 }

@@ -5,7 +5,7 @@ use super::placement::{Ends, Placement};
 use super::why::{NonSpiral, Why, chosen_or_why};
 use crate::curve::CubicBezier;
 use crate::curve::arc_length;
-use crate::error::{Error, Result};
+use crate::error::{Error, OTHER_UNIT, Result};
 use crate::family::cubic::{Datum, Root, solve};
 use serde::Serialize;
 use std::fmt;
@@ -162,9 +162,7 @@ impl Solution {
         ));
         let mut all = control_points.p.iter().chain(&local_control_points.p).chain(&legs);
         if !all.all(|p| p[0].is_finite() && p[1].is_finite()) {
-            return Err(Error::invalid(format!(
-                "the cubic of the root ({f0:?}, {f1:?}) leaves the range of doubles; change the unit of length"
-            )));
+            return Err(Error::beyond_doubles(format!("the cubic of the root ({f0:?}, {f1:?})"), OTHER_UNIT));
         }
         let length = arc_length(|t| of_legs(&legs, t).speed(), 0.0, 1.0);
         // A proved spiral has none; rounding must not say otherwise.

@@ -81,18 +81,20 @@ pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
     }
 }
 
+/// Ends that a spiral of each kind joins.
+#[cfg(test)]
+pub(super) const ENDS: Ends = Ends {
+    start: [0.0, 0.0],
+    end: [200.0, 0.0],
+    start_direction: -0.7,
+    end_direction: 1.4,
+    start_curvature: 0.004,
+    end_curvature: 0.04,
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const ENDS: Ends = Ends {
-        start: [0.0, 0.0],
-        end: [200.0, 0.0],
-        start_direction: -0.7,
-        end_direction: 1.4,
-        start_curvature: 0.004,
-        end_curvature: 0.04,
-    };
 
     #[test]
     fn each_kind_has_its_spiral_or_a_reason() {

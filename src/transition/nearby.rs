@@ -138,15 +138,7 @@ impl Around<'_> {
 mod tests {
     use super::*;
     use crate::transition::fit;
-
-    const ENDS: Ends = Ends {
-        start: [0.0, 0.0],
-        end: [200.0, 0.0],
-        start_direction: -0.7,
-        end_direction: 1.4,
-        start_curvature: 0.004,
-        end_curvature: 0.04,
-    };
+    use crate::transition::fit::ENDS;
 
     /// A little out of the region, far out, at directions of no spiral, and with a straight end.
     #[test]

@@ -4,7 +4,7 @@ use super::none::NoSpiral;
 use super::placement::{Ends, Placement};
 use super::why::{Why, bends, chosen_or_why};
 use crate::curve::PhQuintic;
-use crate::error::{Error, Result};
+use crate::error::{Error, OTHER_UNIT, Result};
 use crate::family::cubic::Datum;
 use crate::family::ph_quintic::{Quintic, SPIRAL, flags, solve};
 use serde::Serialize;
@@ -119,9 +119,7 @@ impl PhSolution {
         let control_points = curve.control_points();
         let (user, local) = (placement.to_user(&control_points), placement.to_user_local(&control_points));
         if !user.iter().chain(&local).flatten().all(|x| x.is_finite()) {
-            return Err(Error::invalid(format!(
-                "the solution with A = {a:?}, B = {b:?} leaves the range of doubles; change the unit of length"
-            )));
+            return Err(Error::beyond_doubles(format!("the solution with A = {a:?}, B = {b:?}"), OTHER_UNIT));
         }
         Ok(PhSolution {
             a: *a,

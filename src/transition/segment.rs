@@ -6,7 +6,7 @@ use super::placement::{Ends, Placement};
 use super::words::{above, degrees};
 use crate::curve::vector::{Vector, add, scale, sub, turn};
 use crate::curve::{CubicBezier, PhQuintic};
-use crate::error::{Error, Result, finite, positive, written};
+use crate::error::{Error, OTHER_UNIT, Result, finite, positive, written};
 use crate::family::reach::{Datum, Kind, Level, legs, level_of_shape, preimage, solve};
 use serde::{Deserialize, Serialize};
 
@@ -175,18 +175,13 @@ pub fn add_segment(kind: Kind, request: &Request) -> Result<std::result::Result<
         *end = point;
     }
     if !control_points.iter().flatten().all(|x| x.is_finite()) {
-        let what = format!(
-            "the segment from {start:?} with the radius {radius:?} leaves the range of doubles; change the unit of \
-             length"
-        );
-        return Err(Error::invalid(what));
+        let what = format!("the segment from {start:?} with the radius {radius:?}");
+        return Err(Error::beyond_doubles(what, OTHER_UNIT));
     }
     let piece = piece(kind, &frame, preimage(case, theta, m, q), &control_points, &legs);
     let length = piece.length();
     if !length.is_finite() {
-        return Err(Error::invalid(format!(
-            "the segment's length is {length:?}, outside the range of doubles (change the unit of length)"
-        )));
+        return Err(Error::beyond_doubles("the segment's length", OTHER_UNIT));
     }
     let end_direction = direction + if frame.right { -theta } else { theta };
     Ok(Ok(Added {

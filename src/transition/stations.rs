@@ -2,7 +2,7 @@
 
 use super::piece::Piece;
 use crate::curve::{arc_length, parameter_of};
-use crate::error::{Error, Result, samples};
+use crate::error::{Error, OTHER_UNIT, Result, samples};
 use serde::Serialize;
 
 /// A point of a path and what is known there, in the user's units. As JSON, heading and curvature are null where the
@@ -69,9 +69,7 @@ pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
             let told = if at.heading.is_nan() { 3 } else { 5 };
             let beyond = found.numbers().iter().take(told).position(|x| !x.is_finite());
             if let Some(name) = beyond.map(|i| Station::COLUMNS[i]) {
-                return Err(Error::invalid(format!(
-                    "the {name} of sample {n} is beyond the range of doubles; change the unit of length"
-                )));
+                return Err(Error::beyond_doubles(format!("the {name} of sample {n}"), OTHER_UNIT));
             }
             all.push(found);
         }

@@ -5,7 +5,7 @@ use super::{EndCircle, Sample, Turn};
 use crate::curve::Jet;
 use crate::curve::TrigBezier;
 use crate::curve::vector::{add, turn};
-use crate::error::{Error, Result, finite, positive, samples, written};
+use crate::error::{Error, OTHER_UNIT, Result, finite, positive, samples, written};
 use crate::family::trig_quintic::Scaling;
 use crate::family::trig_quintic::{SPIRAL, Shape, flags, least_ratio};
 use crate::num::roots::find;
@@ -134,8 +134,7 @@ pub fn path(request: &Request) -> Result<std::result::Result<Path, NoSpirals>> {
     let place = |part: &Part| Part { curve: part.curve.mapped(add(at, map(part.curve.start)), map), ..*part };
     let parts: Vec<Part> = local.iter().map(place).collect();
     if !parts.iter().flat_map(|part| part.curve.points()).flatten().all(|x| x.is_finite()) {
-        let what = format!("the curve through {at:?} leaves the range of doubles; change the unit of length");
-        return Err(Error::invalid(what));
+        return Err(Error::beyond_doubles(format!("the curve through {at:?}"), OTHER_UNIT));
     }
     let hand = if side == Turn::Right { -1.0 } else { 1.0 };
     let circles = circles(&parts, &round.map(|k| hand * k));

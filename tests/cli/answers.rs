@@ -304,6 +304,22 @@ fn tables_of_spreadsheets_are_read() {
     assert_eq!(comma.err, "error: row 2 of 2 is bad; its answer says why\n");
 }
 
+/// Names of families in letters of either size. A number that is none: the comma is told where it is the fault.
+#[test]
+fn names_and_numbers_as_they_are_typed() {
+    let datum = |kappa0: &'static str| format!("--phi0 0.7 --phi1 1.4 --kappa0 {kappa0} --kappa1 4");
+    let plain = ask("ph-quintic", &datum("0.4"), &["--json"]);
+    let large = ask("PH-Quintic", &datum("0.4"), &["--json"]);
+    assert!(plain.code == Some(0) && large.out == plain.out, "{}{}", plain.err, large.err);
+    let comma = ask("cubic", &datum("0,4"), &[]);
+    assert!(comma.code == Some(2) && comma.err.contains("write 0.4, with a point"), "{}", comma.err);
+    for (number, way_out) in [("0,4", "write 0.4, with a point"), ("much", "write it like 0.5, -3 or 1e-3")] {
+        let said = run(["export", "lattice", "--distinctness", number]);
+        let told = said.err.contains(way_out) && said.err.matches("write").count() == 1;
+        assert!(said.code == Some(2) && told, "{}", said.err);
+    }
+}
+
 #[test]
 fn whoever_sends_a_row_gets_its_answer_before_the_next() {
     let mut child =

@@ -38,6 +38,17 @@ impl<const N: usize> Subject<N> {
         self.family.region().unwrap().facts(self.chart, &low, &high, u8::MAX)
     }
 
+    /// Of a box some flags are known; beyond the domain, and where a number is none, nothing is said.
+    pub(crate) fn says_nothing_outside(&self, all: [[f64; 2]; N], known: u32, outside: &[(usize, [f64; 2])]) {
+        assert_eq!((self.facts(&all).inside | self.facts(&all).outside).count_ones(), known);
+        for (which, side) in outside {
+            let mut sides = all;
+            sides[*which] = *side;
+            let facts = self.facts(&sides);
+            assert_eq!((facts.inside, facts.outside), (0, 0), "{side:?}");
+        }
+    }
+
     /// The flags of all nodes of a product of values, by the ladder; none of those outside the family's domain.
     fn flags(&self, values: &[Vec<f64>; N]) -> Vec<Option<u8>> {
         let names = self.family.about().charts[self.chart].axes;

@@ -93,15 +93,12 @@ fn other(random: &mut Random, first: f64, i: u64) -> f64 {
     if near.abs() < 1e-9 { 0.0 } else { near.clamp(-PI, PI) }
 }
 
-#[test]
-fn lengths_agree_with_sampling() {
-    let mut random = Random(7);
+/// Checks so many data: most are decided by doubles, and some have each flag, but not all.
+fn check_many(family: PhPath, seed: u64, count: u64, draw: fn(&mut Random, u64) -> Vec<f64>) {
+    let mut random = Random(seed);
     let (mut kinds, mut quick) = ([0; 4], 0);
-    let count = 32;
     for i in 0..count {
-        let first = angle(&mut random, i);
-        let length = 1.0 + random.decades(if i % 5 == 0 { -5.9 } else { -2.0 }, 1.0);
-        let found = check(LENGTH, &[first, other(&mut random, first, i), length]);
+        let found = check(family, &draw(&mut random, i));
         quick += u64::from(found.quick);
         for (bit, kind) in kinds.iter_mut().enumerate() {
             *kind += u32::from(found.flags >> bit & 1);
@@ -115,26 +112,23 @@ fn lengths_agree_with_sampling() {
 }
 
 #[test]
+fn lengths_agree_with_sampling() {
+    check_many(LENGTH, 7, 32, |random, i| {
+        let first = angle(random, i);
+        let length = 1.0 + random.decades(if i % 5 == 0 { -5.9 } else { -2.0 }, 1.0);
+        vec![first, other(random, first, i), length]
+    });
+}
+
+#[test]
 fn speeds_agree_with_sampling() {
-    let mut random = Random(11);
-    let (mut kinds, mut quick) = ([0; 4], 0);
-    let count = 48;
-    for i in 0..count {
-        let first = angle(&mut random, i);
+    check_many(SPEEDS, 11, 48, |random, i| {
+        let first = angle(random, i);
         let wide = if i % 5 == 0 { 5.0 } else { 1.0 };
         let l0 = random.decades(-wide, wide);
         let l1 = if i % 8 < 4 { l0 } else { random.decades(-wide, wide) };
-        let found = check(SPEEDS, &[first, other(&mut random, first, i), l0, l1]);
-        quick += u64::from(found.quick);
-        for (bit, kind) in kinds.iter_mut().enumerate() {
-            *kind += u32::from(found.flags >> bit & 1);
-        }
-    }
-    println!("{kinds:?} {quick}");
-    assert!(
-        kinds[1..].iter().all(|k| *k > 5 && u64::from(*k) < count - 5) && quick * 10 > count * 7,
-        "{kinds:?} {quick}"
-    );
+        vec![first, other(random, first, i), l0, l1]
+    });
 }
 
 /// Both ends of such curves bend alike to the last bit of doubles, and beyond.

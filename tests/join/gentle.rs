@@ -2,7 +2,14 @@
 
 use super::check::check;
 use super::{FAMILIES, Random, found, state};
-use spiral_atlas::transition::join::{End, Family, Objective, Request};
+use spiral_atlas::transition::join::{End, Family, Join, Objective, Request};
+
+/// The join that is found, after all checks of one.
+fn checked(request: &Request) -> Join {
+    let join = found(request);
+    check(request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
+    join
+}
 
 /// The path between states that lie nearly ahead of each other is hardly longer than the straight line, whatever the
 /// limit of curvature has room for.
@@ -18,8 +25,7 @@ fn what_hardly_turns_is_hardly_longer() {
             let [aside, from, to] = [small(0.05 * apart), small(0.05), small(0.05)];
             let request =
                 Request { family, ..Request::new(state(0.0, 0.0, from, 0.0), state(apart, aside, to, 0.0), limit) };
-            let join = found(&request);
-            check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
+            let join = checked(&request);
             let ratio = join.measures.length / apart.hypot(aside);
             worst = worst.max(ratio);
         }
@@ -46,8 +52,7 @@ fn lines_side_by_side() {
             let (x, (sin, cos)) = (random.between(-90.0, 90.0), direction.sin_cos());
             let to = line(x * cos - side * sin, x * sin + side * cos, direction);
             let request = Request { family, ..Request::new(line(0.0, 0.0, direction), to, 1.0) };
-            let join = found(&request);
-            check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
+            let join = checked(&request);
             let arcs = 2.0 * (1.0 - 0.5 * apart).acos();
             worst = worst.max(join.measures.length / arcs.max(0.2));
         }
@@ -69,8 +74,7 @@ fn gentle_joins_of_lines_take_the_length_they_may_have() {
             {
                 let from = line(0.0, 0.0, 0.0);
                 let request = Request { family, objective, longest: 300.0, ..Request::new(from, to, 0.01) };
-                let join = found(&request);
-                check(&request, &join).unwrap_or_else(|e| panic!("{request:?}: {e}: {join:?}"));
+                let join = checked(&request);
                 assert!(join.measures.length > 290.0 && join.pieces.len() as f64 == spirals, "{family:?}: {join:?}");
                 let off = join.measures.greatest_curvature / bend;
                 // Trigonometric spirals bend sharply near their round end.

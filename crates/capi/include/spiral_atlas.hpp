@@ -70,6 +70,20 @@ inline std::size_t rows(View<const double> points, std::size_t axes) {
     return points.size() / axes;
 }
 
+inline const char *optional(const std::string &text) { return text.empty() ? nullptr : text.c_str(); }
+
+/// How many data of a chart a list of coordinates holds.
+inline std::size_t count_data(const std::string &family, const std::string &chart, View<const double> data) {
+    std::size_t axes = 0;
+    check(spiral_family_axes(family.c_str(), optional(chart), &axes));
+    return rows(data, axes);
+}
+
+/// A datum must have as many coordinates as the chart has axes.
+inline void check_datum(const std::string &family, const std::string &chart, View<const double> datum) {
+    if (count_data(family, chart, datum) != 1) throw Error(SPIRAL_ARGUMENT, "one datum is needed");
+}
+
 template <typename T, void (*close)(T *)> struct Close {
     void operator()(T *handle) const noexcept { close(handle); }
 };
@@ -208,12 +222,9 @@ class Answer {
 public:
     /// `datum` are the coordinates in the order of the chart's axes; an empty `chart` is the family's first.
     Answer(const std::string &family, View<const double> datum, const std::string &chart = {}) {
-        const char *which = chart.empty() ? nullptr : chart.c_str();
-        std::size_t axes = 0;
-        detail::check(spiral_family_axes(family.c_str(), which, &axes));
-        if (detail::rows(datum, axes) != 1) throw Error(SPIRAL_ARGUMENT, "more than one datum");
+        detail::check_datum(family, chart, datum);
         SpiralAnswer *answer = nullptr;
-        detail::check(spiral_solve(family.c_str(), which, datum.data(), &answer));
+        detail::check(spiral_solve(family.c_str(), detail::optional(chart), datum.data(), &answer));
         handle_.reset(answer);
         detail::check(spiral_answer_verdict(answer, &flags_, &counts_, &solutions_, &chosen_));
     }
@@ -261,13 +272,10 @@ struct Verdicts {
 /// The verdicts of data, one after another in `data`; `threads` 0 stands for all cores.
 inline Verdicts solve_batch(const std::string &family, View<const double> data, std::size_t threads = 0,
                             const std::string &chart = {}) {
-    const char *which = chart.empty() ? nullptr : chart.c_str();
-    std::size_t axes = 0;
-    detail::check(spiral_family_axes(family.c_str(), which, &axes));
-    const std::size_t count = detail::rows(data, axes);
+    const std::size_t count = detail::count_data(family, chart, data);
     Verdicts all{std::vector<std::uint8_t>(count), std::vector<std::uint8_t>(count)};
-    detail::check(spiral_solve_batch(family.c_str(), which, data.data(), count, threads, all.flags.data(),
-                                     all.solutions.data(), nullptr));
+    detail::check(spiral_solve_batch(family.c_str(), detail::optional(chart), data.data(), count, threads,
+                                     all.flags.data(), all.solutions.data(), nullptr));
     return all;
 }
 
@@ -281,18 +289,15 @@ struct Curves : Verdicts {
 /// `solve_batch`, with curves; an Error where the curves of the family have no control points.
 inline Curves solve_batch_curves(const std::string &family, View<const double> data, std::size_t threads = 0,
                                  const std::string &chart = {}) {
-    const char *which = chart.empty() ? nullptr : chart.c_str();
-    std::size_t axes = 0;
-    detail::check(spiral_family_axes(family.c_str(), which, &axes));
-    const std::size_t count = detail::rows(data, axes);
+    const std::size_t count = detail::count_data(family, chart, data);
     Curves all;
     detail::check(spiral_family_control_points(family.c_str(), &all.each));
     all.flags.resize(count), all.solutions.resize(count);
     // One more, so that there is a place even for none.
     all.control_points.resize(count * all.each + 1);
     auto *room = reinterpret_cast<double(*)[2]>(all.control_points.data());
-    detail::check(spiral_solve_batch(family.c_str(), which, data.data(), count, threads, all.flags.data(),
-                                     all.solutions.data(), room));
+    detail::check(spiral_solve_batch(family.c_str(), detail::optional(chart), data.data(), count, threads,
+                                     all.flags.data(), all.solutions.data(), room));
     all.control_points.pop_back();
     return all;
 }

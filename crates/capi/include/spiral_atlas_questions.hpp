@@ -10,19 +10,6 @@
 
 namespace spiral_atlas {
 
-namespace detail {
-
-inline const char *optional(const std::string &text) { return text.empty() ? nullptr : text.c_str(); }
-
-/// A datum must have as many coordinates as the chart has axes.
-inline void check_datum(const std::string &family, const std::string &chart, View<const double> datum) {
-    std::size_t axes = 0;
-    check(spiral_family_axes(family.c_str(), optional(chart), &axes));
-    if (rows(datum, axes) != 1) throw Error(SPIRAL_ARGUMENT, "one datum is needed");
-}
-
-} // namespace detail
-
 using Range = SpiralRange;
 
 /// All that is known of a property along one coordinate.

@@ -75,7 +75,7 @@ pub(super) fn code(chart: usize, point: &[f64; 4]) -> Option<Code> {
     let prepared = Prepared::new(point[0], point[1])?;
     let mut code = [Code::UNDECIDED];
     dispatch!(level(), simd => alone(simd, chart == 1, &prepared, point, &mut code));
-    Some(code[0]).filter(|code| *code != Code::UNDECIDED)
+    code[0].decided()
 }
 
 #[inline(always)]

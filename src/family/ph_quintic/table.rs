@@ -75,7 +75,7 @@ pub(super) fn code(&[phi0, phi1, kappa0, kappa1]: &[f64; 4]) -> Option<Code> {
     if code[0] == Code::UNDECIDED {
         code[0] = one(&pair, &[phi0, phi1, kappa0, kappa1, 0.0], kappa1);
     }
-    Some(code[0]).filter(|code| *code != Code::UNDECIDED)
+    code[0].decided()
 }
 
 #[inline(always)]

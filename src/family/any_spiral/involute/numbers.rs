@@ -7,13 +7,11 @@ use super::half::Half;
 use crate::error::Result;
 use crate::num::{Angle, Interval, Number, Real, TWIN_BITS, Twin, climb, formula};
 use std::cmp::Ordering::Less;
-use std::f64::consts::PI;
 
 /// All numbers that the curve is made of, rounded.
 #[derive(Debug, PartialEq)]
 pub(super) struct Numbers {
     pub theta: f64,
-    pub beyond: f64,
     pub t0: f64,
     pub rho: f64,
     pub lambda: f64,
@@ -175,12 +173,8 @@ impl Numbers {
         let start = End { side: 1.0, t: t1, scale, q: factor(&alpha, &inverse, ahead) };
         let (last, scale) = (formula!(t0 + theta), inverse.over(half_chord)?);
         let end = End { side: -1.0, t: &last, scale, q: factor(&beta, rho, &formula!(omega - theta)) };
-        // θ from the nearest multiple of π.
-        let nearest = theta.nearest()?;
-        let turns = (nearest / PI).round();
         Some(Numbers {
-            theta: nearest,
-            beyond: formula!(theta - N::pi(bits) * { turns }).nearest()?,
+            theta: theta.nearest()?,
             t0: t0.nearest()?,
             rho: rho.nearest()?.clamp(f64::MIN_POSITIVE, f64::MAX),
             lambda: lambda.nearest()?,
@@ -233,6 +227,7 @@ mod tests {
     use super::*;
     use crate::noise::Noise;
     use std::f64::consts::FRAC_PI_2;
+    use std::f64::consts::PI;
 
     /// Both rungs beside each other: how many data there were, and of how many the first rung told the numbers.
     #[derive(Debug, Default)]

@@ -16,7 +16,6 @@ use std::f64::consts::{PI, TAU};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Involute {
     theta: f64,
-    beyond: f64,
     t0: f64,
     rho: f64,
     lambda: f64,
@@ -120,18 +119,13 @@ fn total(datum: &Datum, half_turns: u32, bits: usize) -> Interval {
 
 impl Involute {
     fn new(n: Numbers, turns: [u32; 2], mirrored: bool) -> Involute {
-        let Numbers { theta, beyond, t0, rho, lambda, halves } = n;
-        Involute { theta, beyond, t0, rho, lambda, turns, mirrored, tracks: halves.map(Track::new) }
+        let Numbers { theta, t0, rho, lambda, halves } = n;
+        Involute { theta, t0, rho, lambda, turns, mirrored, tracks: halves.map(Track::new) }
     }
 
     /// θ: half the range of the involute's parameter, radians; nearest double.
     pub fn theta(&self) -> f64 {
         self.theta
-    }
-
-    /// θ less the nearest multiple of π, the nearest double too, where θ itself shows little of it (small |Q|).
-    pub fn theta_beyond(&self) -> f64 {
-        self.beyond
     }
 
     /// t0: middle of the range of the involute's parameter, radians.
