@@ -162,8 +162,8 @@ impl<N: Real> Hodograph<N> {
         if t.approx() <= 0.0 || t.approx() >= 1.0 {
             return t;
         }
-        // Each step doubles the digits of what doubles gave.
-        for _ in 0..(self.bits() / 26).ilog2() {
+        // Each step doubles the digits of what doubles gave, which is half of theirs: values are level at a peak.
+        for _ in 0..(self.bits() / 26).next_power_of_two().ilog2() {
             let [[speed, rise, lift], [turn, bent, bend]] = self.jets(&t);
             let f = formula!(speed * bent - 2.0 * (turn * rise));
             let slope = formula!(speed * bend - rise * bent - 2.0 * (turn * lift));

@@ -44,13 +44,16 @@ impl<N: Real> Hodograph<N> {
                 || at >= 1.0 && slopes.iter().all(|x| certain(x, Greater))
             {
                 0.0
-            } else if slopes.windows(2).all(|x| certain(&x[1].sub(&x[0]), Less)) {
-                self.slope(t).most() * piece.slowest()?.powi(-3) * reach * GROW + f64::MIN_POSITIVE
+            } else if slopes.windows(2).all(|x| certain(&x[1].sub(&x[0]), Less))
+                && let Some(slowest) = piece.slowest()
+            {
+                self.slope(t).most() * slowest.powi(-3) * reach * GROW + f64::MIN_POSITIVE
             } else {
                 continue;
             };
+            // A shorter piece may be faster, and leaves less room in any case.
             if over > value.mul(margin).approx() {
-                return None;
+                continue;
             }
             let lower = others.iter().flatten().all(|arc| matches!(arc.below(&most, 0), Bound::Below));
             return lower.then(|| value.union(&value.add(&N::of(over, value.bits()))));

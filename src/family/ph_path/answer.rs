@@ -1,7 +1,7 @@
 //! What `query` reports of one datum.
 
 use super::datum::{Datum, check};
-use super::truth::{Best, Greatest, Known, best, greatest_of_each, least};
+use super::truth::{Best, Greatest, Known, best, greatest_of, least};
 use super::{Kind, PhPath};
 use crate::curve::vector::{length, sub};
 use crate::curve::{Candidate, Choice, EqualLength, Hermite, equal_length, hermite};
@@ -24,7 +24,7 @@ pub(super) fn answer(kind: Kind, point: &[f64]) -> Result<Answer> {
     let choice = solutions(&datum)?;
     let middle = |i: usize| choice.candidates[i].curve.preimage[1];
     let chosen = chosen(&datum, &middle)?;
-    let by_twins = greatest_of_each::<Twin>(&datum, TWIN_BITS).unwrap_or_default();
+    let by_twins = greatest_of::<Twin>(&datum, TWIN_BITS, |_| true).unwrap_or_default();
     let mut solutions = Vec::with_capacity(choice.candidates.len());
     for (i, candidate) in choice.candidates.iter().enumerate() {
         // Doubles call a curve irregular that comes near to standing still.
@@ -75,7 +75,7 @@ fn greatest(
         None if !by_twins.is_empty() => return Ok(0.0),
         _ => {}
     }
-    let attempt = |bits| match greatest_of_each::<Interval>(datum, bits)?.into_iter().find(|(known, _)| is(known)) {
+    let attempt = |bits| match greatest_of::<Interval>(datum, bits, is)?.into_iter().next() {
         Some((_, most)) => most?.to_f64(),
         None => Some(0.0),
     };

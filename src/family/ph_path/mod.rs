@@ -20,10 +20,10 @@ mod curves;
 mod datum;
 mod range;
 mod shader;
-#[cfg(test)]
-mod steps;
 mod straight;
 mod table;
+#[cfg(test)]
+mod tests;
 mod truth;
 
 pub(crate) use range::{Candidate, Search};

@@ -139,10 +139,16 @@ fn greatest<N: Real>(seen: &Seen<'_, N>, bits: usize) -> Option<N> {
     seen.part.greatest(seen.at, &margin)
 }
 
-/// The greatest |κ| of each solution that bends, mirror images left out; `None` where the precision does not suffice.
-pub(super) fn greatest_of_each<N: Turned>(datum: &Datum, bits: usize) -> Option<Vec<(Known, Option<N>)>> {
+/// The greatest |κ| of each wanted solution that bends, mirror images left out; `None` where the precision does not
+/// suffice.
+pub(super) fn greatest_of<N: Turned>(
+    datum: &Datum,
+    bits: usize,
+    wanted: impl Fn(&Known) -> bool,
+) -> Option<Vec<(Known, Option<N>)>> {
     let curves = curves::<N>(datum, bits)?;
-    Some(curves.bent.iter().map(|curve| (Known::new(curve, &curves), greatest(&seen(curve), bits))).collect())
+    let known = curves.bent.iter().map(|curve| (Known::new(curve, &curves), curve));
+    Some(known.filter(|(known, _)| wanted(known)).map(|(known, curve)| (known, greatest(&seen(curve), bits))).collect())
 }
 
 /// The solutions that bend least; `None` where the precision does not suffice.
