@@ -127,7 +127,6 @@ pub unsafe extern "C" fn spiral_fit(
 /// # Safety
 /// `start`, `end`, `kind`, `objective` and `curve` are null or valid; `kind` and `objective` end with a zero byte.
 #[unsafe(no_mangle)]
-#[expect(clippy::too_many_arguments, reason = "C has no optional arguments")]
 pub unsafe extern "C" fn spiral_join(
     start: *const SpiralEnd,
     end: *const SpiralEnd,
