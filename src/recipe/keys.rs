@@ -63,7 +63,7 @@ fn look(title: &str, usual: &str, whose: &str) -> [Key; 3] {
             &format!("`{DPI}`"),
             &format!(
                 "Pixels per inch. At {twice} dpi the same picture has twice as many pixels each way. The PNG file \
-                 tells the number, so that {whose} prints at the same size."
+                 states the number, so that {whose} prints at the same size."
             ),
         ),
     ]

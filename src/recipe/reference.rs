@@ -124,7 +124,7 @@ pub fn reference() -> String {
          A recipe is a [TOML](https://toml.io) file. It says which atlases to make and which pictures to draw of \
          them:\n\n\
          ```sh\nspiral-atlas generate recipe.toml\n```\n\n\
-         A mistake in a recipe is told with its line and column, and the exit status is 2.\n",
+         A mistake in a recipe is reported with its line and column, and the exit status is 2.\n",
     );
     page += "\n## Examples\n";
     for (about, recipe) in EXAMPLES {
