@@ -173,7 +173,7 @@ static void joins(void) {
     CHECK(spiral_join(&start, &end, 0.0166, NULL, NULL, 100, SIZE_MAX, &curve) == SPIRAL_NONE && says("100"));
     CHECK(spiral_join(&start, &end, 0, NULL, NULL, INFINITY, 9, &curve) == SPIRAL_DOMAIN && says("greatest curvature"));
     CHECK(spiral_join(&start, &end, 0.0166, "arc", NULL, INFINITY, 9, &curve) == SPIRAL_DOMAIN &&
-          says("the kind is `arc`; it must be cubic, ph-quintic, trig-quintic, involute or clothoid"));
+          says("the kind is `arc`; it must be cubic, ph-quintic, involute, trig-quintic or clothoid"));
     CHECK(spiral_join(&start, &end, 0.0166, NULL, "beauty", INFINITY, 9, &curve) == SPIRAL_DOMAIN &&
           says("`beauty`; it must be length, greatest-curvature, greatest-rate or bending-energy"));
     CHECK(spiral_join(&start, &end, 0.0166, NULL, "\xff", INFINITY, 9, &curve) == SPIRAL_ARGUMENT &&
