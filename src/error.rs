@@ -147,13 +147,11 @@ impl Error {
         Error::Domain(Domain::Angle { what: what.into(), value, limit: limit.into(), way_out: way_out.into() })
     }
 
-    /// A name that is none of those known: "the {what} is `{name}`; it must be a, b or c".
-    pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Error {
-        let known = match known {
-            [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
-            _ => known.concat(),
-        };
-        Error::invalid(format!("the {what} is `{name}`; it must be {known}"))
+    /// A number of an answer that leaves the range of doubles, with the datum.
+    pub(crate) fn extreme<'a>(what: &str, datum: impl IntoIterator<Item = (&'a str, f64)>) -> Error {
+        let datum: Vec<String> = datum.into_iter().map(|(name, x)| format!("{name} = {x:?}")).collect();
+        let datum = datum.join(", ");
+        Error::invalid(format!("{what} leaves the range of doubles for {datum}; choose less extreme numbers"))
     }
 
     /// A number too large or too small for a double: "{what} leaves the range of doubles; {way_out}".
@@ -184,6 +182,18 @@ impl Error {
         let path = path.into();
         move |source| Error::Io { path, source }
     }
+}
+
+/// The one of all that has a name, else the error "the {what} is `{name}`; it must be a, b or c".
+pub(crate) fn by_name<T: Copy>(what: &str, name: &str, all: &[T], name_of: impl Fn(T) -> &'static str) -> Result<T> {
+    all.iter().copied().find(|one| name_of(*one) == name).ok_or_else(|| {
+        let known: Vec<&str> = all.iter().map(|one| name_of(*one)).collect();
+        let known = match &known[..] {
+            [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+            _ => known.concat(),
+        };
+        Error::invalid(format!("the {what} is `{name}`; it must be {known}"))
+    })
 }
 
 /// Refuses a number that is not finite.
@@ -271,9 +281,15 @@ mod tests {
         assert_eq!(error.to_string(), "paths[2]: the radius is 0; it must be finite and above 0 (change the unit)");
         let error = Error::angle("phi0", 4.0, "below pi", "radians").at("line 3");
         assert_eq!(error.to_string(), "line 3: phi0 is 4 (229.183118 degrees); it must be below pi (radians)");
-        let error = |known| Error::unknown("kind", "x", known).to_string();
+        let error = |known: &[&'static str]| by_name("kind", "x", known, |one| one).unwrap_err().to_string();
         assert_eq!(error(&["a"]), "the kind is `x`; it must be a");
         assert_eq!(error(&["a", "b", "c"]), "the kind is `x`; it must be a, b or c");
+        assert_eq!(by_name("kind", "b", &["a", "b"], |one| one).unwrap(), "b");
+        let error = Error::extreme("the length", [("theta", 1.0), ("xi", 1e300)]).to_string();
+        assert_eq!(
+            error,
+            "the length leaves the range of doubles for theta = 1.0, xi = 1e300; choose less extreme numbers"
+        );
         assert_eq!(Error::NoPath("none".into()).at("x").to_string(), "x: none");
         assert!(finite("x", f64::NAN).is_err() && positive("x", f64::INFINITY).is_err());
         assert!(samples(1).is_err() && samples(2).is_ok() && samples(LARGEST).is_ok());

@@ -1,7 +1,7 @@
 //! What is proved of one cell.
 
 use super::tree::{Known, MOST_AXES};
-use crate::family::{Facts, Family, Region};
+use crate::family::{self, Facts, Family, Region};
 use std::collections::VecDeque;
 
 /// Most boxes that are tried for a cell before it is MIXED.
@@ -71,7 +71,7 @@ impl Prover {
     fn crosses(&self, cell: &Bounds, flag: u8) -> bool {
         let has = |corner: usize| {
             let point: [f64; MOST_AXES] = std::array::from_fn(|i| cell[corner >> i & 1][i]);
-            Some(self.family.code(self.chart, &point[..self.axes])?.flags() & flag != 0)
+            Some(family::quick(self.family, self.chart, &point[..self.axes])?.flags() & flag != 0)
         };
         // Opposite corners first, which differ most.
         let mut known = (0..1 << (self.axes - 1)).flat_map(|i| [i, (1 << self.axes) - 1 - i]).filter_map(has);

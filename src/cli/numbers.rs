@@ -14,15 +14,20 @@ type Parsed<T> = std::result::Result<T, String>;
 
 /// A number.
 pub(super) fn number(text: &str) -> Parsed<f64> {
-    parse_number(text).map_err(|e| match e {
-        Error::Domain(Domain::NoNumber { instead: Some(_), .. }) => e.to_string(),
-        _ => format!("{e}; write it like 0.5, -3 or 1e-3"),
-    })
+    parse_number(text).map_err(|e| advised(&e, "write it like 0.5, -3 or 1e-3"))
+}
+
+/// A mistake with an advice, unless the mistake says itself what to write.
+fn advised(error: &Error, advice: &str) -> String {
+    match error {
+        Error::Domain(Domain::NoNumber { instead: Some(_), .. }) => error.to_string(),
+        _ => format!("{error}; {advice}"),
+    }
 }
 
 /// A curvature: a number, or `1/radius`.
 pub(super) fn curvature(text: &str) -> Parsed<f64> {
-    parse_curvature(text).map_err(|e| format!("{e}; write a curvature like 0.004, or 1/250 for a radius of 250"))
+    parse_curvature(text).map_err(|e| advised(&e, "write a curvature like 0.004, or 1/250 for a radius of 250"))
 }
 
 /// What to ask whoever gives curvatures so large that they must be radii; nothing where none is.

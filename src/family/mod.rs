@@ -181,16 +181,8 @@ pub trait Family: Sync {
         match answer.beyond_range() {
             None => Ok(answer),
             Some(what) => {
-                let datum: Vec<String> = self.about().charts[chart]
-                    .axes
-                    .iter()
-                    .zip(point)
-                    .map(|(axis, x)| format!("{axis} = {x:?}"))
-                    .collect();
-                Err(Error::invalid(format!(
-                    "{what} leaves the range of doubles for {}; choose less extreme numbers",
-                    datum.join(", ")
-                )))
+                let axes = self.about().charts[chart].axes.iter().copied();
+                Err(Error::extreme(&what, axes.zip(point.iter().copied())))
             }
         }
     }
@@ -203,13 +195,10 @@ pub trait Family: Sync {
         let answer = self.answer(chart, point)?;
         Ok((answer.code, answer.control_points().map(<[_]>::to_vec)))
     }
-    /// The f64 step for one datum: its code, or `None` where that is not proved, or outside the domain. A family may
-    /// have it without the work of making a grid.
-    fn code(&self, chart: usize, point: &[f64]) -> Option<Code> {
-        let grid = single(self.about(), chart, point).ok()?;
-        let mut code = [Code::UNDECIDED];
-        self.table(&grid).ok()?.filter(0, &mut code);
-        code[0].decided()
+    /// The f64 step for one datum without the work of making a grid, where the family has such a step:
+    /// [`Code::UNDECIDED`] where nothing is proved, or outside the domain.
+    fn shortcut(&self, _chart: usize, _point: &[f64]) -> Option<Code> {
+        None
     }
     /// Proofs over whole boxes of data, where the family has them.
     fn region(&self) -> Option<&dyn Region> {
@@ -265,10 +254,31 @@ fn single(about: &About, chart: usize, point: &[f64]) -> Result<Grid> {
 /// precision cap.
 pub fn verdict(family: &dyn Family, chart: usize, point: &[f64]) -> Result<Code> {
     demand_ieee()?;
-    match family.code(chart, point) {
-        Some(code) => Ok(code),
-        None => Ok(family.table(&single(family.about(), chart, point)?)?.exact(0)?.0),
+    let shortcut = family.shortcut(chart, point);
+    if let Some(code) = shortcut.and_then(Code::decided) {
+        return Ok(code);
     }
+    let grid = single(family.about(), chart, point)?;
+    let table = family.table(&grid)?;
+    match if shortcut.is_none() { filtered(&*table) } else { None } {
+        Some(code) => Ok(code),
+        None => Ok(table.exact(0)?.0),
+    }
+}
+
+/// The code of one datum by the f64 step alone: none where that is not proved, or outside the domain.
+pub(crate) fn quick(family: &dyn Family, chart: usize, point: &[f64]) -> Option<Code> {
+    match family.shortcut(chart, point) {
+        Some(code) => code.decided(),
+        None => filtered(&*family.table(&single(family.about(), chart, point).ok()?).ok()?),
+    }
+}
+
+/// The f64 step for the only node of a grid.
+fn filtered(table: &dyn Table) -> Option<Code> {
+    let mut code = [Code::UNDECIDED];
+    table.filter(0, &mut code);
+    code[0].decided()
 }
 
 /// A family on one grid.

@@ -5,7 +5,7 @@ mod signs;
 
 use super::distance;
 use crate::curve::{Offset, PhQuintic};
-use crate::error::{Error, Result};
+use crate::error::{Error, OTHER_UNIT, Result};
 use crate::transition::{Piece, Station, stations};
 use serde::Serialize;
 use signs::{Signs, opposite};
@@ -54,6 +54,24 @@ pub struct Summary {
     pub greatest_curvature: f64,
 }
 
+impl Summary {
+    /// Itself, where its numbers that are known are finite.
+    ///
+    /// # Errors
+    /// [`Error::Domain`], with the name of one that is not.
+    pub fn finite(self) -> Result<Summary> {
+        let known = |x: Option<f64>| x.unwrap_or(0.0);
+        let named = [
+            ("length", self.length),
+            ("greatest curvature", self.greatest_curvature),
+            ("bending energy", known(self.bending_energy)),
+            ("absolute rotation", known(self.absolute_rotation)),
+        ];
+        let lost = named.into_iter().find(|(_, x)| !x.is_finite());
+        lost.map_or(Ok(self), |(what, _)| Err(Error::beyond_doubles(format!("the curve's {what}"), OTHER_UNIT)))
+    }
+}
+
 /// The curve at a distance from a piece.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
@@ -84,9 +102,7 @@ impl Course {
             let own = piece.length();
             length += own;
             if !length.is_finite() {
-                return fail(format!(
-                    "pieces[{i}] is {own:?} long, and the path would be {length:?}; change the unit of length"
-                ));
+                return fail(format!("pieces[{i}] is {own:?} long, and the path would be {length:?}; {OTHER_UNIT}"));
             }
         }
         for (i, w) in pieces.windows(2).enumerate() {
@@ -207,7 +223,7 @@ impl Course {
         let fail = |i: usize| {
             Error::invalid(format!(
                 "pieces[{i}]: its offset at distance {d:?} is not finite: the piece stands still somewhere, or the \
-                 offset leaves the range of doubles; then change the unit of length"
+                 offset leaves the range of doubles; then {OTHER_UNIT}"
             ))
         };
         let one = |(i, piece): (usize, &Piece)| {

@@ -20,7 +20,7 @@
 use super::{ROUNDINGS, distance, mismatch};
 use crate::curve::vector::{cross, length, sub};
 use crate::curve::{Jet, PhQuintic, gauss};
-use crate::error::{Error, Result};
+use crate::error::{Error, OTHER_UNIT, Result};
 use crate::steps::step;
 use crate::transition::{Arc, Clothoid, Cubic, Piece, TrigPart};
 use std::f64::consts::FRAC_PI_2;
@@ -119,7 +119,7 @@ impl Way {
         }
         Err(Error::invalid(format!(
             "is {:?} long, and its numbers go up to {size:?}; separation takes lengths from {shortest:e} and numbers \
-             up to {most:e}: leave out a piece of no length, or change the unit of length",
+             up to {most:e}: leave out a piece of no length, or {OTHER_UNIT}",
             piece.length()
         )))
     }

@@ -3,7 +3,7 @@
 use super::input::{angle, objects};
 use super::{PathReport, Tool};
 use crate::curve::{Choice, EqualLength, Hermite, equal_length, hermite};
-use crate::error::{Error, Result};
+use crate::error::{Error, OTHER_UNIT, Result};
 use crate::path::{Directions, Free, LeastCurvature, least_curvature, spline};
 use crate::plain::name;
 use serde::{Deserialize, Serialize};
@@ -129,7 +129,7 @@ impl Tool for LeastBend {
         let reckoned = distance == 0.0 || (1e-150..=1e150).contains(&distance);
         if !reckoned && start.iter().chain(&end).all(|x| x.is_finite()) {
             return Err(Error::invalid(format!(
-                "`start` {start:?} and `end` {end:?} are not between 1e-150 and 1e150 apart; change the unit of length"
+                "`start` {start:?} and `end` {end:?} are not between 1e-150 and 1e150 apart; {OTHER_UNIT}"
             )));
         }
         let greatest_length = greatest_length.unwrap_or(2.0 * distance);

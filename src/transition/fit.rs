@@ -1,7 +1,7 @@
 //! One question for all families: the spiral between two ends in the user's units, or why there is none.
 
 use super::{Ends, InvoluteBetween, Kind, Piece, involute_between, ph_spiral, spiral, why_no_spiral};
-use crate::error::{Error, Result, above_zero};
+use crate::error::{Result, above_zero, by_name};
 
 /// What [`fit`] found.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,8 +32,7 @@ pub const FITTED: [Kind; 3] = [Kind::Cubic, Kind::PhQuintic, Kind::Involute];
 /// # Errors
 /// [`Error::Domain`], with the names that there are.
 pub fn fitted(what: &str, name: &str) -> Result<Kind> {
-    let found = FITTED.into_iter().find(|kind| kind.name() == name);
-    found.ok_or_else(|| Error::unknown(what, name, &FITTED.map(Kind::name)))
+    by_name(what, name, &FITTED, Kind::name)
 }
 
 /// The curves of one kind between two ends, and the chosen spiral among them.

@@ -5,7 +5,7 @@ use crate::curve::CubicBezier;
 use crate::curve::PhQuintic;
 use crate::curve::hodograph::complex;
 use crate::curve::vector::{Vector, add, length, scale, sub, turn};
-use crate::error::{Error, Result, finite};
+use crate::error::{Error, OTHER_UNIT, Result, finite};
 use crate::family::any_spiral;
 use crate::family::cubic::Datum;
 use num_complex::Complex64;
@@ -91,7 +91,7 @@ impl Ends {
         let size = length(half);
         if !size.is_normal() {
             let what = format!("the length of half the chord from ({ax:?}, {ay:?}) to ({bx:?}, {by:?})");
-            return Err(Error::domain(what, size, "2.3e-308 to 1.7e308").or("change the unit of length"));
+            return Err(Error::domain(what, size, "2.3e-308 to 1.7e308").or(OTHER_UNIT));
         }
         Ok((half, size))
     }

@@ -313,10 +313,16 @@ fn names_and_numbers_as_they_are_typed() {
     assert!(plain.code == Some(0) && large.out == plain.out, "{}{}", plain.err, large.err);
     let comma = ask("cubic", &datum("0,4"), &[]);
     assert!(comma.code == Some(2) && comma.err.contains("write 0.4, with a point"), "{}", comma.err);
-    for (number, way_out) in [("0,4", "write 0.4, with a point"), ("much", "write it like 0.5, -3 or 1e-3")] {
-        let said = run(["export", "lattice", "--distinctness", number]);
-        let told = said.err.contains(way_out) && said.err.matches("write").count() == 1;
-        assert!(said.code == Some(2) && told, "{}", said.err);
+    let (distinctness, curvature) = (["export", "lattice", "--distinctness"], ["join", "--greatest-curvature"]);
+    for (option, number, way_out) in [
+        (&distinctness[..], "0,4", "write 0.4, with a point"),
+        (&distinctness, "much", "write it like 0.5, -3 or 1e-3"),
+        (&curvature, "0,4", "write 0.4, with a point"),
+        (&curvature, "much", "write a curvature like 0.004, or 1/250 for a radius of 250"),
+    ] {
+        let said = run([option, &[number]].concat());
+        let once = said.err.contains(way_out) && said.err.matches("write").count() == 1;
+        assert!(said.code == Some(2) && once, "{}", said.err);
     }
 }
 

@@ -4,11 +4,11 @@ use super::super::numbers::are_radii;
 use super::super::{Outcome, output};
 use super::Reportable;
 use serde::{Serialize, Serializer};
+use spiral_atlas::Result;
 use spiral_atlas::family::reach;
 use spiral_atlas::path::{Course, Summary};
 use spiral_atlas::transition::segment::{Base, Request};
 use spiral_atlas::transition::{Ends, Others, Piece, Station};
-use spiral_atlas::{Error, Result};
 use std::io::Write;
 
 /// An answer as JSON.
@@ -48,13 +48,7 @@ impl Path {
     /// Those of [`Course::new`], and [`Error::Domain`] where another number leaves the range of doubles.
     fn new(pieces: Vec<Piece>) -> Result<Path> {
         let course = Course::new(pieces)?;
-        let summary = course.summary();
-        let Summary { greatest_curvature, bending_energy, .. } = summary;
-        if greatest_curvature.is_finite() && bending_energy.is_none_or(f64::is_finite) {
-            return Ok(Path { summary, course });
-        }
-        let what = if greatest_curvature.is_finite() { "bending energy" } else { "greatest curvature" };
-        Err(Error::invalid(format!("the curve's {what} leaves the range of doubles; change the unit of length")))
+        Ok(Path { summary: course.summary().finite()?, course })
     }
 
     /// Points at equal lengths. The curvature of an end that is straight by the question is 0.

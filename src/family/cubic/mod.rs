@@ -174,9 +174,9 @@ impl Family for Cubic {
     fn chosen(&self, chart: usize, point: &[f64]) -> Result<(Code, Option<Vec<[f64; 2]>>)> {
         solve::chosen(chart, coordinates(point)?)
     }
-    fn code(&self, chart: usize, point: &[f64]) -> Option<Code> {
-        let point = coordinates(point).ok()?;
-        holds_box(&point.map(|x| [x; 2])).then(|| table::code(chart, point))?
+    fn shortcut(&self, chart: usize, point: &[f64]) -> Option<Code> {
+        let inside = coordinates(point).ok().filter(|point| holds_box(&point.map(|x| [x; 2])));
+        Some(inside.map_or(Code::UNDECIDED, |point| table::code(chart, point)))
     }
     fn region(&self) -> Option<&dyn Region> {
         Some(self)

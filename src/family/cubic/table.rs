@@ -71,11 +71,12 @@ fn data<S: Simd>(simd: S, normalised: bool, pair: &Pair, third: S::f64s, fourth:
 }
 
 /// The f64 step for one datum of the domain.
-pub(super) fn code(chart: usize, point: &[f64; 4]) -> Option<Code> {
-    let prepared = Prepared::new(point[0], point[1])?;
+pub(super) fn code(chart: usize, point: &[f64; 4]) -> Code {
     let mut code = [Code::UNDECIDED];
-    dispatch!(level(), simd => alone(simd, chart == 1, &prepared, point, &mut code));
-    code[0].decided()
+    if let Some(prepared) = Prepared::new(point[0], point[1]) {
+        dispatch!(level(), simd => alone(simd, chart == 1, &prepared, point, &mut code));
+    }
+    code[0]
 }
 
 #[inline(always)]

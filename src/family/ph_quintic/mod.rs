@@ -135,9 +135,9 @@ impl Family for PhQuintic {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::PhTable::new(grid)?))
     }
-    fn code(&self, _chart: usize, point: &[f64]) -> Option<Code> {
-        let point = coordinates(point).ok()?;
-        holds_box(&point.map(|x| [x; 2])).then(|| table::code(point))?
+    fn shortcut(&self, _chart: usize, point: &[f64]) -> Option<Code> {
+        let inside = coordinates(point).ok().filter(|point| holds_box(&point.map(|x| [x; 2])));
+        Some(inside.map_or(Code::UNDECIDED, table::code))
     }
     fn region(&self) -> Option<&dyn Region> {
         Some(self)

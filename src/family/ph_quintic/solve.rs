@@ -95,10 +95,8 @@ fn within_range(datum: &Datum, quintic: &Quintic) -> Result<()> {
         None => Ok(()),
         Some((name, _)) => {
             let Datum { phi0, phi1, kappa0, kappa1 } = *datum;
-            Err(Error::invalid(format!(
-                "{name} of a PH quintic leaves the range of doubles for phi0 = {phi0:?}, phi1 = {phi1:?}, kappa0 = \
-                 {kappa0:?}, kappa1 = {kappa1:?}; choose less extreme numbers"
-            )))
+            let what = format!("{name} of a PH quintic");
+            Err(Error::extreme(&what, [("phi0", phi0), ("phi1", phi1), ("kappa0", kappa0), ("kappa1", kappa1)]))
         }
     }
 }

@@ -68,14 +68,11 @@ impl Rows for PhTable<'_> {
 }
 
 /// The f64 step for one datum of the domain.
-pub(super) fn code(&[phi0, phi1, kappa0, kappa1]: &[f64; 4]) -> Option<Code> {
-    let pair = Pair::<Ball>::new(phi0, phi1)?;
+pub(super) fn code(&[phi0, phi1, kappa0, kappa1]: &[f64; 4]) -> Code {
+    let Some(pair) = Pair::<Ball>::new(phi0, phi1) else { return Code::UNDECIDED };
     let mut code = [Code::UNDECIDED];
     dispatch!(level(), simd => alone(simd, &pair, kappa0, kappa1, &mut code));
-    if code[0] == Code::UNDECIDED {
-        code[0] = one(&pair, &[phi0, phi1, kappa0, kappa1, 0.0], kappa1);
-    }
-    code[0].decided()
+    if code[0] == Code::UNDECIDED { one(&pair, &[phi0, phi1, kappa0, kappa1, 0.0], kappa1) } else { code[0] }
 }
 
 #[inline(always)]

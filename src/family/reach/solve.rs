@@ -106,11 +106,10 @@ pub fn solve(kind: Kind, datum: &Datum) -> Result<Reached> {
             }
         };
         match found {
-            Some(s) if !(s.m.is_finite() && s.q.is_finite()) => Err(Error::invalid(format!(
-                "{} leaves the range of doubles for theta = {theta:?}, xi = {xi:?}, eta = {eta:?}; choose less extreme \
-                 numbers",
-                if s.m.is_finite() { "q" } else { "m" }
-            ))),
+            Some(s) if !(s.m.is_finite() && s.q.is_finite()) => {
+                let what = if s.m.is_finite() { "q" } else { "m" };
+                Err(Error::extreme(what, [("theta", theta), ("xi", xi), ("eta", eta)]))
+            }
             other => Ok(other),
         }
     };

@@ -16,7 +16,7 @@ mod work;
 use super::{ROUNDINGS, Turn, check_joined, distance, finite};
 use crate::curve::PhQuintic;
 use crate::curve::vector::sub;
-use crate::error::{Error, Result};
+use crate::error::{Error, OTHER_UNIT, Result};
 use obstacles::{Obstacles, to_segment};
 use open::open;
 use parted::parted;
@@ -136,9 +136,7 @@ impl Scene {
         }
         let obstacles = Obstacles::new(&self.obstacles)?;
         if !(SIZES[0]..=SIZES[1]).contains(&size) {
-            return fail(format!(
-                "coordinates go up to {size:?}; change the unit of length to bring them within 1e-100 and 1e100"
-            ));
+            return fail(format!("coordinates go up to {size:?}; {OTHER_UNIT} to bring them within 1e-100 and 1e100"));
         }
         for (name, point) in [("start", self.start), ("goal", self.goal)] {
             self.check_end(name, point, &obstacles)?;

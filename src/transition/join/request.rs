@@ -4,7 +4,7 @@ use super::super::Turn;
 use super::super::piece::{Kind, Piece};
 use super::super::stations::{Station, stations};
 use super::measure::{Measures, without_noise};
-use crate::error::{Error, Result, above_zero, finite, positive};
+use crate::error::{Error, OTHER_UNIT, Result, above_zero, by_name, finite, positive};
 use serde::{Deserialize, Serialize};
 
 /// A place on a path: point, direction of travel and signed curvature, in the user's units and axes.
@@ -100,8 +100,7 @@ impl Family {
     /// # Errors
     /// [`Error::Domain`], with the names that there are.
     pub fn by_name(name: &str) -> Result<Family> {
-        let found = Family::ALL.into_iter().find(|family| family.name() == name);
-        found.ok_or_else(|| Error::unknown("kind", name, &Family::ALL.map(Family::name)))
+        by_name("kind", name, &Family::ALL, Family::name)
     }
 }
 
@@ -140,8 +139,7 @@ impl Objective {
     /// # Errors
     /// [`Error::Domain`], with the names that there are.
     pub fn by_name(name: &str) -> Result<Objective> {
-        let found = Objective::ALL.into_iter().find(|objective| objective.name() == name);
-        found.ok_or_else(|| Error::unknown("objective", name, &Objective::ALL.map(Objective::name)))
+        by_name("objective", name, &Objective::ALL, Objective::name)
     }
 }
 
@@ -211,7 +209,7 @@ impl Request {
         positive("the greatest curvature", self.greatest_curvature)?;
         if !(1.0 / WIDEST..=WIDEST).contains(&self.greatest_curvature) {
             let most = Error::domain("the greatest curvature", self.greatest_curvature, "1e-150 to 1e150");
-            return Err(most.or("change the unit of length"));
+            return Err(most.or(OTHER_UNIT));
         }
         if self.most_pieces == 0 {
             return Err(Error::invalid("the most pieces are 0; a join has one at least"));
