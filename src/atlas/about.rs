@@ -1,6 +1,5 @@
 //! What an atlas says about itself: the metadata of the file, key by key.
 
-use super::Spec;
 use crate::family::{self, Family, NO_VALUE, unpack};
 use crate::grid::{Axis, Grid, Spacing};
 use crate::plain;
@@ -11,6 +10,21 @@ use std::collections::{BTreeMap, HashMap};
 /// The version of the file format that this crate writes, and the only one that it reads.
 pub const FORMAT_VERSION: u32 = 1;
 const FORMAT: &str = "spiral-atlas";
+
+/// What [`super::Writer::create`] must know.
+#[derive(Clone, Copy)]
+pub struct Spec<'a> {
+    /// The atlas's name: letters, digits, `_` and `-`.
+    pub name: &'a str,
+    /// The family.
+    pub family: &'static dyn Family,
+    /// The nodes.
+    pub grid: &'a Grid,
+    /// The scalars to store: indices into [`family::About::scalars`].
+    pub scalars: &'a [usize],
+    /// The recipe's text.
+    pub recipe: &'a str,
+}
 
 /// What the grid of a file is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

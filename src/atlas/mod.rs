@@ -34,7 +34,7 @@ mod outline;
 pub mod verify;
 mod write;
 
-pub use about::{About, FORMAT_VERSION, Kind, Named, Packed};
+pub use about::{About, FORMAT_VERSION, Kind, Named, Packed, Spec};
 pub use header::MAX_HEADER;
 use map::{MEMORY, map_file};
 pub(crate) use map::{Map, map_bytes, map_path};
@@ -42,7 +42,6 @@ pub use outline::Outline;
 pub use write::{Writer, Written};
 
 use crate::error::{Error, Result};
-use crate::family::Family;
 use crate::files::Draft;
 use crate::grid::{Grid, Lookup};
 use blake3::Hash;
@@ -50,21 +49,6 @@ use header::{FLAGS, Header, SOLUTIONS};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-/// What [`Writer::create`] must know.
-#[derive(Clone, Copy)]
-pub struct Spec<'a> {
-    /// The atlas's name: letters, digits, `_` and `-`.
-    pub name: &'a str,
-    /// The family.
-    pub family: &'static dyn Family,
-    /// The nodes.
-    pub grid: &'a Grid,
-    /// The scalars to store: indices into [`crate::family::About::scalars`].
-    pub scalars: &'a [usize],
-    /// The recipe's text.
-    pub recipe: &'a str,
-}
 
 /// The verdicts of one node; see [`Atlas::about`] for what the bits mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -11,8 +11,7 @@
 //! Only the value at t and N(t) take the precision of the datum; certificates are in doubles.
 
 use super::hodograph::{Bound, Hodograph};
-use crate::num::bernstein::Certain;
-use crate::num::{Ball, Number, Real, formula};
+use crate::num::{Ball, Certain, Number, Real, formula};
 use std::cmp::Ordering::{Equal, Greater, Less};
 
 /// How far the piece reaches from the peak, in order of trial.

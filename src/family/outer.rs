@@ -5,9 +5,8 @@
 //! factors would add up to at most `sin φ0 - sin φ1`, and their product to at most
 //! `cos²((φ0 + φ1)/2) sin²((φ1 - φ0)/2)`. Likewise Q < 0 and κ0 < κ1 leave no other signs of the factors.
 
-use crate::num::Verdict;
-use crate::num::bernstein::Certain;
 use crate::num::formula;
+use crate::num::{Certain, Verdict};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdBase};
 use std::cmp::Ordering::Greater;

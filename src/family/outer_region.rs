@@ -19,9 +19,8 @@
 
 use super::hermite::holds_box;
 use super::region::{Facts, MOST_SIDES, add_pull, positive, sides};
-use crate::num::bernstein::Certain;
 use crate::num::sines::{SIN_ERROR, sin};
-use crate::num::{Ball, Form, Number, Verdict, formula};
+use crate::num::{Ball, Certain, Form, Number, Verdict, formula};
 use std::cmp::Ordering::{Greater, Less};
 use std::f64::consts::{FRAC_PI_2, PI};
 

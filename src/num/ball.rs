@@ -1,8 +1,7 @@
 //! Doubles that know how far they may be off: what the f64 step of a family computes with where counting roundings by
 //! hand would not pay.
 
-use super::bernstein::Certain;
-use super::{Number, Real};
+use super::{Certain, Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
 
 /// Unit roundoff.

@@ -221,7 +221,7 @@ mod tests {
     use crate::noise::Noise;
     use crate::num::Interval;
 
-    use crate::num::bernstein::Certain;
+    use crate::num::Certain;
     use std::cmp::Ordering;
 
     /// Of any size.

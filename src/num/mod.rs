@@ -21,7 +21,7 @@ pub(crate) use form_lanes::{FormLanes, halve_forms};
 pub(crate) use formula::{Letter, formula};
 pub(crate) use ieee::demand_ieee;
 pub(crate) use interval::Interval;
-pub(crate) use number::{Angle, Lanes, Number, Real};
+pub(crate) use number::{Angle, Certain, Lanes, Number, Real};
 pub(crate) use twin::{TWIN_BITS, Twin};
 pub use verdict::Verdict;
 pub(crate) use ziv::climb;

@@ -1,7 +1,9 @@
 //! One notation for the arithmetic that doubles, SIMD lanes and intervals share, so that a formula is written once.
 
 use super::Interval;
+use crate::steps::step;
 use fearless_simd::{Simd, SimdBase};
+use std::cmp::Ordering;
 
 /// `+ - *` and nothing else: what proofs may use.
 pub trait Number: Clone {
@@ -93,8 +95,80 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
+/// A number whose comparison with zero can be certain or not.
+pub(crate) trait Certain: Number {
+    /// The sign if it is certain, given that the value may be off by `error` in either direction.
+    fn certain_sign(&self, error: f64) -> Option<Ordering>;
+    /// Its absolute value, as far as rounding errors depend on it: 0 where numbers carry their own.
+    #[inline(always)]
+    fn grain(&self) -> f64 {
+        0.0
+    }
+    /// Coefficients of the same sign everywhere on (0, 1), for which halving parts what is to be told apart; `None`
+    /// where it does already.
+    #[inline(always)]
+    fn balanced<const K: usize>(_c: &[Self; K]) -> Option<[Self; K]> {
+        None
+    }
+}
+
+impl Certain for f64 {
+    #[inline(always)]
+    fn certain_sign(&self, error: f64) -> Option<Ordering> {
+        if *self > error {
+            Some(Ordering::Greater)
+        } else if *self < -error {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+    #[inline(always)]
+    fn grain(&self) -> f64 {
+        self.abs()
+    }
+}
+
+impl Certain for Interval {
+    /// Intervals carry their own error; `error` must be 0.
+    fn certain_sign(&self, _error: f64) -> Option<Ordering> {
+        self.sign()
+    }
+    /// In `x = t/(1 - t)` the coefficients are those of powers of x, but for binomials, and `x = 2^k y` multiplies them
+    /// by powers of `2^k`. Newton's polygon, the hull above their logarithms, has a side for each size that x may have
+    /// at a root. The middle of all sizes where signs differ becomes 1. So the halvings are as many as the roots'
+    /// distances ask for, relative to their sizes, and do not grow with the logarithms of these.
+    fn balanced<const K: usize>(c: &[Interval; K]) -> Option<[Interval; K]> {
+        step();
+        let points = c.iter().enumerate().filter_map(|(i, c)| Some((i, c.magnitude()?)));
+        let mut hull: Vec<(usize, isize)> = Vec::with_capacity(K);
+        for point in points {
+            let rise = |a: (usize, isize), b: (usize, isize)| (b.1 - a.1, (b.0 - a.0) as isize);
+            while let [.., before, last] = hull[..] {
+                let ((up, along), (on, further)) = (rise(before, last), rise(last, point));
+                if up * further > on * along {
+                    break;
+                }
+                hull.pop();
+            }
+            hull.push(point);
+        }
+        let mixed = |from: usize, to: usize| {
+            let first = c[from].sign();
+            first.is_none() || c[from..=to].iter().any(|c| c.sign() != first)
+        };
+        let sides = hull.windows(2).filter(|side| mixed(side[0].0, side[1].0));
+        let sizes = sides.map(|side| (side[0].1 - side[1].1).div_euclid((side[1].0 - side[0].0) as isize));
+        let (least, most) = sizes.fold((isize::MAX, isize::MIN), |(least, most), k| (least.min(k), most.max(k)));
+        let k = if least > most { 0 } else { least.midpoint(most) };
+        // Next to the middle halving does as well.
+        let power = |i: usize| Interval::power_of_two(k * i as isize, c[i].bits());
+        (k.abs() > 1).then(|| std::array::from_fn(|i| &c[i] * &power(i)))
+    }
+}
+
 /// Enclosed numbers of some precision: what a family computes with once, for doubles and for the top of the ladder.
-pub(crate) trait Real: super::bernstein::Certain + Sized {
+pub(crate) trait Real: Certain + Sized {
     /// A double, exactly, with results rounded to `bits`.
     fn of(x: f64, bits: usize) -> Self;
     /// The precision of results.

@@ -1,10 +1,9 @@
 //! Sums of two doubles that know how far they may be off: the rung between doubles and intervals, with some 100 bits.
 
-use super::bernstein::Certain;
 use super::formula::formula;
 use super::number::exponent;
 use super::sines::two_sum;
-use super::{Angle, Ball, Interval, Number, Real};
+use super::{Angle, Ball, Certain, Interval, Number, Real};
 use std::cmp::Ordering::{self, Greater, Less};
 use std::f64::consts::FRAC_1_PI;
 use std::sync::{LazyLock, OnceLock};

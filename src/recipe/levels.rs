@@ -1,20 +1,11 @@
 //! Levels of a scalar, which a picture fills in place of flags.
 
-use super::PictureKind;
+use super::plan::{Levels, PictureKind};
 use super::raw::{Fault, RawPicture, unknown};
 use crate::family::Family;
 
 /// What the levels of a picture are.
 pub(super) const LEVELS_RULE: &str = "a list of increasing numbers such as `[0.5, 1]`";
-
-/// Regions where a scalar is at most so much.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Levels {
-    /// The scalar, which the atlas stores.
-    pub field: &'static str,
-    /// The levels, increasing.
-    pub values: Vec<f64>,
-}
 
 /// Levels of a stored scalar.
 pub(super) fn levels(

@@ -1,6 +1,6 @@
 //! The nodes of the axes that a picture does not draw, and how many panels small multiples may have.
 
-use super::PictureKind;
+use super::plan::PictureKind;
 use super::raw::{Fault, Numbers, RawPicture};
 use crate::grid::{Axis, Grid, Lookup};
 use std::ops::Range;

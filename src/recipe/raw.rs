@@ -124,11 +124,6 @@ impl Number {
     }
 }
 
-/// Parses the text; an unknown key is refused with the nearest known one.
-pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
-    toml::from_str(text).map_err(|e| super::words::complaint(text, e.span().unwrap_or(0..0), e.message()))
-}
-
 /// The complaint about a name that is not known, with the nearest that is.
 pub(super) fn unknown(what: &str, given: &str, known: &[&str]) -> String {
     let near = plain::nearest(given, known.iter().copied());

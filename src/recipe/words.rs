@@ -2,13 +2,18 @@
 //! there.
 
 use super::keys::takes;
-use super::raw::{Fault, unknown};
+use super::raw::{Fault, RawRecipe, unknown};
 use crate::plain;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
+/// Parses the text; an unknown key is refused with the nearest known one.
+pub(super) fn parse(text: &str) -> Result<RawRecipe, Fault> {
+    toml::from_str(text).map_err(|e| complaint(text, e.span().unwrap_or(0..0), e.message()))
+}
+
 /// A complaint of the TOML reader in plain words. Serde speaks of its own types, and names no key.
-pub(super) fn complaint(text: &str, at: Range<usize>, message: &str) -> Fault {
+fn complaint(text: &str, at: Range<usize>, message: &str) -> Fault {
     let path = DeTable::parse(text).ok().and_then(|table| path_to(table.get_ref(), &at));
     let what = if let Some(rest) = message.strip_prefix("unknown field `") {
         let mut names = rest.split('`').step_by(2);

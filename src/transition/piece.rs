@@ -21,7 +21,6 @@ use crate::curve::vector::{Vector, add, length, lerp, scale, sub};
 use crate::curve::{CubicBezier, Jet, PhQuintic, TrigBezier, arc_length, casteljau};
 use crate::error::{Error, Result};
 use crate::family::any_spiral::{Image, Involute, Spiral, Split};
-use raw::RawPiece;
 use serde::{Deserialize, Serialize};
 
 /// A curve between two points, in the user's plane and unit of length.
@@ -32,8 +31,7 @@ use serde::{Deserialize, Serialize};
     clippy::large_enum_variant,
     reason = "paths have few pieces, and a box for one kind would show in every match"
 )]
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(try_from = "RawPiece")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Piece {
     /// A cubic Bézier curve.
     Cubic(Cubic),

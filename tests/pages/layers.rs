@@ -1,8 +1,9 @@
 //! The layers of ARCHITECTURE.md: no room imports one above it, and no two files import each other, directly or in a
-//! circle.
+//! circle. The latter holds of the crates for Python, C and browsers, too, and of the Python package.
 //!
-//! An import is what a `use` line names, or a path that begins with `crate::`, followed through re-exports to the file
-//! that defines the name. A re-export itself is none, and neither is what tests use.
+//! An import is what a `use` line names, or a path that begins with `crate::` or `super::`, followed through re-exports
+//! to the file that defines the name. None are a re-export itself, what tests use, and the path by which a file hands
+//! on to a module of its own, such as `table::new()`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -65,13 +66,13 @@ struct Source {
     exports: BTreeMap<String, Vec<String>>,
 }
 
-/// Every file below a folder whose name ends in `.rs`.
-fn files(folder: &Path, all: &mut Vec<PathBuf>) {
+/// Every file below a folder whose name has this end.
+fn files(folder: &Path, end: &str, all: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            files(&path, all);
-        } else if path.extension().is_some_and(|e| e == "rs") {
+            files(&path, end, all);
+        } else if path.extension().is_some_and(|e| e == end) {
             all.push(path);
         }
     }
@@ -106,12 +107,23 @@ fn leaves(tree: &str) -> Vec<String> {
     all
 }
 
-/// A path seen from a module, from the root; `None` for those of other crates.
-fn absolute(path: &str, module: &[String]) -> Option<Vec<String>> {
+/// The modules that a file has in files of their own.
+fn children(code: &str) -> Vec<&str> {
+    let names = code.lines().filter_map(|line| line.trim_end().strip_suffix(';')?.split_once("mod "));
+    names.filter(|(before, _)| ["", "pub "].contains(before) || before.ends_with(") ")).map(|(_, name)| name).collect()
+}
+
+/// A path seen from a module that has these children, from the root; `None` for those of other crates.
+fn absolute(path: &str, module: &[String], children: &[&str], library: bool) -> Option<Vec<String>> {
     let mut here = module.to_vec();
     let mut parts = path.split("::").map(str::trim).peekable();
     match *parts.peek()? {
-        "crate" | "spiral_atlas" => {
+        "crate" => {
+            here.clear();
+            parts.next();
+        }
+        // The command calls the library by its name; other crates that do so import nothing of their own.
+        "spiral_atlas" if library => {
             here.clear();
             parts.next();
         }
@@ -123,14 +135,15 @@ fn absolute(path: &str, module: &[String]) -> Option<Vec<String>> {
                 here.pop();
             }
         }
+        name if children.contains(&name) => {}
         _ => return None,
     }
     here.extend(parts.map(str::to_owned));
     Some(here)
 }
 
-fn read(path: &Path) -> Source {
-    let module = module_of(path.strip_prefix("src").unwrap());
+fn read(path: &Path, root: &Path) -> Source {
+    let module = module_of(path.strip_prefix(root).unwrap());
     let text = fs::read_to_string(path).unwrap();
     // Tests stand last, or in a file of their own.
     let all_tests = path.ends_with("tests.rs");
@@ -138,6 +151,8 @@ fn read(path: &Path) -> Source {
     let code: Vec<&str> = code.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
     let code = code.join("\n");
     let (mut imports, mut exports) = (Vec::new(), BTreeMap::new());
+    let children = children(&code);
+    let absolute = |path: &str| absolute(path, &module, &children, root == Path::new("src"));
     let mut rest = String::new();
     for statement in code.split_inclusive(';') {
         let line = statement.trim_start().trim_end_matches(';');
@@ -154,12 +169,7 @@ fn read(path: &Path) -> Source {
         };
         for leaf in leaves(&line[at + word.len()..]) {
             let (path, name) = leaf.split_once(" as ").unwrap_or((&leaf, leaf.rsplit("::").next().unwrap()));
-            let local = if word == "use " {
-                absolute(path, &module)
-            } else {
-                absolute(path, &module).or_else(|| absolute(&format!("self::{path}"), &module))
-            };
-            match local {
+            match absolute(path) {
                 Some(path) if word == "use " => imports.push(path),
                 // A macro, which a file exports by its own name, leads no further.
                 Some(path) if path[..path.len() - 1] == module => {}
@@ -170,11 +180,10 @@ fn read(path: &Path) -> Source {
             }
         }
     }
-    let word = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    for (at, _) in rest.match_indices("crate::") {
-        let path: String = rest[at..].chars().take_while(|c| word(*c)).collect();
-        imports.extend(absolute(path.trim_end_matches(':'), &module));
-    }
+    let between = |c: char| !(c.is_alphanumeric() || c == '_' || c == ':');
+    let first = |path: &&str| ["crate::", "super::"].iter().any(|word| path.starts_with(word));
+    let paths = rest.split(between).map(|path| path.trim_start_matches(':').trim_end_matches(':')).filter(first);
+    imports.extend(paths.filter_map(absolute));
     Source { module, imports, exports }
 }
 
@@ -193,12 +202,12 @@ fn target(sources: &[Source], path: &[String]) -> Option<usize> {
     None
 }
 
-/// What each file imports of the others.
-fn graph() -> (Vec<Source>, Vec<BTreeSet<usize>>) {
+/// What each file of a crate imports of the others.
+fn graph(root: &Path) -> (Vec<Source>, Vec<BTreeSet<usize>>) {
     let mut paths = Vec::new();
-    files(Path::new("src"), &mut paths);
+    files(root, "rs", &mut paths);
     paths.sort();
-    let sources: Vec<Source> = paths.iter().map(|p| read(p)).collect();
+    let sources: Vec<Source> = paths.iter().map(|p| read(p, root)).collect();
     let edges = (0..sources.len()).map(|i| {
         let targets = sources[i].imports.iter().filter_map(|path| target(&sources, path));
         targets.filter(|t| *t != i && !sources[*t].module.is_empty()).collect()
@@ -246,7 +255,7 @@ fn the_page_has_the_same_layers() {
 
 #[test]
 fn no_import_goes_up() {
-    let (sources, edges) = graph();
+    let (sources, edges) = graph(Path::new("src"));
     let mut wrong = Vec::new();
     let mut across = 0;
     for (source, targets) in sources.iter().zip(&edges) {
@@ -268,30 +277,61 @@ fn no_import_goes_up() {
     assert!(wrong.is_empty(), "imports that go up:\n{}", wrong.join("\n"));
 }
 
+/// The imports that lie on circles.
+fn circles(names: &[String], edges: &[BTreeSet<usize>]) -> Vec<String> {
+    let reached = |from: usize| {
+        let (mut seen, mut waiting) = (BTreeSet::new(), vec![from]);
+        while let Some(i) = waiting.pop() {
+            waiting.extend(edges[i].iter().filter(|j| seen.insert(**j)));
+        }
+        seen
+    };
+    let back: Vec<BTreeSet<usize>> = (0..names.len()).map(reached).collect();
+    let arrows = (0..names.len()).flat_map(|i| edges[i].iter().map(move |j| (i, *j)));
+    arrows.filter(|(i, j)| back[*j].contains(i)).map(|(i, j)| format!("{} -> {}", names[i], names[j])).collect()
+}
+
 #[test]
 fn no_files_import_each_other_in_a_circle() {
-    let (sources, edges) = graph();
-    // Leaves are taken off until only circles are left, and what lies between them.
-    let mut left: BTreeSet<usize> = (0..sources.len()).collect();
-    loop {
-        let ends: Vec<usize> = left
-            .iter()
-            .copied()
-            .filter(|i| {
-                let into = left.iter().any(|j| edges[*j].contains(i));
-                let out = edges[*i].iter().any(|j| left.contains(j));
-                !(into && out)
-            })
-            .collect();
-        if ends.is_empty() {
-            break;
-        }
-        ends.iter().for_each(|i| {
-            left.remove(i);
-        });
+    for root in ["src", "crates/capi/src", "crates/explorer/src", "crates/python/src"] {
+        let (sources, edges) = graph(Path::new(root));
+        let names: Vec<String> = sources.iter().map(|source| source.module.join("::")).collect();
+        let all = circles(&names, &edges);
+        assert!(all.is_empty(), "circles among the files of {root}:\n{}", all.join("\n"));
     }
-    let name = |i: &usize| sources[*i].module.join("::");
-    let arrows = left.iter().flat_map(|i| edges[*i].iter().filter(|j| left.contains(j)).map(move |j| (i, j)));
-    let told: Vec<String> = arrows.map(|(i, j)| format!("{} -> {}", name(i), name(j))).collect();
-    assert!(told.is_empty(), "circles among:\n{}", told.join("\n"));
+}
+
+/// The files of the package that a line of Python imports, in a file of this folder.
+fn imported(line: &str, folder: &Path) -> Vec<PathBuf> {
+    let Some((from, names)) = line.trim().strip_prefix("from .").and_then(|rest| rest.split_once("import ")) else {
+        return Vec::new();
+    };
+    let module = from.trim().trim_start_matches('.');
+    let above = folder.ancestors().nth(from.trim().len() - module.len()).unwrap();
+    let place = above.join(module.replace('.', "/"));
+    // A name is a module, whose source may be in another language, or else something in one.
+    let files = |name: &str| {
+        let inner = place.join(name);
+        let all = [inner.with_extension("py"), inner.with_extension("pyi"), inner.join("__init__.py")];
+        all.into_iter().chain([place.with_extension("py"), place.join("__init__.py")]).find(|file| file.exists())
+    };
+    names.split(',').filter_map(|name| files(name.split_whitespace().next()?)).collect()
+}
+
+#[test]
+fn no_modules_of_the_python_package_import_each_other_in_a_circle() {
+    let mut paths = Vec::new();
+    files(Path::new("crates/python/python"), "py", &mut paths);
+    paths.sort();
+    let edges = paths.iter().map(|path| {
+        let (text, folder) = (fs::read_to_string(path).unwrap(), path.parent().unwrap());
+        let targets = text.lines().flat_map(|line| imported(line, folder));
+        targets.filter_map(|target| paths.iter().position(|path| *path == target)).collect()
+    });
+    let edges: Vec<BTreeSet<usize>> = edges.collect();
+    let seen: usize = edges.iter().map(BTreeSet::len).sum();
+    assert!(seen > 20, "only {seen} imports were seen");
+    let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+    let all = circles(&names, &edges);
+    assert!(all.is_empty(), "circles:\n{}", all.join("\n"));
 }

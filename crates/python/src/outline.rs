@@ -20,11 +20,18 @@ use spiral_atlas::recipe::{AtlasPlan, Recipe};
 use spiral_atlas::{Error, Result};
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// What an atlas of nodes says about itself, and its axes: all of it but the fields.
 #[pyclass(frozen, module = "spiral_atlas._core")]
-pub struct Outline(pub atlas::Outline);
+pub struct Outline(Arc<atlas::Outline>);
+
+impl Outline {
+    fn new(outline: Result<atlas::Outline>) -> PyResult<Outline> {
+        outline.map(|outline| Outline(Arc::new(outline))).map_err(raise)
+    }
+}
 
 /// The atlas of a recipe that has this name or, without a name, its only one.
 fn plan<'a>(recipe: &'a Recipe, name: Option<&str>) -> PyResult<&'a AtlasPlan> {
@@ -61,13 +68,13 @@ impl Outline {
         // Whether the grid lies in the family's domain, before any work; a part of it then does, too.
         family.table(grid).map_err(raise)?;
         let spec = Spec { name, family: *family, grid, scalars, recipe: &recipe.text };
-        atlas::Outline::of(&spec).map(Outline).map_err(raise)
+        Outline::new(atlas::Outline::of(&spec))
     }
 
     /// That of an atlas.
     #[staticmethod]
     fn of_atlas(atlas: &Atlas) -> PyResult<Outline> {
-        atlas::Outline::of_atlas(&atlas.0).map(Outline).map_err(raise)
+        Outline::new(atlas::Outline::of_atlas(&atlas.0))
     }
 
     /// That with these metadata and values of axes, from a place that messages name.
@@ -81,7 +88,7 @@ impl Outline {
         axes: HashMap<String, PyReadonlyArray1<'_, f64>>,
     ) -> PyResult<Outline> {
         let values = |name: &str| axes.get(name).map(|values| values.as_array().to_vec());
-        atlas::Outline::read(place, metadata, values).map(Outline).map_err(raise)
+        Outline::new(atlas::Outline::read(place, metadata, values))
     }
 
     /// The metadata of the file, without its hashes: text by name.
@@ -178,8 +185,8 @@ impl Outline {
     /// Raises:
     ///     ValueError: the recipe is wrong, or has no atlas of this name and these axes.
     #[pyo3(signature = (recipe = None))]
-    fn pictures(slf: &Bound<'_, Self>, recipe: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Picture>> {
-        let outline = &slf.get().0;
+    fn pictures(&self, recipe: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Picture>> {
+        let outline = &self.0;
         let plans = match recipe {
             None => picture::plans(outline.about(), outline.grid()).map_err(raise)?,
             Some(recipe) => {
@@ -194,7 +201,7 @@ impl Outline {
                 plan.pictures.clone()
             }
         };
-        Ok(plans.into_iter().map(|plan| Picture { outline: slf.clone().unbind(), plan }).collect())
+        Ok(plans.into_iter().map(|plan| Picture { outline: outline.clone(), plan }).collect())
     }
 }
 

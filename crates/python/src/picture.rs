@@ -1,18 +1,19 @@
 //! Pictures of atlases, drawn of no more nodes than they show.
 
 use crate::error::raise;
-use crate::outline::Outline;
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use spiral_atlas::atlas::Outline;
 use spiral_atlas::picture::{self, Part};
 use spiral_atlas::recipe::PicturePlan;
+use std::sync::Arc;
 
 /// A picture of an atlas that is to be drawn.
 #[pyclass(frozen, module = "spiral_atlas._core")]
 pub struct Picture {
-    pub outline: Py<Outline>,
+    pub outline: Arc<Outline>,
     pub plan: PicturePlan,
 }
 
@@ -21,7 +22,7 @@ impl Picture {
     /// The nodes of each axis that it shows: `draw` wants the fields of their products.
     #[getter]
     fn nodes(&self) -> Vec<Vec<usize>> {
-        picture::shown(self.outline.get().0.grid(), &self.plan)
+        picture::shown(self.outline.grid(), &self.plan)
     }
 
     /// The scalar that it shows, where it shows one.
@@ -42,10 +43,8 @@ impl Picture {
         let (nodes, flags) = (self.nodes(), flags.as_slice().map_err(apart)?);
         let values = scalar.as_ref().map(|values| values.as_slice()).transpose().map_err(apart)?;
         let scalars = self.scalar().into_iter().zip(values).collect();
-        let outline = &self.outline.get().0;
-        let png = py
-            .detach(|| picture::draw(&Part::new(outline, &nodes, flags, scalars)?, &self.plan)?.png())
-            .map_err(raise)?;
+        let draw = || picture::draw(&Part::new(&self.outline, &nodes, flags, scalars)?, &self.plan)?.png();
+        let png = py.detach(draw).map_err(raise)?;
         Ok(PyBytes::new(py, &png))
     }
 }

@@ -38,8 +38,7 @@ use super::{fork, narrow};
 use crate::family::hermite::clip;
 use crate::family::outer_region::{any, facts};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
-use crate::num::bernstein::Certain;
-use crate::num::{Form, Number, Real, Verdict, formula};
+use crate::num::{Certain, Form, Number, Real, Verdict, formula};
 
 /// A form in φ0, φ1, κ0, κ1.
 type Four = Form<4, 10>;

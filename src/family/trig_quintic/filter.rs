@@ -5,9 +5,9 @@ use super::plain::{flags, printed_ratio};
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use super::{END_RISES, PRINTED_RATIO, SPIRAL};
 use crate::family::Code;
-use crate::num::bernstein::{Certain, positive};
+use crate::num::bernstein::positive;
 use crate::num::bernstein_lanes::{negative_lanes, positive_lanes};
-use crate::num::{COVER, Lanes, Verdict};
+use crate::num::{COVER, Certain, Lanes, Verdict};
 use fearless_simd::{Simd, SimdBase};
 
 /// 2^-53.

@@ -15,8 +15,8 @@ use super::plain::end_slope;
 use super::poly::{BERNSTEIN, Frame, K, hodograph, numerator};
 use crate::error::Result;
 use crate::family::NO_VALUE;
-use crate::num::bernstein::{Certain, positive};
-use crate::num::{Interval, Number, Real, TWIN_BITS, Twin, Verdict, climb, formula};
+use crate::num::bernstein::positive;
+use crate::num::{Certain, Interval, Number, Real, TWIN_BITS, Twin, Verdict, climb, formula};
 use std::array::from_fn;
 use std::cmp::Ordering::Equal;
 

@@ -1,9 +1,8 @@
 //! Quotients, roots and signs of forms.
 
 use super::{Form, GROW, UNIT};
-use crate::num::bernstein::Certain;
 use crate::num::formula;
-use crate::num::{Ball, Number, Real};
+use crate::num::{Ball, Certain, Number, Real};
 use std::cmp::Ordering;
 
 impl<const K: usize, const H: usize> Certain for Form<K, H> {

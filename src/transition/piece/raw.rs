@@ -6,7 +6,7 @@ use crate::curve::{CubicBezier, PhQuintic, TrigBezier};
 use crate::error::{Error, Result, above_zero};
 use crate::plain::count;
 use crate::transition::{Clothoid, Ends};
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 /// A given end may miss the end of the curve by this share of the curve's size and place, for roundings of whoever
 /// wrote it.
@@ -17,7 +17,7 @@ type Points<const N: usize> = [[f64; 2]; N];
 /// All fields of all kinds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename = "piece", deny_unknown_fields)]
-pub(super) struct RawPiece {
+struct RawPiece {
     #[serde(deserialize_with = "crate::plain::name")]
     kind: Kind,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -257,11 +257,9 @@ impl RawPiece {
     }
 }
 
-impl TryFrom<RawPiece> for Piece {
-    type Error = Error;
-
-    fn try_from(raw: RawPiece) -> Result<Piece> {
-        raw.piece()
+impl<'de> Deserialize<'de> for Piece {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Piece, D::Error> {
+        RawPiece::deserialize(deserializer)?.piece().map_err(de::Error::custom)
     }
 }
 

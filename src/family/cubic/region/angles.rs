@@ -1,8 +1,10 @@
 //! What depends on the two angles, as forms over their ranges.
 
-use super::Four;
 use crate::num::sines::sum_below_pi;
-use crate::num::{Number, formula};
+use crate::num::{Form, Number, formula};
+
+/// A form in φ0, φ1, κ0, κ1.
+pub(super) type Four = Form<4, 10>;
 
 /// The constants of [`super::super::pair::Pair`] over a range of angles.
 #[derive(Debug, Clone, Copy)]

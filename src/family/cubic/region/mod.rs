@@ -42,13 +42,10 @@ use super::{ANY_SPIRAL, Cubic, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
 use crate::family::hermite::clip;
 use crate::family::outer_region::{any, facts, rising};
 use crate::family::region::{Facts, MOST_SIDES, Region, add_pull, positive, unit_sign};
-use crate::num::{Form, Number, Verdict, formula};
-use angles::Angles;
+use crate::num::{Number, Verdict, formula};
+use angles::{Angles, Four};
 use root::{Root, span};
 use std::cell::Cell;
-
-/// A form in φ0, φ1, κ0, κ1.
-type Four = Form<4, 10>;
 
 /// Whether a root exists, and Theorem 3.1 and the exact test at it, wherever it exists.
 #[derive(Clone, Copy)]

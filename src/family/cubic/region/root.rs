@@ -26,9 +26,8 @@
 //! only for A < 1/3, so that `y(r) = 3 - A r² > 0`. Beyond, F falls until y = 0 and is 3 - x < 0 from `x = √(3/A) > 3`
 //! on.
 
-use super::Four;
-use crate::num::bernstein::Certain;
-use crate::num::{Ball, Real, formula};
+use super::angles::Four;
+use crate::num::{Ball, Certain, Real, formula};
 use std::cmp::Ordering::{Greater, Less};
 
 /// Covers the roundings of the bounds of an enclosure: fewer than 100 operations on numbers that are not negative.
