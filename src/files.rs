@@ -141,7 +141,7 @@ fn sweep(folder: &Path) {
 ///   whole.
 ///
 /// # Errors
-/// [`Error::Domain`] with both sizes. A file system that does not tell its size is trusted.
+/// [`Error::Domain`] with both sizes. A file system that does not report its size is trusted.
 pub fn check_room(folder: &Path, what: &str, needed: u64) -> Result<()> {
     let there =
         folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.exists());
@@ -157,7 +157,7 @@ pub fn check_room(folder: &Path, what: &str, needed: u64) -> Result<()> {
     }
 }
 
-/// Bytes that are free on the disk of a folder, where the system tells.
+/// Bytes that are free on the disk of a folder, where the system says.
 #[cfg(not(target_family = "wasm"))]
 fn free(folder: &Path) -> Option<u64> {
     fs4::statvfs(folder).ok().filter(|stats| stats.total_space() > 0).map(|stats| stats.available_space())

@@ -15,7 +15,7 @@ fn main() -> std::process::ExitCode {
 /// The Vulkan layer that sorts devices by the display they are connected to asks the Wayland library for a display, and
 /// that library complains on standard error, once for each try, wherever there is none: on servers, in containers, in
 /// CI. This program never draws on a display, and chooses its adapter itself. EGL, which is asked for adapters where
-/// Vulkan has none, warns of each driver that it does not find; that there is no adapter is told by this program. No
+/// Vulkan has none, warns of each driver that it does not find; that there is no adapter, this program reports. No
 /// adapter is lost by either.
 ///
 /// A library must not change the environment of its program, so this is done here and not where adapters are listed.

@@ -182,7 +182,7 @@ def drags_change_verdicts_and_numbers(browser):
         page.page.keyboard.press("ArrowUp")
         page.rest()
         assert page.tell("state()")["ends"][part] != was, handle
-    # What each drag took, from the pointer to the curve; a speed is told, never asserted.
+    # What each drag took, from the pointer to the curve; a speed is reported, never asserted.
     page.page.click("#reset")
     page.rest()
     page.page.evaluate("explorer.times.length = 0")
@@ -196,7 +196,7 @@ def drags_change_verdicts_and_numbers(browser):
 
 
 def frames(page):
-    """Tells how often the page is painted while the circle, and with it everything else, is dragged for seconds."""
+    """Reports how often the page is painted while the circle, and with it everything else, is dragged for seconds."""
     for what, handle in (("circle", "end-curvature"), ("direction", "end-direction")):
         page.page.evaluate("""() => { const beats = globalThis.beats = [];
             const beat = (time) => { if (beats.push(time) && globalThis.beats === beats) requestAnimationFrame(beat); };
@@ -363,7 +363,7 @@ def the_region_is_the_programs(browser):
         }""",
         asked,
     )
-    # A speed is told, never asserted.
+    # A speed is reported, never asserted.
     for slice in timed:
         print(f"  400 x 400 pixels of {slice['family']}: {slice['took']:.0f} ms")
     page.close()

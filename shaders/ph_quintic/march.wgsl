@@ -1,4 +1,4 @@
-// Twin of family/ph_quintic/march.rs in f32: which knots tell that the curves meet, and where.
+// Twin of family/ph_quintic/march.rs in f32: which knots prove that the curves meet, and where.
 
 struct Knot {
     t: f32,

@@ -1,6 +1,6 @@
 // Twin of family/ph_quintic/truth.rs in f32: the code of a node.
 
-// Solutions and spirals packed as counts, and the flags that follow; UNDECIDED where f32 cannot tell. `any`: whether a
+// Solutions and spirals packed as counts, and the flags that follow; UNDECIDED where f32 proves none. `any`: whether a
 // spiral is possible.
 fn count(curves: Curves, any: bool) -> u32 {
     // Knots before and behind which there is no solution.

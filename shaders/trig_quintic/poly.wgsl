@@ -116,7 +116,7 @@ struct Form {
 
 // Places where a numerator that is negative somewhere mostly is: at t/(1 - t) of these, and of one over these.
 const DIPS: vec4<f32> = vec4<f32>(1.0, 1.6666666, 3.0, 7.0);
-// One over these to the power 37, about: a common factor of values and sizes tells nothing.
+// One over these to the power 37, about: a common factor of values and sizes changes nothing.
 const LEAST_POWERS: vec4<f32> = vec4<f32>(1.0, 6.2e-9, 2.2e-18, 5.4e-32);
 
 fn numerator(h: Hodograph, square: f32) -> Form {

@@ -184,7 +184,7 @@ impl Atlas {
         self.id
     }
 
-    /// Name and stated BLAKE3 of each tensor, in file order; whether they are true, [`Atlas::check_hashes`] tells.
+    /// Name and stated BLAKE3 of each tensor, in file order; whether they are true, [`Atlas::check_hashes`] says.
     pub fn hashes(&self) -> impl Iterator<Item = (&str, Hash)> {
         self.header.tensors.iter().map(|t| &t.name[..]).zip(self.header.hashes.iter().copied())
     }

@@ -57,7 +57,7 @@ pub(super) fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> 
     Spec { name: &plan.name, family: plan.family, grid: &plan.grid, budget, recipe: &recipe.text }
 }
 
-/// Makes cells, with a bar that tells how many have been divided.
+/// Makes cells, with a bar that shows how many have been divided.
 fn with_bar<T>(name: &str, most_bytes: u64, make: impl FnOnce(&(dyn Fn(u64) + Sync)) -> T) -> T {
     // How many will be divided is not known before: a cell takes some five bytes.
     let bar = output::progress(name.to_owned(), most_bytes / 5);

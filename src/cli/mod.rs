@@ -44,7 +44,7 @@ struct Cli {
     command: Command,
 }
 
-/// What a command tells by its exit status.
+/// What a command reports by its exit status.
 const EXIT_STATUS: &str = "\
 Exit status:
   0    yes: what was asked for exists, holds or was done

@@ -111,12 +111,12 @@ pub(super) fn json_error(e: serde_json::Error) -> Error {
     Error::invalid(format!("a report cannot be written as JSON: {e}"))
 }
 
-/// Tells an error. When even standard error is closed, the exit code must do.
+/// Reports an error. When even standard error is closed, the exit code must do.
 pub(super) fn complain(what: &str) {
     let _ = writeln!(io::stderr(), "error: {what}");
 }
 
-/// Tells on standard error what is no error, where standard output is for numbers alone.
+/// Reports on standard error what is no error, where standard output is for numbers alone.
 pub(super) fn note(what: &str) {
     let _ = writeln!(io::stderr(), "{what}");
 }
@@ -138,7 +138,7 @@ impl<K: Serialize, V: Serialize> Serialize for Object<K, V> {
     }
 }
 
-/// A file that was written, with what tells it from others.
+/// A file that was written, with what distinguishes it from others.
 #[derive(Debug, Clone, serde::Serialize)]
 pub(super) struct Product {
     /// Where it is.

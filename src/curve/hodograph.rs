@@ -37,7 +37,7 @@ pub(crate) enum Bound {
     Below,
     /// It does not, at this parameter of the piece.
     Above(f64),
-    /// The precision does not tell.
+    /// The precision does not decide.
     Open,
 }
 
@@ -46,7 +46,7 @@ enum Compared {
     Below,
     /// At the start, 0, or at the end, 1.
     Above(f64),
-    /// Halves may tell.
+    /// Halves may decide.
     Open,
     Hopeless,
 }
@@ -218,7 +218,7 @@ impl<N: Real> Hodograph<N> {
         Bound::Below
     }
 
-    /// The same as far as the coefficients tell.
+    /// The same as far as the coefficients decide.
     fn compared(&self, v: &N, touching: usize) -> Compared {
         let (square, turn) = self.sides();
         let left = turn[0].certain_sign(0.0) == Some(Greater);

@@ -171,7 +171,7 @@ impl PhQuintic {
     ///
     /// # Accuracy
     /// A few roundings over the square root of the least speed's share of the length. A curve that is not
-    /// [regular](PhQuintic::is_regular) counts as standing still, as its pre-image does not tell how near it comes to
+    /// [regular](PhQuintic::is_regular) counts as standing still, as its pre-image does not show how near it comes to
     /// that.
     pub fn greatest_curvature(&self) -> (f64, f64) {
         if !self.is_regular() {

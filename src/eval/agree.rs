@@ -80,7 +80,7 @@ impl Agreement {
 /// A GPU that leaves every node to the CPU would agree with anything that the CPU computed, so that is an error.
 ///
 /// # Arguments
-/// - `progress`: is told the number of nodes compared so far.
+/// - `progress`: gets the number of nodes compared so far.
 ///
 /// # Errors
 /// Those of [`evaluate`]; [`Error::Domain`] when a stored field has not one value for each node; [`Error::Gpu`] when

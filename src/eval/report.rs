@@ -1,4 +1,4 @@
-//! What a run tells about itself: everything that may differ between machines, kept out of the atlas.
+//! What a run reports about itself: everything that may differ between machines, kept out of the atlas.
 
 use super::{Backend, Chunk, Job};
 use serde::Serialize;

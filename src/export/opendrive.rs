@@ -11,7 +11,7 @@
 //!
 //! and p'''' = 120 Δ⁴b is linear, with its largest size at an end. So q is no further from p than
 //! `120 max(|Δ⁴b0|, |Δ⁴b1|) / (384 n⁴)`, at the same parameter; n is the least that keeps the tolerance. Directions are
-//! met at all joints. Curvatures differ there a little, and by how much is told.
+//! met at all joints. Curvatures differ there a little, and by how much is reported.
 
 use crate::curve::vector::{Vector, add, cross, length, scale, sub};
 use crate::curve::{PhQuintic, arc_length, casteljau};

@@ -1,4 +1,4 @@
-//! The exact answer for one datum, in a form that fits every family: what `query` tells.
+//! The exact answer for one datum, in a form that fits every family: what `query` reports.
 
 use super::Code;
 
@@ -15,7 +15,7 @@ pub struct Answer {
     pub chosen: Option<usize>,
 }
 
-/// Values by name, in the order in which they are told.
+/// Values by name, in the order in which they are printed.
 pub type Values = Vec<(&'static str, Value)>;
 
 /// A value of an [`Answer`].

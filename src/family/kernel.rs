@@ -35,7 +35,7 @@ pub struct ShaderInputs {
 pub(super) fn constants(flags: &[Flag], counts: &[(&str, usize)], numbers: &[(&str, f64)]) -> String {
     let whole = |name: &str, value: usize| format!("const {name}: u32 = {value}u;\n");
     let mut text = whole("UNDECIDED", Code::UNDECIDED.0.into());
-    // What every question in a shader answers: OPEN where f32 cannot tell.
+    // What every question in a shader answers: OPEN where f32 cannot decide.
     text.extend(["NO", "YES", "OPEN"].iter().zip(0..).map(|(name, value)| whole(name, value)));
     text.extend(flags.iter().enumerate().map(|(bit, flag)| whole(flag.name, 1 << bit)));
     text.extend(counts.iter().map(|(name, count)| whole(name, *count)));

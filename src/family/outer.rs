@@ -14,7 +14,7 @@ use std::cmp::Ordering::Greater;
 /// `[sin φ0, sin φ1, sin²((φ1 - φ0)/2)]`.
 pub(super) type Sines<N> = [N; 3];
 
-/// Lanes where the bound holds, and where it does not; where neither, doubles cannot tell.
+/// Lanes where the bound holds, and where it does not; where neither, doubles cannot decide.
 ///
 /// Sines, curvatures and the square are within a relative `error`, which also covers four roundings.
 #[inline(always)]

@@ -78,7 +78,7 @@ impl Lookup {
         if !((values[0] <= x) & (x <= values[last + 1])) {
             return None;
         }
-        // Between two values the guess lies between their indices; the comparisons tell a wrong one.
+        // Between two values the guess lies between their indices; the comparisons find a wrong one.
         let index = (nearest_integer(self.guess(x) - 0.5) as usize).min(last);
         if (values[index] <= x) & (x <= values[index + 1]) {
             return Some(index);
@@ -96,7 +96,7 @@ impl Lookup {
             return None;
         }
         let guess = self.guess(x);
-        // Any guess will do for an index in range; the comparisons below tell a wrong one.
+        // Any guess will do for an index in range; the comparisons below find a wrong one.
         let index = (nearest_integer(guess) as usize).min(self.count() - 1);
         if let [below, here, above] = self.padded[index..index + 3] {
             // With `x <= here` the second holds anyway, else the first; so no branch depends on which half of a step x

@@ -253,7 +253,7 @@ mod tests {
         }
     }
 
-    /// Its least value is less than that at an end by what no double next to the end's value can tell.
+    /// Its least value is less than that at an end by less than the distance of that value to the next double.
     #[test]
     fn a_least_value_just_inside_an_end_is_found() {
         for offset in [1e-7, 1e-9, 1e-18, 1e-40] {

@@ -47,7 +47,7 @@ pub(crate) trait Curve {
     fn at(&self, x: &Interval) -> Option<(Interval, Interval)>;
     /// An approximation of the value.
     fn guess(&self, x: f64) -> f64;
-    /// The root, about, where a formula tells it; else it is looked for with the guessed values.
+    /// The root, about, where a formula gives it; else it is looked for with the guessed values.
     fn start(&self) -> Option<Interval> {
         None
     }

@@ -90,7 +90,7 @@ pub(crate) fn two_sum(x: f64, y: f64) -> (f64, f64) {
 }
 
 /// Whether `x + y < π`, decided exactly: π lies between the double [`PI`] and the next one up, so where the rounded sum
-/// equals [`PI`] its rounding error tells.
+/// equals [`PI`] its rounding error decides.
 pub(crate) fn sum_below_pi(x: f64, y: f64) -> bool {
     let (sum, low) = two_sum(x, y);
     sum < PI || sum == PI && low < PI_LOW

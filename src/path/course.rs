@@ -192,8 +192,8 @@ impl Course {
         self.pieces.iter().map(one).sum()
     }
 
-    /// Where the curvature ends to rise or to fall: inside pieces, and where they join. That it jumps at a joint is not
-    /// told.
+    /// Where the curvature ends to rise or to fall: inside pieces, and where they join. No jump at a joint is
+    /// reported.
     ///
     /// # Accuracy
     /// For PH quintics and cubics all extrema are isolated in doubles. For a trigonometric quintic they are found where

@@ -38,7 +38,7 @@ pub struct Closest {
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Separation {
     /// Whether the minimum distance is kept at all times. It is undecided where the least separation is too close to
-    /// the minimum to tell in doubles. JSON says `kept`, `violated` or `undecided`.
+    /// the minimum to decide in doubles. JSON says `kept`, `violated` or `undecided`.
     #[serde(serialize_with = "kept")]
     pub verdict: Verdict,
     /// The closest approach.
@@ -121,7 +121,7 @@ fn tolerance(a: &Motion, b: &Motion) -> f64 {
 struct Search<'m> {
     a: &'m Motion,
     b: &'m Motion,
-    /// Stretches of time, and whether halves would tell more.
+    /// Stretches of time, and whether halves would decide more.
     waiting: Queue<([f64; 2], bool)>,
     /// Least upper bound, when, and where both are then.
     best: (f64, f64, [[f64; 2]; 2]),
@@ -199,7 +199,7 @@ impl Search<'_> {
         let drift = self.a.drift(self.b, [from, to]);
         let in_step = apart - drift - 2.0 * off;
         let bound = [by_curvature, in_step].into_iter().fold(by_speed, f64::max);
-        // Where one covers less of the way to the other than points are off, there is no more to tell.
+        // Where one covers less of the way to the other than points are off, there is no more to learn.
         let more = drift.min(along_a + along_b) > off;
         // Distances and bounds themselves round, by less than the roundings in `off`.
         self.waiting.push((bound - 2.0 * off).max(0.0), ([from, to], more));

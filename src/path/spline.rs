@@ -112,7 +112,7 @@ impl Problem<'_> {
         let mut z: Vec<Complex64> = Vec::with_capacity(n);
         for i in 0..n {
             let middle = 1.5 * self.chords[i] - 0.25 * (slopes[i] + slopes[(i + 1) % slopes.len()]);
-            // Where that spline nearly stops, the chord tells more.
+            // Where that spline nearly stops, the chord says more.
             let middle = if middle.norm() < 0.05 * self.chords[i].norm() { self.chords[i] } else { middle };
             let root = middle.sqrt();
             let turned = z.last().is_some_and(|last| (last.conj() * root).re < 0.0);

@@ -32,7 +32,7 @@ const SMALLEST: f64 = 1e-18;
 /// Derivatives above the first are known to this share of the largest first one that the polygon allows, far above
 /// their roundings.
 const BLUR: f64 = 1e-10;
-/// Steps of Newton's method; what they miss is told.
+/// Steps of Newton's method; what they miss is reported.
 const NEWTON: usize = 3;
 /// Lengths and coordinates in which neither squares nor the tiny shares above leave the range of doubles.
 const RANGE: [f64; 2] = [1e-140, 1e140];

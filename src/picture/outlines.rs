@@ -1,4 +1,4 @@
-//! Smooth outlines of regions: where a flag changes between two neighbouring nodes, exact verdicts tell more narrowly.
+//! Smooth outlines of regions: where a flag changes between two neighbouring nodes, exact verdicts find the place.
 
 use super::source::Subject;
 use crate::error::Result;
@@ -66,7 +66,7 @@ fn crossings(
         let mut middles: Vec<f64> = known.iter().map(|(.., ends)| middle(*ends)).collect();
         middles.sort_by(f64::total_cmp);
         middles.dedup();
-        // What cannot be told stays where it is: the outline is a picture, and the nodes are proved.
+        // What is not decided stays where it is: the outline is a picture, and the nodes are proved.
         let Ok(codes) = verdicts(subject, plan, at, side, line, &middles) else { break };
         for (k, before, ends) in &mut known {
             let (bit, mask) = regions[*k];

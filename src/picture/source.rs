@@ -72,7 +72,7 @@ impl<'a> Part<'a> {
     /// A part of an atlas.
     ///
     /// # Arguments
-    /// - `nodes`: for each axis the chosen nodes, increasing; [`shown`] tells those of a picture.
+    /// - `nodes`: for each axis the chosen nodes, increasing; [`shown`] gives those of a picture.
     /// - `flags`, `scalars`: the fields of all combinations of them, the last axis fastest.
     ///
     /// # Errors

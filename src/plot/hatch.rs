@@ -3,8 +3,7 @@
 use super::palette::{Color, OUTLINES};
 use super::style::Style;
 
-/// How one of several outlines is told from the others: by its colour, and where there are more than colours, by the
-/// way its stripes run.
+/// What sets one of several outlines apart: its colour, and where there are more than colours, the way its stripes run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outline {
     pub color: Color,

@@ -5,7 +5,7 @@ use super::hatch::{Hatch, Outline};
 use super::palette::{Color, INK};
 use super::regions::Regions;
 
-/// Pixels per inch of a sheet that tells only its size.
+/// Pixels per inch of a sheet that states only its size.
 pub const DPI: u32 = 96;
 
 /// How a text is written.

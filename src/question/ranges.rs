@@ -164,7 +164,7 @@ fn gathered(parts: &[([f64; 2], Verdict)], boxes: usize) -> Ranges {
                 found.ranges.push(Range { ends: *side, cut: [false; 2], inner: *side, outer: [low, high] });
             }
             Verdict::No => {}
-            // Undecided between a yes and a no: the end of a range, already told by its `outer`.
+            // Undecided between a yes and a no: the end of a range, already reported by its `outer`.
             Verdict::Undecided if !known(before).is_open() && known(after) == !known(before) => {}
             Verdict::Undecided => found.open.push(*side),
         }

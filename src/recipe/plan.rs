@@ -26,7 +26,7 @@ pub struct AtlasPlan {
     pub scalars: Vec<usize>,
     /// What the axes are.
     pub chart: &'static Chart,
-    /// The nodes, or the edges of cells. Whether nodes lie in the family's domain, [`Family::table`] tells.
+    /// The nodes, or the edges of cells. Whether nodes lie in the family's domain, [`Family::table`] says.
     pub grid: Grid,
     /// Most bytes of a file of cells; `None` for nodes.
     pub cells: Option<u64>,

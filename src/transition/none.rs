@@ -129,7 +129,7 @@ impl Seen<'_> {
 }
 
 impl NoSpiral {
-    /// The reason, as far as double precision can tell: none within rounding of a boundary where a spiral seems to
+    /// The reason, as far as double precision can decide: none within rounding of a boundary where a spiral seems to
     /// exist.
     ///
     /// Seen so that curvature rises, a spiral exists exactly where `ω > 0`, `room > 0`, `over > 0` and
@@ -187,13 +187,13 @@ impl Bound {
 
 impl Need {
     /// `the end curvature 0.1 above 0.2`, with a verb before `above` or without.
-    fn told(&self, verb: &str) -> String {
+    fn stated(&self, verb: &str) -> String {
         let Need { which, curvature, bound } = self;
-        let (side, told) = match bound {
+        let (side, limit) = match bound {
             Bound::Above(x) => ("above", above(*x)),
             Bound::Below(x) => ("below", below(*x)),
         };
-        format!("the {which} curvature {curvature:?}{verb} {side} {told}{}", radius(*bound))
+        format!("the {which} curvature {curvature:?}{verb} {side} {limit}{}", radius(*bound))
     }
 }
 
@@ -241,11 +241,11 @@ impl fmt::Display for NoSpiral {
             }
             NoSpiral::CirclesCross { needs, alone } => {
                 f.write_str("the circles of curvature at the ends cross or touch, and those of a spiral do not")?;
-                let told = |verb| needs.iter().map(|need| need.told(verb)).collect::<Vec<_>>();
+                let stated = |verb| needs.iter().map(|need| need.stated(verb)).collect::<Vec<_>>();
                 match (needs.as_slice(), alone) {
                     ([], _) => Ok(()),
-                    (_, true) => write!(f, ": {}", told(" must be").join(", or ")),
-                    (_, false) => write!(f, "; it is enough to bring {}", told("").join(" and ")),
+                    (_, true) => write!(f, ": {}", stated(" must be").join(", or ")),
+                    (_, false) => write!(f, "; it is enough to bring {}", stated("").join(" and ")),
                 }
             }
         }

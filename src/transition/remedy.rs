@@ -29,7 +29,7 @@ pub struct Remedy {
 impl Remedy {
     /// For either end. `exists` must be a proof.
     ///
-    /// Curvatures are told by their distance from the bound that a spiral of any kind asks for: it is doubled and
+    /// Curvatures are given by their distance from the bound that a spiral of any kind asks for: it is doubled and
     /// halved until the family has a spiral, and the last doubling is halved so that the answer is within a few
     /// thousandths of the nearest.
     ///
@@ -46,7 +46,7 @@ impl Remedy {
         for which in [Which::End, Which::Start] {
             let curvature = of(ends, which);
             let Some(bound) = NoSpiral::bound(ends, which)?.map(Bound::value) else { continue };
-            // Rounded first, so that what is told is what was tried.
+            // Rounded first, so that what is reported is what was tried.
             let at = |power: f64| rounded(bound + (curvature - bound) * power.exp2());
             let works = |power: f64| {
                 let instead = at(power);

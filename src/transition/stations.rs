@@ -66,8 +66,8 @@ pub fn stations(pieces: &[Piece], count: usize) -> Result<Vec<Station>> {
             let curvature = if at.heading.is_nan() { f64::NAN } else { at.curvature };
             let found = Station { station: wanted(n), x: at.point[0], y: at.point[1], heading: at.heading, curvature };
             // Where the path stands still, heading and curvature are none.
-            let told = if at.heading.is_nan() { 3 } else { 5 };
-            let beyond = found.numbers().iter().take(told).position(|x| !x.is_finite());
+            let known = if at.heading.is_nan() { 3 } else { 5 };
+            let beyond = found.numbers().iter().take(known).position(|x| !x.is_finite());
             if let Some(name) = beyond.map(|i| Station::COLUMNS[i]) {
                 return Err(Error::beyond_doubles(format!("the {name} of sample {n}"), OTHER_UNIT));
             }

@@ -2,7 +2,7 @@
 
 use crate::error::written;
 
-/// Digits that a bound is told with.
+/// Digits that a bound is written with.
 const DIGITS: i32 = 6;
 
 /// Six digits, or fewer where they say the same.
@@ -25,18 +25,18 @@ pub(super) fn degrees(angle: f64) -> String {
     short(angle.to_degrees()) + "°"
 }
 
-/// The nearest number that six digits tell.
+/// The nearest number of six digits.
 pub(super) fn rounded(x: f64) -> f64 {
     format!("{x:.*e}", DIGITS as usize - 1).parse().unwrap_or(x)
 }
 
-/// `x` itself where six digits tell it, or the next number of six digits on the side of `sign`.
+/// `x` itself where it has six digits, or the next number of six digits on the side of `sign`.
 fn beyond(x: f64, sign: f64) -> f64 {
     let near = rounded(x);
     if sign * (near - x) >= 0.0 {
         return near;
     }
-    // The unit of the last digit told: 10 to the power of that digit. Within a few ulp; rounding again makes it exact.
+    // The unit of the last digit: 10 to the power of that digit. Within a few ulp; rounding again makes it exact.
     let unit = 10f64.powi(x.abs().log10().floor() as i32 + 1 - DIGITS);
     rounded(near + sign * unit)
 }
@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bounds_are_told_on_their_safe_side() {
+    fn bounds_are_written_on_their_safe_side() {
         assert_eq!([0.0102, 33.5, 2.0, 1e-310, 1.5e300].map(short), ["0.0102", "33.5", "2", "1e-310", "1.5e300"]);
         assert_eq!([0.014666189071791766, -0.014666189071791766].map(above), ["0.0146662", "-0.0146661"]);
         assert_eq!([0.014666189071791766, -0.014666189071791766].map(below), ["0.0146661", "-0.0146662"]);

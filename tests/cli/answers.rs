@@ -304,7 +304,7 @@ fn tables_of_spreadsheets_are_read() {
     assert_eq!(comma.err, "error: row 2 of 2 is bad; its answer says why\n");
 }
 
-/// Names of families in letters of either size. A number that is none: the comma is told where it is the fault.
+/// Names of families in letters of either size. A number that is none: the comma is named where it is the fault.
 #[test]
 fn names_and_numbers_as_they_are_typed() {
     let datum = |kappa0: &'static str| format!("--phi0 0.7 --phi1 1.4 --kappa0 {kappa0} --kappa1 4");

@@ -303,7 +303,7 @@ fn options_of_other_families_are_refused() {
     );
 }
 
-/// `query` tells a segment's length in radii, `curve` in the user's unit.
+/// `query` gives a segment's length in radii, `curve` in the user's unit.
 #[test]
 fn lengths_of_added_segments_agree() {
     for (family, theta, xi, eta, base) in [

@@ -178,7 +178,7 @@ fn info_tells_what_an_atlas_holds() {
     assert_eq!(json["blake3"]["flags"], flags.to_hex().as_str());
 }
 
-/// Sizes without room, and letters that the font lacks, are told before anything is made; the size that is advised
+/// Sizes without room, and letters that the font lacks, are reported before anything is made; the size that is advised
 /// works, and one hardly smaller than that does not.
 #[test]
 fn pictures_that_cannot_be_drawn_are_refused_before_the_work() {

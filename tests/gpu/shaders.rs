@@ -1,4 +1,4 @@
-//! Every shader that can be assembled is valid, which needs no GPU; and errors are told in the fragments' own lines.
+//! Every shader that can be assembled is valid, which needs no GPU; and errors name the fragments' own lines.
 
 use spiral_atlas::eval::gpu::{assemble, validate};
 use spiral_atlas::family::{self, Shader};
@@ -64,7 +64,7 @@ fn an_error_on_a_fragments_first_byte_is_not_told_of_the_one_before() {
 fn unknown_names_types_and_missing_functions_are_told() {
     let text = message(&[("bad.wgsl", "fn evaluate(index: vec4<u32>) -> u32 {\n    return SALTY;\n}\n")]);
     assert!(text.contains("bad.wgsl:2:12: ") && text.contains("SALTY"), "{text}");
-    // A wrong return type passes the parser; the validator tells the function.
+    // A wrong return type passes the parser; the validator names the function.
     let text = message(&[
         ("good.wgsl", GOOD),
         ("bad.wgsl", "\n\nfn g() -> u32 {\n    var x: f32;\n    x = 1.0;\n    return x;\n}\n"),

@@ -1,4 +1,4 @@
-//! What the pages tell users to type works, and the figures they show are what it draws.
+//! What users are to type by the pages works, and the figures they show are what it draws.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -171,7 +171,7 @@ fn told_by_roots(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [rotation, samples.map(curvature).fold(0.0, f64::max)]
 }
 
-/// The slower a curve is somewhere, the less its pre-image tells of how it turns there.
+/// The slower a curve is somewhere, the less its pre-image says of how it turns there.
 #[test]
 fn curves_that_nearly_stand_still() {
     let mut least = f64::INFINITY;

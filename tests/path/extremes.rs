@@ -9,7 +9,7 @@ use spiral_atlas::transition::Line;
 
 const UNITS: [f64; 12] = [5e-324, 1e-310, 1e-300, 1e-200, 1e-145, 1e-100, 1e-12, 1e12, 1e100, 1e145, 1e200, 1e300];
 
-/// Those of the units that give an answer; each near that for the unit 1. Errors have to tell something useful.
+/// Those of the units that give an answer; each near that for the unit 1. Errors have to say something useful.
 fn answered(what: &str, answer: impl Fn(f64) -> Result<Vec<f64>, Error>) -> Vec<f64> {
     let want = answer(1.0).unwrap();
     let told = |unit: &f64| match answer(*unit) {
@@ -109,7 +109,7 @@ fn separations() {
         let closest = lines(speed, 0.0);
         assert!(closest.at_most < 1e-8 && (closest.time * speed - 5.0).abs() < 1e-8, "{speed:e}: {closest:?}");
     }
-    // Where a time has no digits left for the motion, what is told is true, and wide.
+    // Where a time has no digits left for the motion, what is reported is true, and wide.
     let closest = lines(1.0, 1e15);
     assert!(closest.at_least == 0.0 && closest.at_most < 10.0, "{closest:?}");
 }

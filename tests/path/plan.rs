@@ -239,7 +239,7 @@ fn touching_and_overlapping_obstacles_are_one() {
     audit_plan(&given, &plan(&given).unwrap()).unwrap();
 }
 
-/// Plans, audits, and tells how long the path is.
+/// Plans, audits, and says how long the path is.
 fn planned(given: &Scene) -> f64 {
     let found = plan(given).unwrap();
     audit_plan(given, &found).unwrap();

@@ -151,7 +151,7 @@ fn moving_in_step_and_behind_each_other() {
     let beside = Motion::new(line([0.0, 1.0], [10.0, 1.0]), 2.0, 0.0).unwrap();
     let verdict = |b: &Motion, minimum: f64| separation(&a, b, minimum).unwrap().verdict;
     assert_eq!((verdict(&beside, 1.0 - 1e-9), verdict(&beside, 1.0 + 1e-9)), (Verdict::Yes, Verdict::No));
-    // Exactly the minimum: doubles cannot tell, and it says so.
+    // Exactly the minimum: doubles cannot decide, and it says so.
     assert_eq!(verdict(&beside, 1.0), Verdict::Undecided);
     // The same path half a unit of time later: it waits where the other one starts.
     let behind = Motion::new(line([0.0, 0.0], [10.0, 0.0]), 2.0, 0.5).unwrap();

@@ -20,13 +20,13 @@ export class Core {
     return this.#read(this.#wasm.ask());
   }
 
-  /** Opens the bytes of an atlas, and tells what it is. */
+  /** Opens the bytes of an atlas, and says what it is. */
   open(bytes) {
     this.#write(bytes);
     return this.#read(this.#wasm.open());
   }
 
-  /** Works on some tiles of the slice, and tells how many wait. */
+  /** Works on some tiles of the slice, and says how many wait. */
   refine(tiles) {
     return this.#wasm.refine(tiles);
   }

@@ -32,7 +32,7 @@ export function sizeOf(element, anew = false) {
 }
 
 /**
- * Tells of each move of a pointer over an element, where the browser does that, at once rather than with the next
+ * Reports each move of a pointer over an element, where the browser does that, at once rather than with the next
  * frame, so that the answer is there when the frame is drawn.
  */
 export function onMove(element, moved) {

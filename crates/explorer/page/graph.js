@@ -8,7 +8,7 @@ const RIGHT = 16;
 const TOP = 14;
 const BOTTOM = 26;
 
-/** Draws curves { kind, samples }; `marked` is told which sample of the active one the pointer is at. */
+/** Draws curves { kind, samples }; `marked` gets which sample of the active one the pointer is at. */
 export function drawGraph(element, curves, active, marked) {
   const [w, h] = sizeOf(element).map((size, i) => size || [600, 140][i]);
   const unit = byId("unit").value;
@@ -21,7 +21,7 @@ export function drawGraph(element, curves, active, marked) {
     element.onpointermove = element.onpointerleave = null;
     return;
   }
-  // What is no spiral may bend without bounds between its ends; as much of it is shown as tells that.
+  // What is no spiral may bend without bounds between its ends; as much of it is shown as shows that.
   const seen = (curve, samples) => {
     const ends = [samples.at(0), samples.at(-1)].map((s) => Math.abs(s?.[4] ?? 0));
     const most = curve.kind === "waver" ? 3 * Math.max(...ends) : Infinity;

@@ -1,4 +1,4 @@
-// The page: its state, and who is told when that changes.
+// The page: its state, and who hears when that changes.
 
 import { Asker } from "./asker.js";
 import { byId, html } from "./dom.js";

@@ -47,7 +47,7 @@ thread_local! {
     static STATE: RefCell<State> = RefCell::default();
 }
 
-/// Makes room for so many bytes of input, and tells where.
+/// Makes room for so many bytes of input, and says where.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(bytes: usize) -> *mut u8 {
     STATE.with_borrow_mut(|state| {
@@ -57,16 +57,16 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
     })
 }
 
-/// Answers the question in the input, and tells where the answer is; [`length`] tells how long.
+/// Answers the question in the input, and says where the answer is; [`length`] says how long.
 #[unsafe(no_mangle)]
 pub extern "C" fn ask() -> *const u8 {
     STATE.with_borrow_mut(|state| {
         let answer = state.answer().unwrap_or_else(|e| json!({ "error": e.to_string() }));
-        state.tell(&answer)
+        state.put(&answer)
     })
 }
 
-/// Opens the input as the bytes of an atlas, and tells what it is.
+/// Opens the input as the bytes of an atlas, and says what it is.
 #[unsafe(no_mangle)]
 pub extern "C" fn open() -> *const u8 {
     STATE.with_borrow_mut(|state| {
@@ -76,7 +76,7 @@ pub extern "C" fn open() -> *const u8 {
             Ok(file) => json!(state.file.insert(file).about()),
             Err(e) => json!({ "error": e.to_string() }),
         };
-        state.tell(&answer)
+        state.put(&answer)
     })
 }
 
@@ -86,7 +86,7 @@ pub extern "C" fn length() -> usize {
     STATE.with_borrow(|state| state.output.len())
 }
 
-/// Works on so many tiles of the slice, and tells how many wait.
+/// Works on so many tiles of the slice, and says how many wait.
 #[unsafe(no_mangle)]
 pub extern "C" fn refine(tiles: usize) -> usize {
     STATE.with_borrow_mut(|state| state.slice.as_mut().map_or(0, |slice| slice.refine(tiles)))
@@ -130,7 +130,7 @@ impl State {
         }
     }
 
-    fn tell(&mut self, answer: &Value) -> *const u8 {
+    fn put(&mut self, answer: &Value) -> *const u8 {
         self.output = answer.to_string().into_bytes();
         self.output.as_ptr()
     }

@@ -257,7 +257,7 @@ fn decided(table: &dyn Table, node: usize, code: Code) -> u8 {
     table.exact(node as u64).map_or(OPEN, |(code, _)| code.flags())
 }
 
-/// Columns and rows of the sketch that tells where a region is, and the heights above sin φ1 that it spans.
+/// Columns and rows of the sketch that shows where a region is, and the heights above sin φ1 that it spans.
 const SKETCH: [usize; 2] = [20, 56];
 const HEIGHTS: [f64; 2] = [1e-3, 1e5];
 

@@ -143,7 +143,7 @@ pub(crate) fn watched<T: Send>(
 ) -> PyResult<T> {
     let stop = AtomicBool::new(false);
     let (sender, receiver) = channel();
-    // Only this thread receives; the lock tells the compiler so.
+    // Only this thread receives; the lock shows the compiler so.
     let receiver = Mutex::new(receiver);
     let receive = || receiver.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(TICK);
     let watch = || -> PyResult<()> {

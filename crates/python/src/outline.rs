@@ -145,7 +145,7 @@ impl Outline {
     ///     threads: workers; by default as many as there are cores.
     ///
     /// Returns:
-    ///     (fields, told): arrays of the block's shape by name, and numbers of nodes: `nodes`, `undecided_f64`,
+    ///     (fields, report): arrays of the block's shape by name, and numbers of nodes: `nodes`, `undecided_f64`,
     ///     `most_bits`, and `yes`, by flag. The GIL is released.
     ///
     /// Raises:
@@ -235,7 +235,7 @@ impl Outline {
     }
 }
 
-/// What a block tells about its nodes.
+/// What is reported of the nodes of a block.
 #[derive(Serialize)]
 struct Tally {
     nodes: u64,

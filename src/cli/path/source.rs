@@ -30,7 +30,7 @@ struct Given<P> {
     paths: Vec<P>,
 }
 
-/// The keys of a line of a batch, which tell what it is.
+/// The keys of a line of a batch, which say what it is.
 #[derive(Deserialize)]
 struct BatchLine {
     paths: Option<Vec<IgnoredAny>>,

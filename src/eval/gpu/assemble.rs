@@ -1,4 +1,4 @@
-//! Shaders are plain concatenation; errors are told in the fragments' own lines.
+//! Shaders are plain concatenation; errors are reported in the fragments' own lines.
 
 use crate::error::{Error, Result};
 use crate::family::Shader;

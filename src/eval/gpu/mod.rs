@@ -46,7 +46,7 @@ thread_local! {
 
 /// Whether a panic on this thread, at this moment, would be caught and become an [`Error::Gpu`].
 ///
-/// The panic hook of a program may then stay silent: the error tells more. (The library must not set a hook, which
+/// The panic hook of a program may then stay silent: the error says more. (The library must not set a hook, which
 /// belongs to the program.)
 pub fn panic_becomes_error() -> bool {
     CATCHING.get()
@@ -110,7 +110,7 @@ pub struct RunStats {
     pub chunks: u64,
     /// Nodes of the largest chunk.
     pub largest_chunk: u64,
-    /// Seconds of the device's own clock, without transfers; `None` where the adapter does not tell.
+    /// Seconds of the device's own clock, without transfers; `None` where the adapter does not report it.
     pub device_seconds: Option<f64>,
 }
 

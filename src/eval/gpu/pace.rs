@@ -55,7 +55,7 @@ impl Pace {
         }
     }
 
-    /// Takes a chunk's time into account. A chunk that was cut short tells little about rates, so it is passed over.
+    /// Takes a chunk's time into account. A chunk that was cut short says little about rates, so it is passed over.
     fn observe(&mut self, nodes: u64, seconds: f64) {
         if nodes * 2 < self.nodes {
             return;

@@ -16,7 +16,7 @@ impl Program {
     /// Assembles, validates and compiles a shader.
     pub(super) fn new(gpu: &Gpu, shader: &Shader, settings: Settings) -> Result<Program> {
         let assembled = assemble(shader);
-        // First, so that errors are told in the fragments' own lines.
+        // First, so that errors are reported in the fragments' own lines.
         validate(&assembled)?;
         let device = &gpu.device;
         let layout = layout(device);

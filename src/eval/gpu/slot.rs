@@ -203,14 +203,14 @@ impl Slot {
         let submitted = Instant::now();
         let index = gpu.queue.submit([encoder.finish()]);
         let (send, mapped) = channel();
-        // The receiver may be gone by then (an interrupted run): nothing to tell anyone.
+        // The receiver may be gone by then (an interrupted run): nothing to report to anyone.
         self.readback.map_async(wgpu::MapMode::Read, .., move |result| {
             let _ = send.send(result.is_ok());
         });
         Flight { start, nodes, submitted, index, mapped }
     }
 
-    /// Takes the codes of a landed chunk, and the device's seconds where it tells them.
+    /// Takes the codes of a landed chunk, and the device's seconds where it reports them.
     pub(super) fn take(&self, gpu: &Gpu, nodes: u32, codes: &mut Vec<Code>) -> Result<Option<f64>> {
         let seconds = {
             let view = self.readback.get_mapped_range(..).map_err(|e| gpu.error(&e.to_string()))?;

@@ -163,7 +163,7 @@ impl Turns<'_> {
     }
 }
 
-/// What tells the angle between two headings.
+/// What gives the angle between two headings.
 fn key(headings: &Headings, from: usize, to: usize) -> (i64, i64) {
     let [u, v] = [from, to].map(|place| headings.step(place));
     (dot(u, v), dot(u, u) * dot(v, v))

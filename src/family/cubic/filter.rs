@@ -120,7 +120,7 @@ impl Cases {
         self.one | self.smaller_two | self.larger_two | self.lone | self.three | self.none | self.rootless
     }
 
-    /// What the case alone tells: SOLVABLE and the number of roots.
+    /// What the case alone decides: SOLVABLE and the number of roots.
     #[inline(always)]
     pub(super) fn planes(&self) -> Planes {
         let mut planes = Planes::default();

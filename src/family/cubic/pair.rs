@@ -67,7 +67,7 @@ impl Pair {
         })
     }
 
-    /// The same, each constant correctly rounded from intervals; `None` also where 128 bits do not tell the nearest
+    /// The same, each constant correctly rounded from intervals; `None` also where 128 bits do not decide the nearest
     /// double.
     pub(super) fn precise(phi0: f64, phi1: f64) -> Option<Pair> {
         let rough = Pair::new(phi0, phi1)?;

@@ -6,7 +6,7 @@
 //!   (`curves.rs`).
 //! - The scalar is the least of four greatest curvatures. A minimum needs no winner: overlapping enclosures are united.
 //!   The flags need one, which is proved by a single curvature that it stays below and each other exceeds; two that tie
-//!   for all precisions are told by symmetry (`curves.rs`, `truth.rs`).
+//!   for all precisions are decided by symmetry (`curves.rs`, `truth.rs`).
 //! - One certificate, "|κ| stays below v": v σ² ∓ h on pieces of w (`curve/hodograph.rs`). v is just above the value at
 //!   a peak (scalars), between two solutions (winner), or the end's own curvature, whose zero is left out
 //!   (PEAK_INSIDE). Guesses are free: a missed peak is where the certificate fails, and the next start.

@@ -75,7 +75,7 @@ fn few_steps_beside_symmetric_data() {
     assert!(found.iter().all(|most| most.0 < MOST && most.2 == 0), "{found:?}");
 }
 
-/// Sums of two doubles tell nearly all that usual data ask, of solutions with sharp peaks, too. Intervals take a
+/// Sums of two doubles decide nearly all that usual data ask, of solutions with sharp peaks, too. Intervals take a
 /// hundred times as long.
 #[test]
 fn usual_data_seldom_go_to_intervals() {

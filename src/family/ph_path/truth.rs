@@ -62,8 +62,8 @@ impl<N: Real> Seen<'_, N> {
     }
 }
 
-/// What is looked at of a curve, the end that bends more first: a peak may be closer to that than doubles tell
-/// parameters from 1. It may bend more by far less than doubles tell, too.
+/// What is looked at of a curve, the end that bends more first: a peak may be closer to that than doubles resolve
+/// parameters from 1. It may bend more by far less than doubles resolve, too.
 fn oriented<N: Real>(curve: &Curve<N>) -> Hodograph<N> {
     let part = curve.part();
     let at = |t: f64| part.curvature(&N::of(t, part.turn[0].bits()));

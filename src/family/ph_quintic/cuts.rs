@@ -44,7 +44,7 @@ pub(super) fn cuts<N: Real>(
     };
     let mut kept: Vec<Knot<N>> = vec![];
     for knot in cuts {
-        // Nearer to a double solution than the precision tells.
+        // Nearer to a double solution than the precision resolves.
         side(&knot.gap)?;
         let last = kept.last().map_or(&from.t, |knot| &knot.t);
         if formula!(knot.t - last).is_positive() && formula!(to.t - knot.t).is_positive() {
@@ -123,8 +123,8 @@ fn fork<N: Real, F: Fn(N) -> Option<Knot<N>>>(
         // D is monotone.
         if q.abs() < 0.125 { cuts.extend([knot(-0.125)?, knot(0.125)?]) } else { cuts.push(middle.knot.clone()) }
     } else {
-        // On the side of m to which D falls from it D is convex, or concave on the other, and what merges there is told
-        // by that.
+        // On the side of m to which D falls from it D is convex, or concave on the other, and so what merges
+        // there is found.
         let between = 0.25 * (-p / 3.0).sqrt();
         cuts.extend(zero(march, 1, outer[0], &middle.knot).map(|bent| bent.knot));
         cuts.push(knot(if q > 0.0 { between } else { -between })?);

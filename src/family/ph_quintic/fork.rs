@@ -1,5 +1,5 @@
 //! Certificates for where solutions merge: two of them, at a fold, or three, as in symmetric data. There D' is small
-//! over a whole interval, and slopes at its ends, which move by their own size, do not tell its sign.
+//! over a whole interval, and slopes at its ends, which move by their own size, do not decide its sign.
 //!
 //! On a short interval the heights and slopes lie between those at its ends, which encloses how both slopes change
 //! ([`Curves::slope_changes`]), and so `D'' = s1' - s0'` and `D''' = s1'' - s0''`.

@@ -6,7 +6,7 @@
 //!   slope: so does the tent of its two tangents. If D > 0 at both ends, ζ0 above its chord and ζ1 below its tent leave
 //!   `D > 0` while `min(D(a), D(b)) > (s1(b) - s1(a)) L/4`; likewise with the curves exchanged.
 //! - **At most one.** `D' = s1 - s0`, and both s increase: `s1(a) > s0(b)` makes D rise throughout, `s0(a) > s1(b)`
-//!   fall. Then the signs of D at the ends tell whether there is one.
+//!   fall. Then the signs of D at the ends decide whether there is one.
 //!
 //! Before the first and behind the last knot the curves are bounded by their limits: A falls and B rises along both.
 //! Intervals with neither certificate are halved. ([`super::narrow`] has two more, for φ0 + φ1 close to π, and
@@ -100,8 +100,8 @@ impl<N: Real> March<N> {
         let mut waiting = vec![last];
         for _ in 0..most_looks(self.bits()) {
             let Some(b) = waiting.last() else { return Some(brackets) };
-            let told = meets(&a, b).decided().or_else(|| narrow::meets(&self.curves, &a, b).decided());
-            match told.map_or_else(|| fork::meets(&self.curves, &a, b), Ok) {
+            let proved = meets(&a, b).decided().or_else(|| narrow::meets(&self.curves, &a, b).decided());
+            match proved.map_or_else(|| fork::meets(&self.curves, &a, b), Ok) {
                 Ok(once) => {
                     let b = waiting.pop()?;
                     if once {
@@ -196,7 +196,7 @@ impl<N: Real> March<N> {
             knot = self.knot(newton.filter(|t| within(t, &low, &high)).map_or_else(|| middle(&low, &high), Some)?)?;
         }
         let inside = |t: &N| within(t, &a.t, &b.t);
-        // Twice as far as the error of D may move the solution; what is needed, the signs tell.
+        // Twice as far as the error of D may move the solution; the signs decide what is needed.
         let moved = step(&knot)?;
         // It may be too small for a double.
         let scaled = |power: i32| moved.mul(&N::power_of_two(power, self.bits())).most();
@@ -246,7 +246,7 @@ impl<N: Real> March<N> {
     }
 }
 
-/// Whether the curves meet, and then once, or do not between two knots, when a certificate tells.
+/// Whether the curves meet, and then once, or do not between two knots, when a certificate proves it.
 pub(super) fn meets<N: Real>(a: &Knot<N>, b: &Knot<N>) -> Verdict {
     let (Some(at_a), Some(at_b)) = (a.gap.certain_sign(0.0), b.gap.certain_sign(0.0)) else {
         return Verdict::Undecided;

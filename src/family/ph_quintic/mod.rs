@@ -11,7 +11,7 @@
 //!   once. The shader is its twin.
 //! - `narrow.rs` has more certificates for nearly parallel tangents, where both equations almost coincide.
 //! - `fork.rs` has those for where solutions merge, and `cuts.rs` finds by Newton's method where to ask them.
-//! - `region.rs` runs the same march over boxes of data; `dismiss.rs` has plain bounds that tell where no spirals are.
+//! - `region.rs` runs the same march over boxes of data; `dismiss.rs` has plain bounds that show where no spirals are.
 //! - Curvature is positive for A, B > 0, so a spiral is the sign of one quintic, as in `cubic`. Energies are Taylor
 //!   series on pieces with a remainder bound.
 

@@ -13,7 +13,7 @@ use crate::num::{Real, Verdict, formula};
 /// Above this cos Φ the other certificates do as well.
 const WIDE: f64 = 1.0 / 16.0;
 
-/// Whether the curves meet, and then once, or do not between two knots, when H tells.
+/// Whether the curves meet, and then once, or do not between two knots, when H decides.
 pub(super) fn meets<N: Real>(curves: &Curves<N>, from: &Knot<N>, to: &Knot<N>) -> Verdict {
     by_residual(curves, from, to).into()
 }

@@ -69,7 +69,7 @@ impl Pair<Interval> {
         })
     }
 
-    /// The pair in intervals; `None` when the precision does not tell that cos Φ is positive.
+    /// The pair in intervals; `None` when the precision does not prove that cos Φ is positive.
     pub(super) fn exact(phi0: f64, phi1: f64, bits: usize) -> Option<Pair<Interval>> {
         let half = |phi: f64| Interval::new(phi, bits).scale(0.5).sine_cosine();
         Pair::of_halves([half(phi0), half(phi1)], phi0 < phi1)
@@ -77,7 +77,7 @@ impl Pair<Interval> {
 }
 
 impl Pair<Twin> {
-    /// The pair in two doubles each; `None` when they do not tell that cos Φ is positive, or where halving an angle may
+    /// The pair in two doubles each; `None` when they leave open that cos Φ is positive, or where halving an angle may
     /// not be exact.
     pub(super) fn twins(phi0: f64, phi1: f64) -> Option<Pair<Twin>> {
         let half = |phi: f64| (phi > 1e-300).then(|| Twin::sin_cos(0.5 * phi));

@@ -17,18 +17,18 @@ const CURVATURES: [f64; 8] = [0.0, 1e-300, 1e-20, 0.2, 3.0, 1e60, 1e150, 1e300];
 
 /// Counts one datum; whether it was answered.
 fn case(datum: Datum, most: &mut (usize, Option<Datum>)) -> bool {
-    let (verdict, told) = counted(|| flags(&datum));
+    let (verdict, proved) = counted(|| flags(&datum));
     let (steps, solved) = counted(|| solve(&datum));
     if verdict + steps > most.0 {
         *most = (verdict + steps, Some(datum));
     }
-    match (told, solved) {
+    match (proved, solved) {
         (Ok(flags), Ok(solutions)) => {
             assert_eq!(flags, solutions.flags(), "{datum:?}");
             true
         }
         (_, Err(Error::Undecided { .. } | Error::Domain(_))) => false,
-        (told, solved) => panic!("{datum:?}: {told:?}, {solved:?}"),
+        (proved, solved) => panic!("{datum:?}: {proved:?}, {solved:?}"),
     }
 }
 

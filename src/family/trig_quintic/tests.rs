@@ -123,7 +123,7 @@ fn thresholds_of_any_shape_are_decided_in_few_halvings() {
     assert!(most < 1000 && found > 5, "{found} thresholds, most halvings {most}");
 }
 
-/// Shapes of any size, of most of which doubles tell no threshold.
+/// Shapes of any size, of most of which doubles decide no threshold.
 #[test]
 fn thresholds_of_two_doubles_are_those_of_intervals() {
     let mut noise = Noise(8);

@@ -70,7 +70,7 @@ pub(super) fn exact_least_ratio(shape: &Shape) -> Result<f32> {
 
 /// The ratio between two singles at which κ'(1) = 0, if it lies exactly there.
 ///
-/// There f has the factor 1 - τ, and no precision tells its sign at the end. Elsewhere the tie is no ratio that is
+/// There f has the factor 1 - τ, and no precision decides its sign at the end. Elsewhere the tie is no ratio that is
 /// asked.
 fn tie(q: f64) -> Option<f64> {
     // The middle next to a ratio is that below its single or that above.

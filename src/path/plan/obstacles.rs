@@ -179,7 +179,7 @@ fn lowest(ring: &[Point]) -> usize {
     (0..ring.len()).fold(0, |best, i| if key(&ring[i]) < key(&ring[best]) { i } else { best })
 }
 
-/// Turns the ring round where it runs clockwise. Its lowest, then leftmost, vertex is convex, so its turn there tells.
+/// Turns the ring round where it runs clockwise. Its lowest, then leftmost, vertex is convex, so its turn decides.
 fn counterclockwise(ring: &mut [Point]) {
     let (n, lowest) = (ring.len(), lowest(ring));
     if turn([ring[(lowest + n - 1) % n], ring[lowest]], ring[(lowest + 1) % n]) < 0.0 {

@@ -34,7 +34,7 @@ pub(super) struct Limits {
     pub keep: f64,
     /// Greatest curvature.
     pub most: f64,
-    /// Corner curves are no smaller than this, for doubles to tell their shape.
+    /// Corner curves are no smaller than this, for doubles to hold their shape.
     pub least_reach: f64,
 }
 
@@ -44,7 +44,7 @@ impl Limits {
         (turn.reach_for_curvature(self.most) * (1.0 + 1e-9) + 1e-14 / self.most).max(self.least_reach)
     }
 
-    /// The same with turns as sharp as doubles can tell.
+    /// The same with turns as sharp as doubles can hold.
     pub(super) fn sharp(&self) -> Limits {
         Limits { most: 1.0 / self.least_reach, ..*self }
     }
@@ -168,7 +168,7 @@ impl<'o> Search<'o> {
     /// Shortest path first, as A* does; a leg is looked at again only where the turn at its start takes less of it than
     /// before.
     ///
-    /// Also tells how much work is left.
+    /// Also says how much work is left.
     pub(super) fn run(mut self) -> (SearchResult, usize) {
         let found = self.find();
         (found, self.work)

@@ -13,7 +13,7 @@ fn trig(sides: [[f64; 2]; 5], from: f64, to: f64) -> Piece {
     Piece::TrigQuintic(TrigPart { curve: TrigBezier { start: [0.0; 2], sides, p: 1.0, q: -4.0 }, from, to })
 }
 
-/// Within what is told, and few cells even where the curve stands still for long.
+/// Within what is reported, and few cells even where the curve stands still for long.
 #[test]
 fn lengths_are_off_by_no_more_than_told() {
     let third = 1.0 / 3.0;

@@ -1,4 +1,4 @@
-//! Pieces as JSON has them: one flat object for all kinds, so that a mistake is told by the name of its field.
+//! Pieces as JSON has them: one flat object for all kinds, so that a mistake is reported by the name of its field.
 
 use super::{Arc, Cubic, InvoluteBetween, Kind, Line, Piece, TrigPart};
 use crate::curve::vector::{add, length, sub};

@@ -144,7 +144,7 @@ fn a_changed_reference_is_noticed() {
 fn reference_points() {
     let mut compared = 0;
     for samples in &reference().samples {
-        // The ends are the first and the last row; directions beyond ±π tell the turns.
+        // The ends are the first and the last row; directions beyond ±π show the turns.
         let ends = [samples.by_parameter[0], samples.by_parameter[samples.by_parameter.len() - 1]];
         let (c, turns) = (ends[1][1], ends.map(|row| (row[3] / TAU).round()));
         let [alpha, beta] = [0, 1].map(|i| ends[i][3] - TAU * turns[i]);

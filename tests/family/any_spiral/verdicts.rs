@@ -123,7 +123,7 @@ fn degenerate_data() {
     }
 }
 
-/// Data so close to Q = 0 that only high precision tells: k2 on the boundary to the last bit.
+/// Data so close to Q = 0 that only high precision decides: k2 on the boundary to the last bit.
 #[test]
 fn close_to_touching_circles() {
     let (mut r, mut tally) = (Random(3), Tally::default());

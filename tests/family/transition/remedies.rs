@@ -123,7 +123,7 @@ fn check(ends: &Ends, remedies: &[Remedy], text: &str, exists: impl Fn(&Ends) ->
         let at = text.find(&words).unwrap_or_else(|| panic!("{words}: {text}"));
         let told: f64 = text[..at].rsplit(' ').next().unwrap().parse().unwrap();
         assert!(told == instead && exists(&with(ends, which, told)), "{told} {instead}: {text}: {ends:?}");
-        // It is told by its distance from the bound, as a power of 2 in steps of 1/256; the step before was tried.
+        // It is given by its distance from the bound, as a power of 2 in steps of 1/256; the step before was tried.
         let bound = bound(ends, which);
         let power = ((instead - bound) / (curvature - bound)).log2();
         let before = bound + (curvature - bound) * (((256.0 * power).round() - power.signum()) / 256.0).exp2();

@@ -148,7 +148,7 @@ impl Half {
         if self.side * principal < PI - self.theta * u {
             return principal;
         }
-        // The arc goes forward along the chord; where it passes 0 tells on which side.
+        // The arc goes forward along the chord; where it passes 0 decides on which side.
         let end = self.seen(u).divisor;
         let chord = sub(end, [self.seen(u).shrink * 2.0 / (1.0 + self.reach * u), 0.0]);
         let y = find(|y| dot(self.seen(self.share(y)).divisor, chord), 0.0, self.stretched(u), 1e-15);
@@ -160,7 +160,7 @@ impl Half {
     /// of `z - W` is that of z and of `1 - W/z`
     /// where `|z| > |W|`, and that of -W and of `1 - z/W` where `|z| < |W|`; the second of each keeps within
     /// a quarter turn. |z| grows with t, so
-    /// that there is at most one passage, at `t = √(|W|² - 1)`, and there z/W alone tells both. So only the
+    /// that there is at most one passage, at `t = √(|W|² - 1)`, and there z/W alone gives both. So only the
     /// number of turns is found here.
     fn on_long_arc(&self, u: f64, principal: f64) -> f64 {
         let Half { side, t: end, theta, grow, .. } = *self;

@@ -37,14 +37,14 @@ fn thin(x: &Interval, bits: usize) -> bool {
 pub(super) trait Rounded: Angle {
     /// Whether it is known well enough to go on.
     fn is_known(&self) -> bool;
-    /// The nearest double, proved; `None` where more digits must tell.
+    /// The nearest double, proved; `None` where more digits must decide.
     fn nearest(&self) -> Option<f64>;
     /// A double next to it.
     fn rounded(&self) -> Option<f64>;
 }
 
 impl Rounded for Twin {
-    /// The roundings tell.
+    /// The roundings decide.
     fn is_known(&self) -> bool {
         true
     }
@@ -229,7 +229,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
     use std::f64::consts::PI;
 
-    /// Both rungs beside each other: how many data there were, and of how many the first rung told the numbers.
+    /// Both rungs beside each other: how many data there were, and of how many the first rung gave the numbers.
     #[derive(Debug, Default)]
     struct Compared {
         all: usize,

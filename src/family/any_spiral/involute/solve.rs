@@ -133,7 +133,7 @@ impl Involute {
     }
 
     /// ρ and λ of Kurnosenko's map (6), whose factor is `m = ρ e^(iλ)`; of the mirror image where the curvature
-    /// decreases. A ρ beyond the range of normal doubles is told as the nearest of them.
+    /// decreases. A ρ beyond the range of normal doubles is given as the nearest of them.
     pub fn map(&self) -> [f64; 2] {
         [self.rho, self.lambda]
     }
@@ -179,7 +179,7 @@ impl Involute {
     /// The point where a share, from 0 to 1, of the length is behind.
     ///
     /// # Accuracy
-    /// 1e-13 of the length, and as [`Involute::at`], but that the point's parameter, rounded to a double, may tell less
+    /// 1e-13 of the length, and as [`Involute::at`], but that the point's parameter, rounded to a double, may say less
     /// than the point where the curve begins or ends far within a rounding of the parameter.
     pub fn at_length(&self, share: f64) -> InvolutePoint {
         let wanted = share.max(0.0) * self.length();

@@ -81,7 +81,7 @@ fn lies_below(chord: &Datum, x: f64, y: f64, k: f64) -> Result<bool> {
 /// the start. With the pole W of the map the direction is that of the involute z, `-t`, less twice the argument of
 /// `z - W`. So only that must be followed along the arc. It is the argument of z and that of `1 - W/z` where `|z| >
 /// |W|`, and that of -W and of `1 - z/W` where `|z| < |W|`; the second of each keeps within a quarter turn. |z| grows
-/// with t, so that there is at most one passage, at `t² = |W|² - 1`. There z/W, on the unit circle, tells both, and on
+/// with t, so that there is at most one passage, at `t² = |W|² - 1`. There z/W, on the unit circle, gives both, and on
 /// which side of the pole the arc passes: the one thing that is discrete.
 ///
 /// # Errors

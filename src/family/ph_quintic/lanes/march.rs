@@ -38,7 +38,7 @@ pub(super) struct Brackets<S: Simd> {
     pub open: u64,
 }
 
-/// What the certificates tell between two knots.
+/// What the certificates prove between two knots.
 struct Meeting<S: Simd> {
     once: u64,
     never: u64,

@@ -87,7 +87,7 @@ def parser() -> argparse.ArgumentParser:
     added = command("generate", generate, "Make a store, or complete the one that is there.")
     recipe(added)
     cluster(added)
-    recipe(command("create", create, "Make a store without shards, and tell their number."))
+    recipe(command("create", create, "Make a store without shards, and report their number."))
     added = command(
         "shard", shard, "Write shards of a store. Needs no Dask: a job of a batch system writes some of them."
     )
@@ -99,7 +99,7 @@ def parser() -> argparse.ArgumentParser:
         type=numbers,
         help="a number from 0 on, or a range such as 0-15, cut off at the last shard",
     )
-    added = command("info", info, "Tell what a store holds: grid, fields, legend, shards and recipe.")
+    added = command("info", info, "Report what a store holds: grid, fields, legend, shards and recipe.")
     added.add_argument("store", metavar="STORE")
     added = command("check", check, "Read every shard of a store and compare it with its digest.")
     added.add_argument("store", metavar="STORE")
@@ -299,7 +299,7 @@ def as_json(summary: run.Summary) -> str:
 
 
 class Progress:
-    """A line on a terminal that tells how far a run is; elsewhere nothing."""
+    """A line on a terminal that shows how far a run is; elsewhere nothing."""
 
     def __init__(self) -> None:
         self.shown, self.began, self.width = sys.stderr.isatty(), 0.0, 0

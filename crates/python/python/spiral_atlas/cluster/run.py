@@ -246,7 +246,7 @@ def _complaint(summary: Summary, failures: dict[int, str]) -> str:
     store, done = summary.store, len(summary.shards)
     left = store.shard_count - done
     text = f"{store.path}: {done} of {store.shard_count} shards are done, {left} are not"
-    # Many have the same reason; one of each is told, with its shards.
+    # Many have the same reason; one of each is reported, with its shards.
     reasons: dict[str, list[int]] = {}
     for number, why in sorted(failures.items()):
         reasons.setdefault(why, []).append(number)
@@ -267,7 +267,7 @@ def _client(scheduler: str | None, workers: int) -> "Iterator[Client]":
     if scheduler is not None:
         # Of an address that is none, Dask would complain, and then wait for a minute.
         get_address_host_port(scheduler)
-        # Its own log tells in other words what the failures tell.
+        # Its own log says in other words what the failures say.
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         with Client(scheduler, set_as_default=False) as client:
             yield client

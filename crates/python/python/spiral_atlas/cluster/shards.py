@@ -59,9 +59,10 @@ def write_shard(store: Store | str | os.PathLike[str], number: int, *, threads: 
     if (found := look_at(store, number)).state == "kept":
         return found
     sides = [side.stop - side.start for side in box]
-    fields, told = store.outline.block([side.start for side in box], sides, threads=threads)
+    fields, report = store.outline.block([side.start for side in box], sides, threads=threads)
     put(store, number, fields)
-    return Shard(number, "written", told["nodes"], told["yes"], told["undecided_f64"], time.perf_counter() - began)
+    seconds = time.perf_counter() - began
+    return Shard(number, "written", report["nodes"], report["yes"], report["undecided_f64"], seconds)
 
 
 def look_at(store: Store, number: int) -> Shard:
