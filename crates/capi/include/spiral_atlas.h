@@ -55,7 +55,9 @@ typedef struct SpiralReport SpiralReport;
 
 // One end of a curve, in the user's unit of length.
 typedef struct {
+    // Place along the x axis.
     double x;
+    // Place along the y axis.
     double y;
     // Direction of travel: angle from the x axis, radians, counter-clockwise.
     double direction;
@@ -67,7 +69,9 @@ typedef struct {
 typedef struct {
     // Arc length from the start.
     double station;
+    // Place along the x axis.
     double x;
+    // Place along the y axis.
     double y;
     // Direction of travel, radians, in [-pi, pi].
     double heading;

@@ -36,7 +36,9 @@ impl SpiralCurve {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SpiralEnd {
+    /// Place along the x axis.
     pub x: f64,
+    /// Place along the y axis.
     pub y: f64,
     /// Direction of travel: angle from the x axis, radians, counter-clockwise.
     pub direction: f64,
@@ -50,7 +52,9 @@ pub struct SpiralEnd {
 pub struct SpiralStation {
     /// Arc length from the start.
     pub station: f64,
+    /// Place along the x axis.
     pub x: f64,
+    /// Place along the y axis.
     pub y: f64,
     /// Direction of travel, radians, in [-pi, pi].
     pub heading: f64,

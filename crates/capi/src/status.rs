@@ -44,13 +44,13 @@ impl From<Error> for Fault {
 
 impl Fault {
     /// The same of one row of an array.
-    pub fn of_row(row: usize, error: Error) -> Fault {
+    pub(crate) fn of_row(row: usize, error: Error) -> Fault {
         let Fault(status, what) = error.into();
         Fault(status, format!("row {row}: {what}"))
     }
 
     /// A number outside its domain, or an unknown name.
-    pub fn domain(what: impl Into<String>) -> Fault {
+    pub(crate) fn domain(what: impl Into<String>) -> Fault {
         Fault(SpiralStatus::SPIRAL_DOMAIN, what.into())
     }
 }
