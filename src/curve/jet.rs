@@ -63,13 +63,20 @@ impl Jet {
     /// # Source
     /// Habib & Sakai, (2.5), with `d/dt (P' × P'') = P' × P'''`.
     pub fn curvature_dt(&self) -> f64 {
-        let (speed, unit, a, b) = self.by_speed();
-        (cross(unit, b) - 3.0 * cross(unit, a) * dot(unit, a)) / speed
+        let (speed, bend) = self.bend();
+        bend / speed
     }
 
     /// Derivative of the curvature with respect to arc length, in 1 / length²; NaN where the speed is zero.
     pub fn curvature_ds(&self) -> f64 {
-        self.curvature_dt() / self.speed()
+        let (speed, bend) = self.bend();
+        bend / speed / speed
+    }
+
+    /// Speed, and the derivative of the curvature times it.
+    fn bend(&self) -> (f64, f64) {
+        let (speed, unit, a, b) = self.by_speed();
+        (speed, cross(unit, b) - 3.0 * cross(unit, a) * dot(unit, a))
     }
 
     /// Speed, unit tangent, `P'' / speed` and `P''' / speed`: all but the first have no unit, so their products

@@ -74,6 +74,18 @@ pub fn spiral(ends: &Ends) -> Result<Answer> {
     Answer::from_roots(ends, solved.roots(), solved.chosen())
 }
 
+/// The spiral that [`spiral`] chooses, without a reason where there is none.
+///
+/// # Errors
+/// Those of [`spiral`].
+pub(super) fn chosen_spiral(ends: &Ends) -> Result<Option<Solution>> {
+    let (datum, placement) = Placement::normalise(ends)?;
+    if !Why::allows_convex_arc(&datum) {
+        return Ok(None);
+    }
+    solve(&datum)?.chosen().map(|root| Solution::new(&datum, &placement, root)).transpose()
+}
+
 impl Answer {
     /// The answer when the roots are known already, from [`solve`] or an atlas; `chosen` is one of them.
     ///

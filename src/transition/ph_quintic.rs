@@ -81,6 +81,18 @@ pub fn ph_spiral(ends: &Ends) -> Result<PhAnswer> {
     Ok(answer(solutions, outcome))
 }
 
+/// The spiral that [`ph_spiral`] chooses, without a reason where there is none.
+///
+/// # Errors
+/// Those of [`ph_spiral`].
+pub(super) fn chosen_spiral(ends: &Ends) -> Result<Option<PhSolution>> {
+    let (datum, placement) = Placement::normalise(ends)?;
+    if !Why::allows_convex_arc(&datum) {
+        return Ok(None);
+    }
+    solve(&datum)?.chosen().map(|quintic| PhSolution::new(&placement, quintic)).transpose()
+}
+
 impl PhAnswer {
     /// The same where curves longer than this, in the user's unit, count as none.
     pub fn no_longer_than(mut self, longest: f64) -> PhAnswer {

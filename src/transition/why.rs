@@ -105,14 +105,19 @@ impl Why {
         }
     }
 
+    /// Whether directions alone allow a C-shaped curve.
+    pub(super) fn allows_convex_arc(datum: &Datum) -> bool {
+        datum.phi0 > 0.0 && datum.phi1 > 0.0 && datum.phi0 + datum.phi1 < PI
+    }
+
     /// What forbids any C-shaped curve, before curvatures are looked at; [`crate::family::cubic::solve`] asks for data
     /// without it.
     pub(super) fn no_convex_arc(ends: &Ends, datum: &Datum, placement: &Placement) -> Result<Option<Why>> {
-        let turning = datum.phi0 + datum.phi1;
-        let convex = datum.phi0 > 0.0 && datum.phi1 > 0.0;
-        if convex && turning < PI {
+        if Why::allows_convex_arc(datum) {
             return Ok(None);
         }
+        let turning = datum.phi0 + datum.phi1;
+        let convex = datum.phi0 > 0.0 && datum.phi1 > 0.0;
         let [start_angle, end_angle] = placement.against_chord(datum);
         let arc = if convex { Why::TurnsTooFar { turning } } else { Why::NotConvex { start_angle, end_angle } };
         Ok(Some(NoSpiral::of(ends)?.map_or(arc, Why::NoSpiralOfAnyKind)))

@@ -6,7 +6,7 @@ use super::filter::{Near, shape, sides};
 use super::{CASE_BITS, EXACT, EXISTS, Kind, PAPER, THEOREM};
 use crate::error::{Error, Result, finite, positive};
 use crate::family::{Code, NO_VALUE};
-use crate::num::{Interval, Twin, climb, demand_ieee};
+use crate::num::{Interval, Real, Twin, climb, demand_ieee};
 use fearless_simd::{Level as SimdLevel, Simd, SimdBase, dispatch};
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -146,18 +146,26 @@ pub fn level_of_shape(kind: Kind, theta: f64, m: f64, q: f64) -> Result<Level> {
     if let Some(level) = KNOWN.with_borrow(|known| known.iter().find(|(k, _)| *k == key).map(|(_, level)| *level)) {
         return Ok(level);
     }
-    let attempt = |bits| {
-        let angle = ExactAngle::cached(kind, theta, bits)?;
-        let u = angle.length.over(&Interval::new(q, bits))?;
-        judge_shape(kind, &angle, &SegmentShape { u, m: Interval::new(m, bits) })
+    let flags = match ExactAngle::twins(kind, theta).and_then(|angle| judge_of_shape(kind, &angle, [m, q])) {
+        Some(flags) => flags,
+        None => {
+            let attempt = |bits| judge_of_shape(kind, &*ExactAngle::cached(kind, theta, bits)?, [m, q]);
+            climb(&format_args!("theta = {theta:?}, m = {m:?}, q = {q:?}"), "a segment's level", attempt)?.0
+        }
     };
-    let found = climb(&format_args!("theta = {theta:?}, m = {m:?}, q = {q:?}"), "a segment's level", attempt);
-    let level = found.map(|(flags, _)| level(flags))?;
+    let level = level(flags);
     KNOWN.with_borrow_mut(|known| {
         known.truncate(KEPT - 1);
         known.push_front((key, level));
     });
     Ok(level)
+}
+
+/// The bits of a shape; `None` when something is undecided.
+fn judge_of_shape<N: Real>(kind: Kind, angle: &ExactAngle<N>, [m, q]: [f64; 2]) -> Option<u8> {
+    let bits = angle.sin.bits();
+    let u = angle.length.over(&N::of(q, bits))?;
+    judge_shape(kind, angle, &SegmentShape { u, m: N::of(m, bits) })
 }
 
 fn level(flags: u8) -> Level {

@@ -9,10 +9,11 @@
 //! that order.
 
 use super::super::piece::principal;
+use super::costs::{Costs, Known};
 use super::link::{LEAST_LINE, SHORTEST};
 use super::request::Family;
 use super::spiral::{Pose, Spiral};
-use super::turns::{Costs, LEAST, Turn};
+use super::turns::{LEAST, Round, Turn};
 use crate::curve::vector::{Vector, add, angle_of, dot, scale, sub, turn};
 use std::f64::consts::PI;
 
@@ -30,7 +31,7 @@ const SETTLED: f64 = 1e-14;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Easing {
     /// What leads to the straight place.
-    before: Option<Spiral>,
+    before: Option<Known>,
     at: Pose,
     /// Of a spiral.
     length: f64,
@@ -38,12 +39,7 @@ pub(super) struct Easing {
     narrow: f64,
     /// From the straight place to the corner, for the smallest angles.
     leg: f64,
-    /// Length of what leads to the straight place.
-    long: f64,
 }
-
-/// The length of two gentle turns and the line between is known to this share before they are found.
-const NEARLY: f64 = 0.1;
 
 impl Easing {
     /// All of those tried from a pose with a curvature towards a place at a distance.
@@ -54,43 +50,50 @@ impl Easing {
         let usual = USUAL.iter().copied().filter(|length| *length <= room);
         let lengths = usual.chain([room, 0.5 * room, LEAST].into_iter().filter(|length| *length >= SHORTEST));
         let easing = |length: f64| {
-            let before = (curvature != 0.0).then_some(Spiral { from: curvature, to: 0.0, length });
-            let at = before.map_or(at, |spiral| Pose {
-                at: add(at.at, turn(at.along(), spiral.step(family))),
-                direction: at.direction + spiral.angle(),
+            let before = (curvature != 0.0).then(|| Known::of(family, curvature, 0.0, length));
+            let at = before.map_or(at, |known| Pose {
+                at: add(at.at, turn(at.along(), known.step)),
+                direction: at.direction + known.spiral.angle(),
             });
-            let long = before.map_or(0.0, |before| before.long(family));
-            Easing { before, at, length, narrow: MOST.min(length).cos(), leg: leg(family, 1e-3, length), long }
+            Easing { before, at, length, narrow: MOST.min(length).cos(), leg: leg(family, 1e-3, length) }
         };
         let turns_little = |length: &f64| 0.5 * curvature.abs() * length <= 0.5 * MOST;
         lengths.filter(turns_little).map(easing).collect()
     }
 
-    /// The turn with a corner at a distance ahead.
-    fn with_leg(&self, leg: f64, k: f64) -> Turn {
-        let Easing { before, at, length, long, .. } = *self;
-        let spirals = (k != 0.0).then_some([Spiral { from: 0.0, to: k, length }, Spiral { from: k, to: 0.0, length }]);
-        Turn {
-            before: [before, spirals.map(|s| s[0])],
-            curvature: k,
-            heading: at.direction,
-            centre: add(at.at, scale(at.along(), leg)),
-            exit: spirals.map(|s| s[1]),
-            spirals: Costs { length: long + 2.0 * leg, ..Costs::default() },
-            reach: [leg, 0.0],
-        }
+    /// What the line depends on, for a turn with a corner at a distance ahead; without the length of spirals.
+    fn round(&self, leg: f64) -> Round {
+        let along = self.at.along();
+        Round { spirals: 0.0, centre: add(self.at.at, scale(along, leg)), reach: [leg, 0.0], along, bend: 1.0 }
     }
 
     /// The turn into a direction, if it is a gentle one.
-    fn towards(&self, family: Family, direction: f64) -> Option<Turn> {
+    fn towards(&self, family: Family, direction: f64) -> Option<(f64, Round)> {
         let angle = principal(direction - self.at.direction);
         if angle.abs() > MOST.min(self.length) {
             return None;
         }
         if angle.abs() <= ROUNDING {
-            return Some(self.with_leg(0.0, 0.0));
+            return Some((0.0, self.round(0.0)));
         }
-        Some(self.with_leg(leg(family, angle, self.length), angle / self.length))
+        Some((angle / self.length, self.round(leg(family, angle, self.length))))
+    }
+
+    /// The turn that leads to a curvature and back.
+    fn turn(&self, family: Family, k: f64, round: Round) -> Turn {
+        let Easing { before, at, length, .. } = *self;
+        let known = (k != 0.0).then(|| Known::of(family, 0.0, k, length));
+        let spirals = known.map(|known| known.spiral);
+        let all = [before, known, known].into_iter().flatten().map(|known| known.costs);
+        Turn {
+            before: [before.map(|known| known.spiral), spirals],
+            curvature: k,
+            heading: at.direction,
+            exit: spirals.map(|Spiral { from, to, length }| Spiral { from: to, to: from, length }),
+            spirals: all.fold(Costs::default(), Costs::and),
+            round,
+            hops: None,
+        }
     }
 }
 
@@ -111,51 +114,92 @@ pub(super) struct Eased {
 /// One of the two turns.
 #[derive(Clone, Copy)]
 struct Part<'a> {
-    /// Of a gentle one what is hardly wrong for any small angle.
-    turn: &'a Turn,
-    easing: Option<&'a Easing>,
+    /// What the line depends on; of a gentle turn what is hardly wrong for any small angle.
+    round: Round,
+    /// Where the rest of the path begins, to a distance, and the length of the spirals that are no part of the rest.
+    place: Vector,
+    within: f64,
+    spirals: f64,
+    kind: Kind<'a>,
 }
 
-impl Part<'_> {
-    fn towards(&self, family: Family, direction: f64) -> Option<Turn> {
-        self.easing.map_or(Some(*self.turn), |easing| easing.towards(family, direction))
+#[derive(Clone, Copy)]
+enum Kind<'a> {
+    Given(&'a Turn),
+    Gentle(&'a Easing),
+}
+
+impl<'a> Part<'a> {
+    fn given(turn: &'a Turn) -> Part<'a> {
+        let Round { spirals, centre, reach, .. } = turn.round;
+        Part { round: turn.round, place: centre, within: dot(reach, reach).sqrt(), spirals, kind: Kind::Given(turn) }
+    }
+
+    fn gentle(easing: &'a Easing) -> Part<'a> {
+        let spirals = easing.before.map_or(0.0, |known| known.costs.length[0]);
+        Part { round: easing.round(easing.leg), place: easing.at.at, within: 0.0, spirals, kind: Kind::Gentle(easing) }
+    }
+
+    /// With the curvature of a gentle one.
+    fn towards(&self, family: Family, direction: f64) -> Option<(f64, Round)> {
+        match self.kind {
+            Kind::Given(turn) => Some((turn.curvature, self.round)),
+            Kind::Gentle(easing) => easing.towards(family, direction),
+        }
     }
 
     /// Whether a line may follow.
     fn faces(&self, line: &Tangent, sign: f64) -> bool {
-        self.easing.is_none_or(|easing| sign * dot(line.along, easing.at.along()) >= easing.narrow * line.square)
+        match self.kind {
+            Kind::Given(_) => true,
+            Kind::Gentle(easing) => sign * dot(line.along, easing.at.along()) >= easing.narrow * line.square,
+        }
     }
 
-    /// With its arc, and what it costs.
-    fn left(&self, family: Family, turn: Turn, direction: f64) -> (Turn, f64) {
-        if self.easing.is_some() { (turn.costed(family), 0.0) } else { (turn, turn.arc(direction)) }
+    /// With its arc.
+    fn left(&self, family: Family, (k, round): (f64, Round), direction: f64) -> (Turn, f64) {
+        match self.kind {
+            Kind::Given(turn) => (*turn, turn.arc(direction)),
+            Kind::Gentle(easing) => (easing.turn(family, k, round), 0.0),
+        }
     }
 }
 
-/// All gentle turns with each other and with the given turns at the other end, but for paths that are longer than
-/// `most` by far.
-pub(super) fn eased(family: Family, turns: [&[Turn]; 2], easings: &[Vec<Easing>; 2], most: f64) -> Vec<Eased> {
-    let firsts = [0, 1].map(|end| easings[end].iter().map(|easing| easing.with_leg(easing.leg, 0.0)));
-    let firsts = firsts.map(|firsts| firsts.collect::<Vec<_>>());
-    let gentle = |end: usize| firsts[end].iter().zip(&easings[end]).map(|(turn, e)| Part { turn, easing: Some(e) });
-    let given = |end: usize| turns[end].iter().map(|turn| Part { turn, easing: None });
-    let first = gentle(0).flat_map(|a| gentle(1).chain(given(1)).map(move |b| [a, b]));
-    let second = given(0).flat_map(|a| gentle(1).map(move |b| [a, b]));
-    first.chain(second).filter_map(|parts| joined(family, parts, most * (1.0 + NEARLY))).collect()
+/// Offers all gentle turns with each other and with the given turns at the other end, but for paths that must be longer
+/// than `most`, or than the answer to the last offer.
+pub(super) fn eased(
+    family: Family,
+    turns: &[Vec<Turn>; 2],
+    easings: &[Vec<Easing>; 2],
+    mut most: f64,
+    mut offer: impl FnMut(Eased) -> f64,
+) {
+    let gentle = easings.each_ref().map(|all| all.iter().map(Part::gentle).collect::<Vec<_>>());
+    let given = turns.each_ref().map(|all| all.iter().map(Part::given).collect::<Vec<_>>());
+    for (first, second) in [(&gentle[0], &gentle[1]), (&gentle[0], &given[1]), (&given[0], &gentle[1])] {
+        for (a, b) in first.iter().flat_map(|a| second.iter().map(move |b| (a, b))) {
+            // No path is shorter than the line between its ends.
+            let across = sub(b.place, a.place);
+            let rest = (most - a.spirals - b.spirals + a.within + b.within).max(0.0);
+            if dot(across, across) <= rest * rest {
+                most = joined(family, [a, b]).map_or(most, &mut offer);
+            }
+        }
+    }
 }
 
-fn joined(family: Family, parts: [Part; 2], most: f64) -> Option<Eased> {
-    let line = tangent(parts.map(|part| part.turn), most)?;
+fn joined(family: Family, parts: [&Part; 2]) -> Option<Eased> {
+    let line = tangent(parts.map(|part| &part.round), f64::INFINITY)?;
     if !parts[0].faces(&line, 1.0) || !parts[1].faces(&line, -1.0) {
         return None;
     }
     let mut before = line.direction();
     for _ in 0..ROUNDS {
-        let turns = [parts[0].towards(family, before)?, parts[1].towards(family, before + PI)?];
-        let line = tangent([&turns[0], &turns[1]], most)?;
+        let rounds = [parts[0].towards(family, before)?, parts[1].towards(family, before + PI)?];
+        let line = tangent([&rounds[0].1, &rounds[1].1], f64::INFINITY)?;
         let direction = line.direction();
         if principal(direction - before).abs() <= SETTLED {
-            let [a, b] = [0, 1].map(|i| parts[i].left(family, turns[i], direction + PI * i as f64));
+            let [a, b] = [0, 1].map(|i| parts[i].left(family, rounds[i], direction + PI * i as f64));
             return Some(Eased { turns: [a.0, b.0], arcs: [a.1, b.1], line: line.length });
         }
         before = direction;
@@ -173,14 +217,19 @@ pub(super) struct Tangent {
 }
 
 impl Tangent {
+    /// At least as long as the arcs of the two turns are.
+    pub(super) fn arcs(&self, [a, b]: [&Round; 2]) -> f64 {
+        a.arc(self.along, self.square) + b.arc(scale(self.along, -1.0), self.square)
+    }
+
     pub(super) fn direction(&self) -> f64 {
         angle_of(self.along)
     }
 }
 
 /// The line between two turns, where there is one in a path of a length at most.
-pub(super) fn tangent([a, b]: [&Turn; 2], most: f64) -> Option<Tangent> {
-    let spirals = a.spirals.length + b.spirals.length;
+pub(super) fn tangent([a, b]: [&Round; 2], most: f64) -> Option<Tangent> {
+    let spirals = a.spirals + b.spirals;
     let (across, reach) = (sub(b.centre, a.centre), add(a.reach, b.reach));
     let square = dot(across, across);
     let along = (square - reach[1] * reach[1]).max(-1.0).sqrt();

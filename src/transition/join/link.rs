@@ -5,9 +5,9 @@
 //! follow.
 
 use super::super::piece::{Arc, Line, Piece};
+use super::costs::wrapped;
 use super::request::{Family, Objective, Request};
 use super::spiral::{Pose, Spiral, pinned};
-use super::turns::wrapped;
 use crate::curve::vector::{Vector, add, angle_of, dot, length as norm, scale, sub, turn, unit};
 use crate::error::Result;
 use crate::num::roots::find;

@@ -6,8 +6,10 @@ use serde::Serialize;
 
 /// Steps of a piece between which the greatest rate is bracketed.
 const STEPS: usize = 32;
-/// Thirds of a bracket; each leaves 2/3 of it.
-const THIRDS: usize = 24;
+/// Golden sections of a bracket: they leave 1/40,000 of it.
+const SECTIONS: usize = 22;
+/// What each leaves of it.
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
 /// Curvatures of control points, relative to the limit.
 const ROUNDING: f64 = 1e-12;
@@ -38,34 +40,58 @@ pub(super) fn without_noise(curvature: f64, limit: f64) -> f64 {
     if curvature.abs() <= limit * NOISE { 0.0 } else { curvature }
 }
 
+/// Least and greatest signed curvature.
+fn curvature_range(pieces: &[Piece], limit: f64) -> [f64; 2] {
+    let within = |k: f64| match without_noise(k, limit) {
+        0.0 => 0.0,
+        k if k.abs() <= limit * (1.0 + ROUNDING) => k.clamp(-limit, limit),
+        k => k,
+    };
+    let curvature = |piece: &Piece, t: f64| jet(piece, t).map_or_else(|| piece.at(t).curvature, |jet| jet.curvature());
+    let curvatures = pieces.iter().flat_map(|p| p.range().map(|t| within(curvature(p, t))));
+    curvatures.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], k| [low.min(k), high.max(k)])
+}
+
+/// Greatest |κ|.
+pub(super) fn greatest_curvature(pieces: &[Piece], limit: f64) -> f64 {
+    greatest(curvature_range(pieces, limit))
+}
+
+/// Greatest |dκ/ds|.
+pub(super) fn greatest_rate(pieces: &[Piece]) -> f64 {
+    greatest(rates(pieces))
+}
+
+/// ∫ κ² ds.
+pub(super) fn bending_energy(pieces: &[Piece]) -> f64 {
+    pieces.iter().map(energy).sum()
+}
+
+/// Least and greatest dκ/ds.
+fn rates(pieces: &[Piece]) -> [f64; 2] {
+    pieces.iter().map(rate_range).fold([0.0f64, 0.0], |[low, high], rates| [low.min(rates[0]), high.max(rates[1])])
+}
+
+/// The size of the greater end of a range about 0.
+fn greatest([low, high]: [f64; 2]) -> f64 {
+    high.max(-low)
+}
+
 impl Measures {
-    pub(super) fn of(pieces: &[Piece], limit: f64) -> Measures {
-        let within = |k: f64| match without_noise(k, limit) {
-            0.0 => 0.0,
-            k if k.abs() <= limit * (1.0 + ROUNDING) => k.clamp(-limit, limit),
-            k => k,
-        };
-        let curvature =
-            |piece: &Piece, t: f64| jet(piece, t).map_or_else(|| piece.at(t).curvature, |jet| jet.curvature());
-        let curvatures = pieces.iter().flat_map(|p| p.range().map(|t| within(curvature(p, t))));
-        let range = curvatures.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], k| [low.min(k), high.max(k)]);
-        let mut rates = [0.0f64, 0.0];
-        for piece in pieces {
-            let [low, high] = rate_range(piece);
-            rates = [rates[0].min(low), rates[1].max(high)];
-        }
+    pub(super) fn of(pieces: &[Piece], length: f64, limit: f64) -> Measures {
+        let range = curvature_range(pieces, limit);
         Measures {
-            length: pieces.iter().map(Piece::length).sum(),
-            greatest_curvature: range[1].max(-range[0]),
+            length,
+            greatest_curvature: greatest(range),
             curvature_range: range,
-            rate_range: rates,
-            bending_energy: pieces.iter().map(energy).sum(),
+            rate_range: rates(pieces),
+            bending_energy: bending_energy(pieces),
         }
     }
 
     /// Greatest |dκ/ds|.
     pub fn greatest_rate(&self) -> f64 {
-        self.rate_range[1].max(-self.rate_range[0])
+        greatest(self.rate_range)
     }
 }
 
@@ -132,12 +158,15 @@ fn rate_range(piece: &Piece) -> [f64; 2] {
             return rates[best];
         }
         let (mut low, mut high) = (share(best - 1), share(best + 1));
-        for _ in 0..THIRDS {
-            let third = (high - low) / 3.0;
-            if sign * rate(piece, low + third) < sign * rate(piece, high - third) {
-                low += third
+        let at = |share: f64| (share, sign * rate(piece, share));
+        let (mut one, mut two) = (at(high - GOLDEN * (high - low)), at(low + GOLDEN * (high - low)));
+        for _ in 0..SECTIONS {
+            if one.1 < two.1 {
+                low = one.0;
+                (one, two) = (two, at(low + GOLDEN * (high - low)));
             } else {
-                high -= third
+                high = two.0;
+                (one, two) = (at(high - GOLDEN * (high - low)), one);
             }
         }
         sign * (sign * rates[best]).max(sign * rate(piece, 0.5 * (low + high)))

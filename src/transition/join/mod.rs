@@ -30,15 +30,17 @@
 //!
 //! Turns of several curvatures and of spirals of several lengths are tried in all pairs, the same for each objective. A
 //! model ranks them. The best by each objective are built and measured, so no answer is beaten by that to another
-//! objective. For the shortest join the model is good enough alone, and pairs that are too long are left out early. A
-//! join is made of spirals that are proved. In units of the least radius the spirals are 0.4 long or longer: from
-//! shorter ones, control points in doubles could not show the curvature to 1e-12.
+//! objective. Lengths are bounded before anything is built. So for the shortest join, pairs that must be longer than
+//! another are left out early, and all that may be the shortest are built. A join is made of spirals that are proved.
+//! In units of the least radius the spirals are 0.4 long or longer: from shorter ones, control points in doubles could
+//! not show the curvature to 1e-12.
 //!
 //! Lines and circles are joined by the same spirals, laid out by the centres of circles: see `link.rs` and `shapes.rs`,
 //! and `alone.rs` for what two lines need no arc for.
 
 mod alone;
 mod best;
+mod costs;
 mod ease;
 mod link;
 mod locus;
@@ -47,6 +49,7 @@ mod request;
 mod shapes;
 mod spiral;
 mod states;
+mod third;
 mod trig;
 mod turns;
 
@@ -103,7 +106,7 @@ pub fn join(request: &Request) -> Result<std::result::Result<Join, String>> {
     }
     let mut best = Best::new(request);
     let none = tried(request, &mut best)?;
-    if let Some(join) = best.join {
+    if let Some(join) = best.join() {
         return Ok(Ok(join));
     }
     let free = Request { longest: f64::INFINITY, most_pieces: Request::MOST_PIECES, ..*request };
@@ -111,7 +114,7 @@ pub fn join(request: &Request) -> Result<std::result::Result<Join, String>> {
     if free != *request {
         tried(&free, &mut best)?;
     }
-    Ok(Err(match best.join {
+    Ok(Err(match best.join() {
         Some(join) => {
             let most = (request.most_pieces < free.most_pieces).then(|| count(request.most_pieces, "piece"));
             let longest = request.longest.is_finite().then(|| format!("a length of {}", written(request.longest)));

@@ -230,10 +230,6 @@ pub struct Join {
 }
 
 impl Join {
-    pub(super) fn new(pieces: Vec<Piece>, limit: f64) -> Join {
-        Join { measures: Measures::of(&pieces, limit), pieces }
-    }
-
     /// `count` points at equal lengths: [`stations`], where the curvature of a straight joint or end is 0 and not a
     /// rounding of it.
     ///

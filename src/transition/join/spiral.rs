@@ -8,9 +8,9 @@
 //! Spirals that turn by more than some 0.6 rad need other legs to have monotone curvature ([`Spiral::shape`]).
 
 use super::super::clothoid::{Clothoid, clothoid_step};
-use super::super::cubic::spiral;
+use super::super::cubic::chosen_spiral;
 use super::super::involute::involute_between;
-use super::super::ph_quintic::ph_spiral;
+use super::super::ph_quintic;
 use super::super::piece::{Arc, Cubic, InvoluteBetween, Line, Piece, TrigPart};
 use super::super::placement::Ends;
 use super::super::segment::{Base, Request, Target, add_segment};
@@ -33,6 +33,11 @@ const FIVE: [(f64, f64); 5] = [
     (0.769_234_655_052_841_5, 0.239_314_335_249_683_23),
     (0.953_089_922_969_332, 0.118_463_442_528_094_54),
 ];
+
+/// What a length that is known to 1e-5 is at least and at most.
+fn near(length: f64) -> [f64; 2] {
+    [length * (1.0 - 1e-5), length * (1.0 + 1e-5)]
+}
 
 /// Point and direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,29 +135,49 @@ impl Spiral {
         self.length * self.shape(family)[0]
     }
 
-    /// Its length: to 1e-5 relative, of an involute's image to some hundredths, which has that of the cubic.
-    pub(super) fn long(&self, family: Family) -> f64 {
-        let (angle, k0, k1) = (self.angle().abs(), self.from.abs(), self.to.abs());
-        match family {
-            Family::Cubic | Family::Involute => {
+    /// From its start to its end, for a start along (1, 0), and what its length is at least and at most.
+    ///
+    /// The length of an involute's image is not asked for: its chord and its legs to the corner of its tangents bound
+    /// it, as those of any convex arc. Lengths of the others are known to 1e-5, relative.
+    pub(super) fn measured(&self, family: Family) -> (Vector, [f64; 2]) {
+        let (angle, side) = (self.angle().abs(), self.angle().signum());
+        let ([x, y], lengths) = match family {
+            Family::Cubic => {
                 let [a, b, c] = self.legs(family);
                 let speed = |t: f64| {
                     let s = 1.0 - t;
-                    length([0, 1].map(|i| s * s * a[i] + 2.0 * s * t * b[i] + t * t * c[i]))
+                    let [x, y] = [0, 1].map(|i| s * s * a[i] + 2.0 * s * t * b[i] + t * t * c[i]);
+                    (x * x + y * y).sqrt()
                 };
-                3.0 * FIVE.iter().map(|(t, weight)| weight * speed(*t)).sum::<f64>()
+                (add(a, add(b, c)), near(3.0 * FIVE.iter().map(|(t, weight)| weight * speed(*t)).sum::<f64>()))
             }
-            Family::PhQuintic => self.ph().length(),
-            Family::Clothoid => self.length,
-            Family::TrigQuintic => TrigWay::of(angle, k0, k1).map_or(f64::NAN, |way| way.length()),
-        }
+            Family::PhQuintic => {
+                let curve = self.ph();
+                (curve.end, near(curve.length()))
+            }
+            Family::TrigQuintic => {
+                let way = TrigWay::of(angle, self.from.abs(), self.to.abs());
+                way.map_or(([f64::NAN; 2], [f64::NAN; 2]), |way| (way.step(), near(way.length())))
+            }
+            Family::Clothoid => (self.step_left(family), near(self.length)),
+            Family::Involute => {
+                let [x, y] = self.step_left(family);
+                ([x, y], [length([x, y]), x + y * (0.5 * angle).tan()])
+            }
+        };
+        ([x, side * y], lengths)
     }
 
     /// From its start to its end, for a start along (1, 0).
     pub(super) fn step(&self, family: Family) -> Vector {
-        let (angle, side) = (self.angle().abs(), self.angle().signum());
-        let (k0, k1) = (self.from.abs(), self.to.abs());
-        let [x, y] = match family {
+        let [x, y] = self.step_left(family);
+        [x, self.angle().signum() * y]
+    }
+
+    /// The same, turning left.
+    fn step_left(&self, family: Family) -> Vector {
+        let (angle, k0, k1) = (self.angle().abs(), self.from.abs(), self.to.abs());
+        match family {
             Family::Cubic | Family::Involute => {
                 let [a, b, c] = self.legs(family);
                 add(a, add(b, c))
@@ -160,8 +185,7 @@ impl Spiral {
             Family::PhQuintic => self.ph().end,
             Family::Clothoid => clothoid_step(0.0, [k0, k1], self.length),
             Family::TrigQuintic => TrigWay::of(angle, k0, k1).map_or([f64::NAN; 2], |way| way.step()),
-        };
-        [x, side * y]
+        }
     }
 
     /// The legs of the cubic, for a start along (1, 0), turning left.
@@ -256,8 +280,8 @@ impl Spiral {
 /// The family's proved spiral between two ends, if it has one.
 pub(super) fn between(family: Family, ends: &Ends) -> Result<Option<Piece>> {
     Ok(match family {
-        Family::Cubic => spiral(ends)?.chosen().map(|s| s.piece()),
-        Family::PhQuintic => ph_spiral(ends)?.chosen().map(|s| Piece::PhQuintic(s.curve)),
+        Family::Cubic => chosen_spiral(ends)?.map(|s| s.piece()),
+        Family::PhQuintic => ph_quintic::chosen_spiral(ends)?.map(|s| Piece::PhQuintic(s.curve)),
         // Of those from a straight end none has these ends but by chance.
         Family::TrigQuintic => None,
         Family::Clothoid => Clothoid::between(ends).map(Piece::Clothoid),
@@ -323,4 +347,34 @@ pub(super) fn pinned(piece: Piece, to: Vector) -> Result<Piece> {
         }
         other => other,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is built is as long as was said before.
+    #[test]
+    fn lengths_are_known_before_anything_is_built() {
+        for family in Family::ALL {
+            let mut built = 0;
+            for i in 0..400 {
+                let share = |n: u32| f64::from((i * n) % 401) / 401.0;
+                let (round, flat) = (0.1 + 0.9 * share(37), if i % 2 == 0 { 0.0 } else { 0.54 * share(101) });
+                let most = 0.95 * Spiral::most(family, round * flat, round).min(1.0);
+                let length = 2.0 * most * (0.1 + 0.9 * share(211)) / (round + round * flat);
+                let (from, to) = if i % 3 == 0 { (round, round * flat) } else { (round * flat, round) };
+                let spiral = Spiral { from, to, length };
+                let ([x, y], [least, most]) = spiral.measured(family);
+                let start = Pose { at: [0.0, 0.0], direction: 0.0 };
+                let Some((piece, end)) = spiral.piece(family, start, 1.0).unwrap() else { continue };
+                built += 1;
+                let long = piece.length();
+                assert!(least <= long && long <= most, "{family:?}, {spiral:?}: {long} beyond {least} to {most}");
+                assert!(most - least < 0.2 * long && super::length(sub(end.at, [x, y])) < 1e-12 * long);
+            }
+            println!("{family:?}: {built}");
+            assert!(built > 100, "{family:?}: {built}");
+        }
+    }
 }

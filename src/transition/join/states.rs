@@ -3,17 +3,17 @@
 use super::super::piece::{Arc, Line, Piece, principal};
 use super::super::placement::Ends;
 use super::best::Best;
-use super::ease::{Easing, eased, tangent};
+use super::costs::{Costs, wrapped};
+use super::ease::{Eased, Easing, eased, tangent};
 use super::link::{SHORTEST, add_arc, root};
 use super::request::{Family, Objective, Request, State};
 use super::spiral::{Pose, Spiral, between, pinned, reversed};
-use super::turns::{Costs, MIDDLE, Middle, Turn, rungs, turns, wrapped};
-use crate::curve::vector::{add, angle_of, cross, dot, length, scale, sub, turn, unit};
+use super::third::{Between, LENGTH};
+use super::turns::{Round, Shapes, Turn, turns};
+use crate::curve::vector::{add, cross, dot, length, scale, sub, turn, unit};
 use crate::error::Result;
 use std::f64::consts::PI;
 
-/// A way is built where the model has it no longer than this times the greatest length; it is off by a few hundredths.
-const LONGER: f64 = 1.1;
 /// How many of the best ways by each objective are built. Curvatures are known, rates to a fifth for most.
 const BUILT: [(Objective, usize); 4] = [
     (Objective::Length, 1),
@@ -35,11 +35,6 @@ struct Way {
     built: Option<Option<f64>>,
 }
 
-/// By how much the model is off the length of a path, relative.
-fn off(family: Family) -> f64 {
-    if family == Family::Involute { 0.003 } else { 1e-5 }
-}
-
 /// Offers joins of two states.
 ///
 /// # Errors
@@ -52,8 +47,9 @@ pub(super) fn states(request: &Request, ends: [&State; 2], best: &mut Best) -> R
         best.offer(pieces);
     }
     let shortest = request.objective == Objective::Length;
-    Ways::new(request, ends, shortest, best).build(best)?;
-    if shortest && best.join.is_none() {
+    let all_built = Ways::new(request, ends, shortest, best).build(best)?;
+    // What is not to be had may have shut out what is longer.
+    if shortest && !(all_built && best.length().is_some()) {
         Ways::new(request, ends, false, best).build(best)?;
     }
     Ok(())
@@ -79,38 +75,39 @@ impl<'r> Ways<'r> {
         let there = Pose { at: across, direction: to.direction + PI };
         let given = [(here, from.curvature / most), (there, -to.curvature / most)];
         let apart = length(across);
-        let rungs = rungs(family, apart);
-        let turns = given.map(|(at, k)| {
-            let mut turns = turns(family, at, k, &rungs);
-            turns.sort_by(|a, b| a.spirals.length.total_cmp(&b.spirals.length));
-            turns
-        });
-        // Those that are much too long are not built, each of which takes the proofs of a few spirals.
-        let longest = LONGER * request.longest * most;
+        let rungs = Shapes::of(family).rungs(apart);
+        let turns = given.map(|(at, k)| turns(family, at, k, rungs));
+        // What is too long is not built: each takes the proofs of a few spirals.
+        let longest = request.longest * most;
         let mut ways = Ways { request, ends: [from, to], turns, all: Vec::new(), shortest, most: longest };
-        if let Some(join) = best.join.as_ref().filter(|_| shortest) {
-            ways.bound(join.measures.length * most);
+        if let Some(length) = best.length() {
+            ways.bound(length * most);
         }
         ways.find();
         let easings = given.map(|(at, k)| Easing::all(family, at, k, apart));
-        let [starts, ends] = &ways.turns;
-        for eased in eased(family, [starts, ends], &easings, ways.most) {
-            let [a, b] = eased.turns;
-            let places = [ways.turns[0].len(), ways.turns[1].len()];
-            if ways.add([&a, &b], places, along([&a, &b], eased.arcs, eased.line)) {
-                ways.turns[0].push(a);
-                ways.turns[1].push(b);
+        let mut turns = std::mem::take(&mut ways.turns);
+        let mut gentle: Vec<[Turn; 2]> = Vec::new();
+        eased(family, &turns, &easings, ways.most, |Eased { turns: [a, b], arcs, line }| {
+            let places = turns.each_ref().map(|turns| turns.len() + gentle.len());
+            if ways.add([&a, &b], places, along([&a, &b], arcs, line)) {
+                gentle.push([a, b]);
             }
+            ways.most
+        });
+        for [a, b] in gentle {
+            turns[0].push(a);
+            turns[1].push(b);
         }
+        ways.turns = turns;
         let most = ways.most;
-        ways.all.retain(|way| way.costs.length <= most);
+        ways.all.retain(|way| way.costs.length[0] <= most);
         ways
     }
 
-    /// A path of a length is known.
+    /// A path of a length at most is known.
     fn bound(&mut self, length: f64) {
         if self.shortest {
-            self.most = self.most.min(length * (1.0 + 2.0 * off(self.request.family)));
+            self.most = self.most.min(length);
         }
     }
 
@@ -119,9 +116,9 @@ impl<'r> Ways<'r> {
         let between =
             if way.middle.is_some_and(|(_, arc)| arc > 0.0) { 3 } else { 1 + usize::from(way.middle.is_some()) };
         let pieces = a.pieces(way.arcs[0]) + b.pieces(way.arcs[1]) + between;
-        let fits = way.costs.length <= self.most && pieces <= self.request.most_pieces;
+        let fits = way.costs.length[0] <= self.most && pieces <= self.request.most_pieces;
         if fits {
-            self.bound(way.costs.length);
+            self.bound(way.costs.length[1]);
             self.all.push(Way { first, last, ..way });
         }
         fits
@@ -129,16 +126,18 @@ impl<'r> Ways<'r> {
 
     /// Finds those of two turns that are given, with a line or a third turn between.
     fn find(&mut self) {
-        let middles = [1.0, -1.0].map(|side| Middle::new(self.request.family, side));
+        let third = &Shapes::of(self.request.family).third;
         let turns = std::mem::take(&mut self.turns);
-        for (i, a) in turns[0].iter().enumerate() {
-            for (j, b) in turns[1].iter().enumerate() {
+        let rounds = turns.each_ref().map(|turns| turns.iter().map(|turn| turn.round).collect::<Vec<Round>>());
+        for (i, a) in rounds[0].iter().enumerate() {
+            for (j, b) in rounds[1].iter().enumerate() {
                 // Those that follow are no shorter.
-                if a.spirals.length + b.spirals.length > self.most {
+                if a.spirals + b.spirals > self.most {
                     break;
                 }
-                if let Some(line) = tangent([a, b], self.most) {
-                    let direction = line.direction();
+                let room = self.most - a.spirals - b.spirals;
+                if let Some(line) = tangent([a, b], self.most).filter(|line| line.length + line.arcs([a, b]) <= room) {
+                    let (direction, [a, b]) = (line.direction(), [&turns[0][i], &turns[1][j]]);
                     let arcs = [a.arc(direction), b.arc(direction + PI)];
                     self.add([a, b], [i, j], along([a, b], arcs, line.length));
                 }
@@ -146,31 +145,37 @@ impl<'r> Ways<'r> {
         }
         for (i, a) in turns[0].iter().enumerate() {
             for (j, b) in turns[1].iter().enumerate() {
-                if a.exit == b.exit || (a.is_sharp() && b.is_sharp()) {
-                    for way in by_turn(&middles, a, b, self.most).into_iter().flatten() {
-                        self.add([a, b], [i, j], way);
-                    }
+                let spirals = a.round.spirals + b.round.spirals;
+                if spirals + third.least() > self.most {
+                    break;
+                }
+                if a.exit != b.exit && !(a.is_sharp() && b.is_sharp()) {
+                    continue;
+                }
+                let [from, to] = [a, b].map(|turn| turn.hops.unwrap_or_else(|| third.hops(turn.round.reach)));
+                let across = sub(b.round.centre, a.round.centre);
+                for between in third.between(across, [&from, &to], self.most - spirals).into_iter().flatten() {
+                    self.add([a, b], [i, j], by_turn([a, b], &between));
                 }
             }
         }
         self.turns = turns;
     }
 
-    /// Builds and offers the best.
-    fn build(mut self, best: &mut Best) -> Result<()> {
+    /// Builds and offers the best. Whether all were to be had that were tried.
+    fn build(mut self, best: &mut Best) -> Result<bool> {
         let mut shut = self.turns.each_ref().map(|turns| vec![false; turns.len()]);
-        let off = off(self.request.family);
         for (objective, enough) in BUILT.into_iter().take(if self.shortest { 1 } else { BUILT.len() }) {
             // The shortest of equals come first.
             self.all.sort_by(|a, b| {
                 let by = |way: &Way| way.costs.by(objective);
-                by(a).total_cmp(&by(b)).then(a.costs.length.total_cmp(&b.costs.length))
+                by(a).total_cmp(&by(b)).then(a.costs.by(Objective::Length).total_cmp(&b.costs.by(Objective::Length)))
             });
             let (mut kept, mut shortest) = (0, f64::INFINITY);
             for way in &mut self.all {
-                let near = objective == Objective::Length && way.costs.length * (1.0 - off) < shortest;
-                if kept >= enough && !near {
-                    break;
+                let shorter = objective == Objective::Length && way.costs.length[0] < shortest;
+                if kept >= enough && !shorter {
+                    continue;
                 }
                 if shut[0][way.first] || shut[1][way.last] {
                     continue;
@@ -197,7 +202,7 @@ impl<'r> Ways<'r> {
                 }
             }
         }
-        Ok(())
+        Ok(!shut.iter().flatten().any(|shut| *shut))
     }
 }
 
@@ -283,37 +288,16 @@ fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece
 
 /// Two turns with a line between.
 fn along([a, b]: [&Turn; 2], arcs: [f64; 2], line: f64) -> Way {
-    let costs = a.costs(arcs[0]).and(b.costs(arcs[1])).and(Costs { length: line, ..Costs::default() });
+    let costs = a.costs(arcs[0]).and(b.costs(arcs[1])).and(Costs::line(line));
     Way { costs, first: 0, last: 0, arcs, middle: None, built: None }
 }
 
-/// Two turns with a third between, in a path of a length at most.
-fn by_turn(middles: &[Middle; 2], a: &Turn, b: &Turn, most: f64) -> [Option<Way>; 4] {
-    let mut ways = [None; 4];
-    if a.spirals.length + middles[0].spirals.length + b.spirals.length > most {
-        return ways;
-    }
-    let across = sub(b.centre, a.centre);
-    let apart = length(across);
-    for (n, way) in ways.iter_mut().enumerate() {
-        let flank = if n % 2 == 0 { 1.0 } else { -1.0 };
-        let middle = &middles[n / 2];
-        let (into, out) = (add(a.reach, middle.behind), add(middle.ahead, b.reach));
-        let (r, s) = (length(into), length(out));
-        if apart == 0.0 || apart >= r + s || apart <= (r - s).abs() {
-            continue;
-        }
-        let x = (apart * apart + r * r - s * s) / (2.0 * apart);
-        let y = flank * (r * r - x * x).max(0.0).sqrt();
-        let centre = add(a.centre, scale(turn(across, [x, y]), 1.0 / apart));
-        let first = angle_of(sub(centre, a.centre)) - angle_of(into);
-        let second = angle_of(sub(b.centre, centre)) - angle_of(out);
-        let arc = wrapped(middle.side * (second - first) - 2.0 * middle.angle);
-        let arcs = [a.arc(first), b.arc(second + PI)];
-        let costs = a.costs(arcs[0]).and(middle.costs(arc)).and(b.costs(arcs[1]));
-        *way = Some(Way { costs, first: 0, last: 0, arcs, middle: Some((middle.side, arc)), built: None });
-    }
-    ways
+/// Two turns with a third between.
+fn by_turn([a, b]: [&Turn; 2], between: &Between) -> Way {
+    let Between { side, arc, directions: [from, to], costs } = *between;
+    let arcs = [a.arc(from), b.arc(to + PI)];
+    let costs = a.costs(arcs[0]).and(costs).and(b.costs(arcs[1]));
+    Way { costs, first: 0, last: 0, arcs, middle: Some((side, arc)), built: None }
 }
 
 /// A way in pieces, or the end, 0 or 1, whose turn is not to be had.
@@ -331,8 +315,8 @@ fn build(request: &Request, [from, to]: [&State; 2], [a, b]: [&Turn; 2], way: &W
     match way.middle {
         None => pieces.push(Piece::Line(Line { start: here.at, end: there.at })),
         Some((side, arc)) => {
-            let entry = Spiral { from: 0.0, to: side, length: MIDDLE };
-            let exit = Spiral { from: side, to: 0.0, length: MIDDLE };
+            let entry = Spiral { from: 0.0, to: side, length: LENGTH };
+            let exit = Spiral { from: side, to: 0.0, length: LENGTH };
             let Some((first, at)) = entry.piece(family, here, most)? else { return Ok(Built::Shut(0)) };
             pieces.push(first);
             let at = add_arc(&mut pieces, at, side * most, arc);

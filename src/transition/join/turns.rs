@@ -1,9 +1,12 @@
 //! Turns: from a state over an arc to a straight end.
 
-use super::request::{Family, Objective};
+use super::costs::{Costs, Known, wrapped};
+use super::request::Family;
 use super::spiral::{Pose, Spiral};
-use crate::curve::vector::{Vector, add, scale, turn, unit};
-use std::f64::consts::TAU;
+use super::third::{Hop, SIDES, Third};
+use crate::curve::vector::{Vector, add, cross, dot, turn};
+use std::f64::consts::PI;
+use std::sync::OnceLock;
 
 /// Curvatures of arcs in units of the limit, and lengths of spirals in units of the least radius. The short ones make
 /// the shortest joins and the long ones gentle joins. A spiral turns by at most 0.6 rad, where both families' are
@@ -30,44 +33,30 @@ const NEAR: f64 = 2.0;
 pub(super) const LEAST: f64 = 0.1;
 /// Below this an arc goes on about a centre too far away to be of use.
 const HELD: f64 = 1.0 / 64.0;
-/// An arc of less than this, radians, is a rounding.
-const ROUNDING: f64 = 1e-13;
-
-/// What a path costs, nearly: all but the length as if its spirals were clothoids.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Costs {
-    pub length: f64,
-    /// Greatest |κ|.
-    pub curvature: f64,
-    /// Greatest |dκ/ds|.
-    pub rate: f64,
-    /// ∫ κ² ds.
-    pub energy: f64,
+/// What a line depends on that leaves a turn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Round {
+    /// Length of the turn's spirals, at least.
+    pub spirals: f64,
+    /// Centre of its arc.
+    pub centre: Vector,
+    /// From the centre to where it ends, for the direction (1, 0) there.
+    pub reach: Vector,
+    /// Where it would end without an arc, the vector of length 1 along it; and curvature of the arc.
+    pub along: Vector,
+    pub bend: f64,
 }
 
-impl Costs {
-    pub(super) fn of(spiral: &Spiral, length: f64) -> Costs {
-        let (curvature, rate) = (spiral.from.abs().max(spiral.to.abs()), spiral.rate());
-        Costs { length, curvature, rate, energy: spiral.bending_energy() }
-    }
-
-    /// Of one path and then another.
-    pub(super) fn and(self, other: Costs) -> Costs {
-        Costs {
-            length: self.length + other.length,
-            curvature: self.curvature.max(other.curvature),
-            rate: self.rate.max(other.rate),
-            energy: self.energy + other.energy,
-        }
-    }
-
-    pub(super) fn by(&self, objective: Objective) -> f64 {
-        match objective {
-            Objective::Length => self.length,
-            Objective::GreatestCurvature => self.curvature,
-            Objective::GreatestRate => self.rate,
-            Objective::BendingEnergy => self.energy,
-        }
+impl Round {
+    /// At least as long as the arc is, where it is left along a vector of a length.
+    ///
+    /// An arc is no shorter than its chord, and one of more than a half turn is no shorter than a half turn and the
+    /// chord of the rest.
+    pub(super) fn arc(&self, direction: Vector, length: f64) -> f64 {
+        let [cosine, sine] = [dot(self.along, direction), cross(self.along, direction) * self.bend.signum()];
+        // Roundings of 0 are not to be full turns.
+        let (half, cosine) = if sine < -1e-9 * length { (PI, -cosine) } else { (0.0, cosine) };
+        (half + (2.0 - 2.0 * cosine / length).max(0.0).sqrt()) / self.bend.abs()
     }
 }
 
@@ -80,14 +69,13 @@ pub(super) struct Turn {
     pub curvature: f64,
     /// Direction at the arc's start.
     pub heading: f64,
-    /// Centre of the arc.
-    pub centre: Vector,
     /// From the arc to curvature 0; a turn by nothing has none.
     pub exit: Option<Spiral>,
     /// What its spirals cost.
     pub spirals: Costs,
-    /// From the centre to where it ends, for the direction (1, 0) there.
-    pub reach: Vector,
+    pub round: Round,
+    /// To a third turn, where that is known.
+    pub hops: Option<[Hop; 2]>,
 }
 
 impl Turn {
@@ -99,18 +87,7 @@ impl Turn {
 
     /// What it costs with an arc.
     pub(super) fn costs(&self, arc: f64) -> Costs {
-        if arc == 0.0 {
-            return self.spirals;
-        }
-        let bend = self.curvature.abs();
-        self.spirals.and(Costs { length: arc / bend, curvature: bend, rate: 0.0, energy: arc * bend })
-    }
-
-    /// The same with the costs of its spirals.
-    pub(super) fn costed(self, family: Family) -> Turn {
-        let all = self.before.iter().chain([&self.exit]).flatten();
-        let spirals = all.map(|spiral| Costs::of(spiral, spiral.long(family))).fold(Costs::default(), Costs::and);
-        Turn { spirals, ..self }
+        if arc == 0.0 { self.spirals } else { self.spirals.and(Costs::arc(self.curvature.abs(), arc)) }
     }
 
     /// Whether it is of those that a third turn is tried with, whatever the other is.
@@ -124,118 +101,91 @@ impl Turn {
     }
 }
 
-/// An angle within 0 and a full turn; a rounding from either is 0.
-pub(super) fn wrapped(angle: f64) -> f64 {
-    let angle = angle.rem_euclid(TAU);
-    if angle <= ROUNDING || angle >= TAU - ROUNDING { 0.0 } else { angle }
-}
-
-/// A spiral with what is known of it.
+/// What leads from an arc to curvature 0.
 #[derive(Clone, Copy)]
-struct Known {
-    spiral: Spiral,
-    step: Vector,
-    costs: Costs,
+struct Exit {
+    known: Known,
+    reach: Vector,
+    hops: Option<[Hop; 2]>,
 }
 
-impl Known {
-    fn of(family: Family, from: f64, to: f64, length: f64) -> Known {
-        let spiral = Spiral { from, to, length };
-        Known { spiral, step: spiral.step(family), costs: Costs::of(&spiral, spiral.long(family)) }
+/// A curvature of an arc and a length of spirals, to the left and to the right.
+pub(super) struct Rung {
+    entries: [Known; 2],
+    exits: [Exit; 2],
+}
+
+/// What a family has whatever the ends are.
+pub(super) struct Shapes {
+    rungs: Vec<Rung>,
+    pub third: Third,
+}
+
+impl Shapes {
+    pub(super) fn of(family: Family) -> &'static Shapes {
+        static ALL: [OnceLock<Shapes>; Family::ALL.len()] = [const { OnceLock::new() }; Family::ALL.len()];
+        ALL[family as usize].get_or_init(|| {
+            let third = Third::new(family);
+            let rung = |(peak, length): (f64, f64)| {
+                let entries = SIDES.map(|side| Known::of(family, 0.0, peak, length).to(side));
+                let exits = entries.map(|entry| {
+                    let known = entry.back();
+                    let reach = known.reach();
+                    Exit { known, reach, hops: Some(third.hops(reach)) }
+                });
+                Rung { entries, exits }
+            };
+            let rungs = RUNGS.iter().copied().chain([(1.0, LEAST)]).map(rung).collect();
+            Shapes { rungs, third }
+        })
     }
 
-    /// The same way back, and mirrored: it turns as it did.
-    fn back(self) -> Known {
-        let Known { spiral: Spiral { from, to, length }, step, costs } = self;
-        let [x, y] = turn(unit(-self.spiral.angle()), step);
-        Known { spiral: Spiral { from: to, to: from, length }, step: [x, -y], costs }
-    }
-
-    /// Turning to a side, +1 as it does.
-    fn to(self, side: f64) -> Known {
-        let Known { spiral: Spiral { from, to, length }, step: [x, y], costs } = self;
-        Known { spiral: Spiral { from: side * from, to: side * to, length }, step: [x, side * y], costs }
-    }
-
-    /// From the centre of a turn to its straight end, seen along the direction there.
-    fn reach(&self) -> Vector {
-        let ([x, y], (sin, cos)) = (self.step, self.spiral.angle().sin_cos());
-        turn([cos, -sin], [x, y - 1.0 / self.spiral.from])
+    /// Those tried where a place is at a distance, in units of the least radius.
+    pub(super) fn rungs(&self, apart: f64) -> &[Rung] {
+        &self.rungs[..if apart < NEAR { self.rungs.len() } else { RUNGS.len() }]
     }
 }
 
-/// A curvature of an arc and a length of spirals, with the spiral from curvature 0 to the arc.
-pub(super) struct Rung(Known);
-
-/// Those tried where a place is at a distance, in units of the least radius.
-pub(super) fn rungs(family: Family, apart: f64) -> Vec<Rung> {
-    let near = (apart < NEAR).then_some((1.0, LEAST));
-    RUNGS.iter().copied().chain(near).map(|(peak, length)| Rung(Known::of(family, 0.0, peak, length))).collect()
-}
-
-/// All turns from a pose with a curvature, both in units of the least radius.
+/// All turns from a pose with a curvature, both in units of the least radius; the shortest spirals come first.
 pub(super) fn turns(family: Family, at: Pose, curvature: f64, rungs: &[Rung]) -> Vec<Turn> {
     let mut all = Vec::with_capacity(5 * rungs.len());
-    let mut add_turn = |before: [Option<Known>; 2], exit: Known| {
-        let (mut place, mut heading, mut spirals) = (at.at, at.direction, exit.costs);
-        for Known { spiral, step, costs } in before.iter().flatten() {
-            place = add(place, turn(unit(heading), *step));
-            heading += spiral.angle();
-            spirals = spirals.and(*costs);
+    let mut add_turn = |before: [Option<Known>; 2], exit: Exit| {
+        let Exit { known: Known { spiral: exit, costs, along: end, .. }, reach, hops } = exit;
+        let (mut place, mut heading, mut along, mut spirals) = (at.at, at.direction, at.along(), costs);
+        for known in before.iter().flatten() {
+            place = add(place, turn(along, known.step));
+            heading += known.spiral.angle();
+            along = turn(along, known.along);
+            spirals = spirals.and(known.costs);
         }
-        let k = exit.spiral.from;
-        let centre = add(place, scale([-heading.sin(), heading.cos()], 1.0 / k));
-        let (before, exit, reach) = (before.map(|known| known.map(|known| known.spiral)), exit.spiral, exit.reach());
-        all.push(Turn { before, curvature: k, heading, centre, exit: Some(exit), spirals, reach });
+        let centre = add(place, turn(along, [0.0, 1.0 / exit.from]));
+        let before = before.map(|known| known.map(|known| known.spiral));
+        let left = turn(along, end);
+        let round = Round { spirals: spirals.length[0], centre, reach, along: left, bend: exit.from };
+        all.push(Turn { before, curvature: exit.from, heading, exit: Some(exit), spirals, round, hops });
     };
     let known = |from: f64, to: f64, length: f64| Known::of(family, from, to, length);
     let mut to_line: Option<Known> = None;
-    for &Rung(entry) in rungs {
-        let (exit, Spiral { to: peak, length, .. }) = (entry.back(), entry.spiral);
+    for Rung { entries, exits } in rungs {
+        let Spiral { to: peak, length, .. } = entries[0].spiral;
         let short = length.min(SHORT).max(0.5 * length);
         // Rungs of one length follow each other.
         if curvature != 0.0 && to_line.is_none_or(|known| known.spiral.length != short) {
             to_line = Some(known(curvature, 0.0, short));
         }
-        for side in [1.0, -1.0] {
+        for ((side, entry), exit) in SIDES.into_iter().zip(entries).zip(exits) {
             let k = side * peak;
             if Spiral::between_round(family, k, curvature) {
-                add_turn([Some(known(curvature, k, length)), None], exit.to(side));
+                add_turn([Some(known(curvature, k, length)), None], *exit);
             }
-            let entry = Some(entry.to(side));
-            let before = if to_line.is_some() { [to_line, entry] } else { [entry, None] };
-            add_turn(before, exit.to(side));
+            add_turn(if to_line.is_some() { [to_line, Some(*entry)] } else { [Some(*entry), None] }, *exit);
         }
         if curvature.abs() >= HELD && curvature.abs() * length <= 1.2 {
-            add_turn([None, None], known(curvature, 0.0, length));
+            let known = known(curvature, 0.0, length);
+            add_turn([None, None], Exit { known, reach: known.reach(), hops: None });
         }
     }
-    all
-}
-
-/// The third turn between two others: its spirals are of this length, between curvature 0 and the limit.
-pub(super) const MIDDLE: f64 = 0.4;
-
-/// A third turn between two, of the limit of curvature, to the left or to the right.
-pub(super) struct Middle {
-    /// +1 left.
-    pub side: f64,
-    pub angle: f64,
-    pub spirals: Costs,
-    /// As of a [`Turn`]: ahead, and seen backwards, where it turns the other way.
-    pub ahead: Vector,
-    pub behind: Vector,
-}
-
-impl Middle {
-    pub(super) fn new(family: Family, side: f64) -> Middle {
-        let exit = Known::of(family, 1.0, 0.0, MIDDLE);
-        let (ahead, behind) = (exit.to(side).reach(), exit.to(-side).reach());
-        Middle { side, angle: exit.spiral.angle(), spirals: exit.costs.and(exit.costs), ahead, behind }
-    }
-
-    /// What it costs with an arc.
-    pub(super) fn costs(&self, arc: f64) -> Costs {
-        self.spirals.and(Costs { length: arc, curvature: 1.0, rate: 0.0, energy: arc })
-    }
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by(|a, b| all[*a].round.spirals.total_cmp(&all[*b].round.spirals));
+    order.into_iter().map(|i| all[i]).collect()
 }
