@@ -101,6 +101,33 @@ fn commands_work_and_draw_the_figures() {
     assert!(figures.len() > 5 && figures.windows(2).all(|w| difference(&w[0], &w[1]) > 5e-3));
 }
 
+/// README lists the commands of `--help`.
+#[test]
+fn readme_has_all_commands() {
+    let help = Command::new(env!("CARGO_BIN_EXE_spiral-atlas")).arg("--help").output().unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let list = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+    let names: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let text = std::fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
+    let row = |name: &str| [format!("| `{name}`"), format!("| `{name} ")].iter().any(|start| text.contains(start));
+    let missing: Vec<&&str> = names.iter().filter(|name| **name != "help" && !row(name)).collect();
+    assert!(names.len() > 10 && missing.is_empty(), "README's table of commands lacks {missing:?}");
+}
+
+/// The pages of the families explain every flag.
+#[test]
+fn pages_have_all_flags() {
+    let written = pages().into_iter().filter(|page| !page.ends_with("recipes.md"));
+    let text: String = written.map(|page| std::fs::read_to_string(page).unwrap()).collect();
+    for about in spiral_atlas::family::all().iter().map(|family| family.about()) {
+        // docs/reach.md explains those of both cases at once.
+        let name = |flag: &'static str| flag.split_once("CASE").map_or(flag, |(_, rest)| &rest[2..]);
+        let explained = |flag: &str| text.contains(&format!("| `{flag}` |"));
+        let missing: Vec<&str> = about.flags.iter().map(|f| name(f.name)).filter(|flag| !explained(flag)).collect();
+        assert!(missing.is_empty(), "no page of `{}` has a row of {missing:?}", about.name);
+    }
+}
+
 #[test]
 fn links_lead_to_files() {
     let mut links = 0;
