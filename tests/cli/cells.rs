@@ -73,6 +73,47 @@ fn cells_are_made_told_asked_and_verified() {
     assert!(found.out.contains("FAULT") && found.out.contains("1 words DIFFER\n    `top` at"), "{}", found.out);
 }
 
+/// A recipe of a family with its axes, the two that are drawn, where the others are, and two points inside.
+const OTHERS: [(&str, &str, [&str; 3], &str); 1] = [(
+    "ph-equal-length",
+    "theta0 = { linear = [0.9, 1.1] }\ntheta1 = { linear = [-0.5, 0.1] }\nS = { log = [1.15, 1.5] }",
+    ["theta1", "S", "theta0 = 1"],
+    "theta0,theta1,S\n0.95,-0.31,1.3\n1.01,-0.2,1.4\n",
+)];
+
+#[test]
+fn other_families_have_cells() {
+    for (family, axes, [x, y, at], points) in OTHERS {
+        let folder = Folder::new(&format!(
+            "family = \"{family}\"\n[[atlas]]\nname = \"few\"\nkind = \"cells\"\nresolution = 32\n\
+             budget = \"300 KiB\"\n[atlas.axes]\n{axes}\n[[atlas.picture]]\nkind = \"slice\"\nx = \"{x}\"\n\
+             y = \"{y}\"\nat = {{ {at} }}\n"
+        ));
+        folder.generate(&[]);
+        let file = folder.text("out/few.atlas.safetensors");
+        let told = fine(["info", &file, "--json"]).json();
+        assert_eq!((&told["resolution"], &told["family"]), (&32.into(), &family.into()));
+        std::fs::write(folder.at("points.csv"), points).unwrap();
+        let said = fine(["query", "--atlas", &file, "--points", &folder.text("points.csv")]);
+        let rows: Vec<serde_json::Value> = said.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        assert_eq!(rows.len(), 2);
+        let mut known = 0;
+        for row in &rows {
+            for (name, holds) in row["flags"].as_object().unwrap() {
+                let word = row["cell"][name].as_str().unwrap();
+                assert!(word == "MIXED" || (word == "INSIDE") == holds.as_bool().unwrap(), "{name}: {row}");
+                known += u32::from(word != "MIXED");
+            }
+        }
+        assert!(known > 4, "{rows:?}");
+        fine(["render", &file, "--out", &folder.text("again")]);
+        let picture = |name: &str| std::fs::read(folder.at(name)).unwrap();
+        assert!(picture("again/few.png") == picture("out/few.png"));
+        let verified = fine(["verify", &file, "--json"]).json();
+        assert_eq!((&verified["good"], &verified["attack"]["wrong"]), (&true.into(), &0.into()), "{verified}");
+    }
+}
+
 #[test]
 fn mistakes_in_recipes_of_cells_are_named() {
     let cases = [

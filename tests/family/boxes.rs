@@ -73,6 +73,12 @@ impl<const N: usize> Subject<N> {
     /// Draws boxes and compares what is said of them with the flags at their corners, on their faces, beside both and
     /// inside. So many points must have been met at least, and each flag so often INSIDE and OUTSIDE.
     pub(crate) fn attack(&self, seed: u64, boxes: u64, between: usize, least: usize, each: u64) {
+        let (points, inside, outside) = self.attacked(seed, boxes, between);
+        assert!(points >= least && inside.iter().chain(&outside).all(|n| *n > each), "{points} {inside:?} {outside:?}");
+    }
+
+    /// The same, for whoever judges the numbers: points, and of each flag how often it was INSIDE and OUTSIDE.
+    pub(crate) fn attacked(&self, seed: u64, boxes: u64, between: usize) -> (usize, Vec<u64>, Vec<u64>) {
         let mut r = Random(seed);
         let count = self.family.about().flags.len();
         let (mut points, mut inside, mut outside) = (0, vec![0u64; count], vec![0u64; count]);
@@ -99,6 +105,6 @@ impl<const N: usize> Subject<N> {
             "{}: {points} points; {boxes} boxes, inside {inside:?}, outside {outside:?}",
             self.family.about().name
         );
-        assert!(points >= least && inside.iter().chain(&outside).all(|n| *n > each), "{points} {inside:?} {outside:?}");
+        (points, inside, outside)
     }
 }

@@ -13,6 +13,7 @@ mod ieee;
 mod oracle;
 mod ph_oracle;
 mod ph_path;
+mod ph_path_region;
 mod ph_region;
 mod ph_vectors;
 mod question;

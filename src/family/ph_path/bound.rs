@@ -6,7 +6,7 @@
 //! slopes cancel changes by the second order of the box's size only.
 
 use crate::curve::hodograph::{Complex, Hodograph, re};
-use crate::num::{Number, Quadratic, Real, formula};
+use crate::num::{Form, Number, Quadratic, Real, formula};
 
 /// Parts that are looked at for peaks.
 const PARTS: u32 = 24;
@@ -59,7 +59,7 @@ fn bend(arc: &Hodograph<Quadratic>, t: f64) -> Option<Quadratic> {
     Some(if bend.value < 0.0 { bend.times(-1.0) } else { bend })
 }
 
-fn mixed(a: &Quadratic, b: &Quadratic, t: f64) -> Quadratic {
+fn mixed<const K: usize, const H: usize>(a: &Form<K, H>, b: &Form<K, H>, t: f64) -> Form<K, H> {
     match t {
         0.0 => *a,
         1.0 => *b,
@@ -99,16 +99,16 @@ fn slopes(arc: &Hodograph<Quadratic>, limit: f64) -> Vec<f64> {
 ///
 /// Where σ falls at a and rises at b there is such a place between these, and |w| is nowhere between them less than
 /// there.
-fn needle(arc: &Hodograph<Quadratic>, enough: f64) -> f64 {
+pub(super) fn needle<const K: usize, const H: usize>(arc: &Hodograph<Form<K, H>>, enough: f64) -> f64 {
     let slow = arc.plain().slow();
     let mut best = 0.0f64;
     for reach in [0.125, 0.25, 0.0625, 0.5, 0.03125] {
         for t in slow.into_iter().filter(|t| *t > 0.0 && *t < 1.0) {
-            let [(w, v), (z, u), (x, y)] =
+            let [[w, v], [z, u], [x, y]] =
                 [(t - reach).max(0.0), t, (t + reach).min(1.0)].map(|t| moved(arc, on_grid(t)));
             if re(&w, &v).times(-1.0).is_positive() && re(&x, &y).is_positive() {
                 // w' is linear: from t to either end it changes by so much.
-                let apart = |y: &Complex<Quadratic>| y[0].sub(&u[0]).most().hypot(y[1].sub(&u[1]).most());
+                let apart = |y: &Complex<Form<K, H>>| y[0].sub(&u[0]).most().hypot(y[1].sub(&u[1]).most());
                 let fast = re(&u, &u).low().max(0.0).sqrt() * (1.0 - 1e-14) - apart(&v).max(apart(&y)) * (1.0 + 1e-14);
                 let slow = re(&z, &z).most();
                 best = best.max(2.0 * fast / (slow * slow.sqrt()) * (1.0 - 1e-14));
@@ -122,11 +122,11 @@ fn needle(arc: &Hodograph<Quadratic>, enough: f64) -> f64 {
 }
 
 /// w and w' at t.
-fn moved(arc: &Hodograph<Quadratic>, t: f64) -> (Complex<Quadratic>, Complex<Quadratic>) {
+fn moved<const K: usize, const H: usize>(arc: &Hodograph<Form<K, H>>, t: f64) -> [Complex<Form<K, H>>; 2] {
     let [w0, w1, w2] = &arc.w;
     let legs = [0, 1].map(|i| [mixed(&w0[i], &w1[i], t), mixed(&w1[i], &w2[i], t)]);
     let slopes = [0, 1].map(|i| mixed(&w1[i].sub(&w0[i]), &w2[i].sub(&w1[i]), t).times(2.0));
-    (legs.map(|[a, b]| mixed(&a, &b, t)), slopes)
+    [legs.map(|[a, b]| mixed(&a, &b, t)), slopes]
 }
 
 /// What means of two or three functions whose slopes cancel exceed; among them may be how much too long the arc is,

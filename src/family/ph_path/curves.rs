@@ -8,7 +8,7 @@ use super::Kind;
 use super::datum::{Datum, Symmetry, Turned};
 use super::straight;
 use crate::curve::hodograph::{Complex, Hodograph};
-use crate::num::{Ball, Quadratic, Real, formula};
+use crate::num::{Real, formula};
 use std::cmp::Ordering::{Equal, Greater, Less};
 
 /// A solution.
@@ -80,13 +80,16 @@ pub(super) fn curves<N: Turned>(datum: &Datum, bits: usize) -> Option<Curves<N>>
     Some(all)
 }
 
-/// All four solutions for sizes in ranges, symmetric or not.
-pub(super) fn boxed(theta: [f64; 2], size: [Quadratic; 2]) -> Option<Vec<Hodograph<Quadratic>>> {
-    let half = theta.map(|theta| Ball::half_turn(theta, 53).map(Quadratic::ball));
-    let given = Given { kind: Kind::Hermite, half, size, symmetry: Symmetry::None };
+/// All four solutions of data that numbers enclose, symmetric or not.
+///
+/// # Arguments
+/// - `half`: cosine and sine of half of each angle.
+/// - `size`: as of a [`Datum`].
+pub(super) fn boxed<N: Real>(kind: Kind, half: [Complex<N>; 2], size: [N; 2]) -> Option<Vec<Curve<N>>> {
+    let given = Given { kind, half, size, symmetry: Symmetry::None };
     let mut all = Vec::with_capacity(4);
     for paper in [true, false] {
-        all.extend(solutions(&given.ends(paper)?, Symmetry::None, false, paper).map(|curve| curve.whole));
+        all.extend(solutions(&given.ends(paper)?, Symmetry::None, false, paper));
     }
     Some(all)
 }

@@ -8,12 +8,12 @@ use std::f64::consts::PI;
 
 /// Speeds beyond these are refused, and lengths over the chord nearer to 1 or larger: peaks would be more narrow than
 /// doubles show.
-const MOST: f64 = 1e6;
-const LEAST: f64 = 1e-6;
+pub(super) const MOST: f64 = 1e6;
+pub(super) const LEAST: f64 = 1e-6;
 
 /// Angles below are refused but for 0: a line that turns back would bend there beyond singles, and more narrowly than
 /// doubles show.
-const LEAST_ANGLE: f64 = 1e-9;
+pub(super) const LEAST_ANGLE: f64 = 1e-9;
 
 /// A datum, taken as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]

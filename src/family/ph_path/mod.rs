@@ -19,6 +19,7 @@ mod bound;
 mod curves;
 mod datum;
 mod range;
+mod region;
 mod shader;
 mod straight;
 mod table;
@@ -28,7 +29,7 @@ mod truth;
 
 pub(crate) use range::{Candidate, Search};
 
-use super::{About, Answer, Chart, Family, Flag, Scalar, Table};
+use super::{About, Answer, Chart, Family, Flag, Region, Scalar, Table};
 use crate::error::Result;
 use crate::grid::Grid;
 
@@ -148,5 +149,8 @@ impl Family for PhPath {
     }
     fn compute(&self, _chart: usize, point: &[f64]) -> Result<Answer> {
         answer::answer(self.0, point)
+    }
+    fn region(&self) -> Option<&dyn Region> {
+        Some(self)
     }
 }

@@ -3,7 +3,7 @@
 use super::Kind;
 use super::bound::bound;
 use super::curves::{boxed, curves};
-use super::datum::Datum;
+use super::datum::{Datum, Turned};
 use crate::curve::hodograph::Hodograph;
 use crate::num::{Ball, Quadratic};
 
@@ -62,8 +62,9 @@ impl Search {
     pub(crate) fn least(&self, size: [[f64; 2]; 2], equal: bool, enough: f64) -> f64 {
         let first = Quadratic::along(size[0], 0);
         let last = if equal { first } else { Quadratic::along(size[1], 1) };
-        let Some(arcs) = boxed(self.theta, [first, last]) else { return 0.0 };
-        arcs.iter().map(|arc| bound(arc, self.beyond, enough)).fold(f64::INFINITY, f64::min)
+        let half = self.theta.map(|theta| Ball::half_turn(theta, 53).map(Quadratic::ball));
+        let Some(arcs) = boxed(Kind::Hermite, half, [first, last]) else { return 0.0 };
+        arcs.iter().map(|arc| bound(&arc.whole, self.beyond, enough)).fold(f64::INFINITY, f64::min)
     }
 }
 

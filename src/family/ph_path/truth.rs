@@ -47,11 +47,11 @@ impl Known {
 }
 
 /// A solution with the part that is looked at, from its greater end, and its guessed peak.
-struct Seen<'c, N> {
-    curve: &'c Curve<N>,
-    part: Hodograph<N>,
-    at: f64,
-    most: f64,
+pub(super) struct Seen<'c, N> {
+    pub curve: &'c Curve<N>,
+    pub part: Hodograph<N>,
+    pub at: f64,
+    pub most: f64,
 }
 
 impl<N: Real> Seen<'_, N> {
@@ -73,13 +73,13 @@ fn oriented<N: Real>(curve: &Curve<N>) -> Hodograph<N> {
     }
 }
 
-fn seen<N: Real>(curve: &Curve<N>) -> Seen<'_, N> {
+pub(super) fn seen<N: Real>(curve: &Curve<N>) -> Seen<'_, N> {
     let part = oriented(curve);
     let (at, most) = part.guess();
     Seen { curve, part, at, most }
 }
 
-fn exceeds<N: Real>(value: &N, limit: &N) -> bool {
+pub(super) fn exceeds<N: Real>(value: &N, limit: &N) -> bool {
     value.sub(limit).certain_sign(0.0) == Some(Greater)
 }
 
@@ -199,20 +199,20 @@ fn winners<'c, N: Real>(mut close: Vec<Seen<'c, N>>, datum: &Datum, bits: usize)
     (0..close.len()).find(wins).map(|i| vec![close.swap_remove(i)])
 }
 
-/// Whether h keeps its sign.
-fn one_way<N: Real>(curve: &Hodograph<N>) -> Verdict {
+/// Whether h keeps its sign. Where no end's sign is certain, nothing is: h may have that of its middle all along.
+pub(super) fn one_way<N: Real>(curve: &Hodograph<N>) -> Verdict {
     let turn = &curve.turn;
     let depth = if turn[0].bits() <= 53 { 20 } else { 100 };
-    let [first, _, last] = [0, 1, 2].map(|i| turn[i].certain_sign(0.0));
-    match (first, last) {
-        (Some(Greater), Some(Less)) | (Some(Less), Some(Greater)) => Verdict::No,
-        (Some(Less), _) | (_, Some(Less)) => positive(&turn.clone().map(|h| h.times(-1.0)), 0.0, 0.0, depth),
-        _ => positive(turn, 0.0, 0.0, depth),
+    let mut ends = [0, 2].iter().filter_map(|i| turn[*i].certain_sign(0.0));
+    match ends.find(|sign| sign.is_ne()) {
+        Some(Greater) => positive(turn, 0.0, 0.0, depth),
+        Some(_) => positive(&turn.clone().map(|h| h.times(-1.0)), 0.0, 0.0, depth),
+        None => Verdict::Undecided,
     }
 }
 
 /// Whether |κ| is greatest strictly inside, and greater there than at both ends.
-fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Verdict {
+pub(super) fn peak_inside<N: Real>(seen: &Seen<'_, N>) -> Verdict {
     if seen.curve.tied {
         return Verdict::No;
     }
