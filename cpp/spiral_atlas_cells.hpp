@@ -247,7 +247,11 @@ public:
         }
     }
 
+    /// An axis of one value, at which all cells lie.
+    Axis(std::string name, double only) : name_(std::move(name)), edges_{only}, low_(only), high_(only) {}
+
     const std::string &name() const noexcept { return name_; }
+    bool single() const noexcept { return edges_.size() == 1; }
     double low() const noexcept { return low_; }
     double high() const noexcept { return high_; }
     std::size_t cells() const noexcept { return edges_.size() - 1; }
@@ -293,7 +297,9 @@ private:
 class CellsFile {
 public:
     /// Most axes that a file has.
-    static constexpr std::size_t most_axes = 4;
+    static constexpr std::size_t most_axes = 5;
+    /// Most of them with several values.
+    static constexpr std::size_t most_divided = 4;
 
     /// What a cell says of all flags: two masks, and a flag in neither is not known.
     struct Known {
@@ -325,7 +331,7 @@ public:
     const std::string &axis_name(std::size_t i) const { return axes_.at(i).name(); }
     double low(std::size_t i) const { return axes_.at(i).low(); }
     double high(std::size_t i) const { return axes_.at(i).high(); }
-    /// Cells along each axis.
+    /// Cells along each axis of several values.
     std::size_t resolution() const noexcept { return std::size_t{1} << depth_; }
     /// Names of the flags, bit 0 first.
     const std::vector<std::string> &flags() const noexcept { return flags_; }
@@ -345,13 +351,17 @@ public:
 
     /// What the cell of a point says of the wanted flags. Outside the box nothing is known.
     Known lookup_all(const double *point, std::uint8_t wanted = 255) const noexcept {
-        const std::size_t n = axes_.size();
+        const std::size_t n = divided_;
         const unsigned shift = depth_ - top_;
         const std::size_t within = (std::size_t{1} << shift) - 1;
         std::size_t at = 0;
         // The number of the child at each level, the finest in the lowest bits.
         std::uint64_t way = 0;
-        for (std::size_t i = 0; i < n; i++) {
+        for (std::size_t i = 0; i < axes_.size(); i++) {
+            if (axes_[i].single()) {
+                if (!(point[i] == axes_[i].low())) return {};
+                continue;
+            }
             const std::size_t cell = axes_[i].find(point[i]);
             if (cell == axes_[i].cells()) return {};
             at = at << top_ | cell >> shift;
@@ -445,12 +455,19 @@ private:
         for (const auto &flag : flags.items) flags_.push_back(text(flag.second, "name"));
         if (flags_.empty() || flags_.size() > 8) throw "it has no flags, or more than 8";
         const Json axes = cells_detail::JsonReader(text(*meta, "axes")).whole();
-        if (axes.items.empty() || axes.items.size() > most_axes) throw "it has no axes, or more than 4";
+        if (axes.items.empty() || axes.items.size() > most_axes) throw "it has no axes, or more than 5";
         std::size_t resolution = 0;
         for (const auto &axis : axes.items) {
-            std::vector<std::size_t> shape{resolution == 0 ? 0 : resolution + 1};
+            std::vector<std::size_t> shape{0};
             const unsigned char *values = tensor(header, text(axis.second, "name"), "F64", 8, shape);
+            if (shape[0] == 1) {
+                if (!std::isfinite(cells_detail::number(values))) throw "the value of an axis is no number";
+                axes_.emplace_back(text(axis.second, "name"), cells_detail::number(values));
+                continue;
+            }
+            if (divided_ > 0 && shape[0] != resolution + 1) throw "its axes have different numbers of edges";
             resolution = shape[0] - 1;
+            divided_++;
             if (resolution < 2 || resolution > 2048 || (resolution & (resolution - 1)) != 0)
                 throw "its resolution is no power of two from 2 to 2048";
             std::vector<double> edges;
@@ -461,16 +478,17 @@ private:
             }
             axes_.emplace_back(text(axis.second, "name"), std::move(edges), text(axis.second, "spacing") == "log");
         }
+        if (divided_ == 0 || divided_ > most_divided) throw "it has no axes of several values, or more than 4";
         while ((std::size_t{1} << depth_) < resolution) depth_++;
-        const unsigned most = 12 / static_cast<unsigned>(axes_.size());
+        const unsigned most = 12 / static_cast<unsigned>(divided_);
         top_ = depth_ < most ? depth_ : most;
         // Each bit of an index within a top cell, with room for those of the other axes.
         for (std::uint64_t i = 0; i < std::uint64_t{1} << (depth_ - top_); i++) {
             std::uint64_t spread = 0;
-            for (unsigned bit = 0; bit < depth_ - top_; bit++) spread |= (i >> bit & 1) << (bit * axes_.size());
+            for (unsigned bit = 0; bit < depth_ - top_; bit++) spread |= (i >> bit & 1) << (bit * divided_);
             spread_.push_back(spread);
         }
-        std::vector<std::size_t> shape(axes_.size() + 1, std::size_t{1} << top_);
+        std::vector<std::size_t> shape(divided_ + 1, std::size_t{1} << top_);
         shape.back() = flags_.size();
         roots_ = tensor(header, "roots", "U32", 4, shape);
         shape.back() = 2;
@@ -482,11 +500,11 @@ private:
 
     /// One pass: every place that a word names is the next free one.
     void check(std::size_t count) const {
-        const unsigned all = (1u << flags_.size()) - 1, children = 1u << axes_.size();
+        const unsigned all = (1u << flags_.size()) - 1, children = 1u << divided_;
         const std::uint32_t every = children == 16 ? 0xffffu : (1u << children) - 1;
         if (cells_detail::word(trees_) != 0) throw "its trees do not begin with the word 0";
         std::size_t next = 1;
-        const std::size_t tops = std::size_t{1} << (top_ * axes_.size());
+        const std::size_t tops = std::size_t{1} << (top_ * divided_);
         for (std::size_t i = 0; i < tops; i++) {
             const unsigned yes = known_[2 * i], no = known_[2 * i + 1];
             if ((yes & no) != 0 || ((yes | no) & ~all) != 0)
@@ -522,7 +540,7 @@ private:
 
     std::string path_, family_;
     cells_detail::Bytes bytes_;
-    std::size_t body_ = 0;
+    std::size_t body_ = 0, divided_ = 0;
     std::vector<std::string> flags_;
     std::vector<cells_detail::Axis> axes_;
     std::vector<std::uint64_t> spread_;

@@ -59,9 +59,10 @@ impl Header {
         Header::with(about, grid, fields)
     }
 
-    /// The same for cells: `top` of them along each axis, and so many words of trees.
+    /// The same for cells: `top` of them along each axis of several values, and so many words of trees.
     pub(crate) fn of_cells(about: About, grid: Grid, top: usize, words: usize) -> Result<Header, String> {
-        let shape = |last: usize| [vec![top; grid.axes().len()], vec![last]].concat();
+        let divided = grid.axes().iter().filter(|axis| axis.values().len() > 1).count();
+        let shape = |last: usize| [vec![top; divided], vec![last]].concat();
         let fields = vec![
             (ROOTS.to_owned(), Dtype::U32, shape(about.flags.len())),
             (TREES.to_owned(), Dtype::U32, vec![words]),

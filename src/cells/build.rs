@@ -4,6 +4,7 @@ use super::classify::{Bounds, Prover};
 use super::tree::{Known, Layout, MOST_AXES, top_count};
 use super::{Spec, by_weight, check_resolution, region};
 use crate::error::{Error, Result};
+use crate::family::MOST_SIDES;
 use crate::grid::{Grid, Spacing};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -53,7 +54,7 @@ struct Tree {
 ///
 /// # Errors
 /// [`Error::Domain`] for a family without proofs over boxes, axes of unlike or impossible counts, more than four
-/// axes, or a budget that is too small even for the top cells.
+/// axes of several values, or a budget that is too small even for the top cells.
 pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(u64) + Sync)) -> Result<Built> {
     let (region, chart) = region(spec.family, spec.grid)?;
     let (shape, prover) = (shape(spec.grid, spec.family.about().flags.len())?, prover(spec, region, chart));
@@ -212,14 +213,19 @@ fn lay_out(shape: Layout, known: &[Known], trees: &[Tree]) -> Built {
 
 /// The shape of the cells between the nodes of a grid.
 pub(super) fn shape(grid: &Grid, flags: usize) -> Result<Layout> {
-    let counts = grid.shape();
-    let resolution = counts[0] - 1;
+    let counts: Vec<usize> = grid.shape().into_iter().filter(|count| *count > 1).collect();
+    let Some(resolution) = counts.first().map(|count| count - 1) else {
+        return Err(Error::invalid("all axes of cells have a single value; at least one must have a first and a last"));
+    };
     check_resolution(resolution).map_err(Error::invalid)?;
     if counts.iter().any(|count| *count != counts[0]) {
         return Err(Error::invalid(format!("the axes of cells have {counts:?} edges; all must have the same number")));
     }
     if counts.len() > MOST_AXES {
-        return Err(Error::invalid(format!("cells have at most {MOST_AXES} axes; given: {}", counts.len())));
+        return Err(Error::invalid(format!(
+            "cells have at most {MOST_AXES} axes, given: {}; give an axis a single value, as {{ values = [..] }}",
+            counts.len()
+        )));
     }
     let top = top_count(counts.len(), resolution);
     Ok(Layout { axes: counts.len(), flags, depth: resolution.ilog2(), top: top.ilog2() })
@@ -227,7 +233,7 @@ pub(super) fn shape(grid: &Grid, flags: usize) -> Result<Layout> {
 
 fn prover(spec: &Spec, region: &'static dyn crate::family::Region, chart: usize) -> Prover {
     let Spec { family, grid, .. } = *spec;
-    let mut log = [false; MOST_AXES];
+    let mut log = [false; MOST_SIDES];
     for (log, axis) in log.iter_mut().zip(grid.axes()) {
         *log = matches!(axis.spacing(), Spacing::Log { .. });
     }
@@ -241,16 +247,22 @@ struct Edges<'g> {
 
 impl<'g> Edges<'g> {
     fn new(grid: &'g Grid, shape: Layout) -> Edges<'g> {
-        debug_assert_eq!(grid.axes().len(), shape.axes);
+        debug_assert!(grid.axes().len() >= shape.axes);
         Edges { axes: grid.axes().iter().map(|axis| axis.values()).collect() }
     }
 
     /// The box of the cell with these indices among those of 2 to the `size` finest cells.
     fn bounds(&self, place: &[u16; MOST_AXES], size: u32) -> Bounds {
-        let mut bounds = [[0.0; MOST_AXES]; 2];
+        let mut bounds = [[0.0; MOST_SIDES]; 2];
+        let mut places = place.iter();
         for (i, edges) in self.axes.iter().enumerate() {
-            let first = usize::from(place[i]) << size;
-            (bounds[0][i], bounds[1][i]) = (edges[first], edges[first + (1 << size)]);
+            let sides = if let [only] = edges {
+                [*only; 2]
+            } else {
+                let first = places.next().map_or(0, |place| usize::from(*place) << size);
+                [edges[first], edges[first + (1 << size)]]
+            };
+            [bounds[0][i], bounds[1][i]] = sides;
         }
         bounds
     }

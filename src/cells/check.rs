@@ -116,6 +116,9 @@ impl Random {
     /// A coordinate of an axis: anywhere in a cell, an edge, or beside one.
     fn coordinate(&mut self, axis: &Axis) -> f64 {
         let edges = axis.values();
+        if let [only] = edges {
+            return *only;
+        }
         let i = self.below(edges.len() as u64 - 1) as usize;
         let (low, high) = (edges[i], edges[i + 1]);
         match self.below(6) {

@@ -1,7 +1,7 @@
 //! What is proved of one cell.
 
-use super::tree::{Known, MOST_AXES};
-use crate::family::{self, Facts, Family, Region};
+use super::tree::Known;
+use crate::family::{self, Facts, Family, MOST_SIDES, Region};
 use std::collections::VecDeque;
 
 /// Most boxes that are tried for a cell before it is MIXED.
@@ -14,7 +14,7 @@ use std::collections::VecDeque;
 const MOST_TESTS: [u32; 2] = [20, 12];
 
 /// A box, as its least and its greatest coordinates; those beyond the axes mean nothing.
-pub(super) type Bounds = [[f64; MOST_AXES]; 2];
+pub(super) type Bounds = [[f64; MOST_SIDES]; 2];
 
 /// The proofs of a family on some axes.
 #[derive(Clone, Copy)]
@@ -24,7 +24,7 @@ pub(super) struct Prover {
     pub chart: usize,
     pub axes: usize,
     /// Axes whose halves have equal ratios.
-    pub log: [bool; MOST_AXES],
+    pub log: [bool; MOST_SIDES],
 }
 
 impl Prover {
@@ -70,11 +70,13 @@ impl Prover {
     /// Whether two corners differ in a flag: no proof can succeed then, and none need be tried.
     fn crosses(&self, cell: &Bounds, flag: u8) -> bool {
         let has = |corner: usize| {
-            let point: [f64; MOST_AXES] = std::array::from_fn(|i| cell[corner >> i & 1][i]);
+            let point: [f64; MOST_SIDES] = std::array::from_fn(|i| cell[corner >> i & 1][i]);
             Some(family::quick(self.family, self.chart, &point[..self.axes])?.flags() & flag != 0)
         };
-        // Opposite corners first, which differ most.
-        let mut known = (0..1 << (self.axes - 1)).flat_map(|i| [i, (1 << self.axes) - 1 - i]).filter_map(has);
+        // Opposite corners first, which differ most; along a side without width there is one.
+        let fixed = (0..self.axes).fold(0, |fixed, i| if cell[0][i] < cell[1][i] { fixed } else { fixed | 1 << i });
+        let corners = (0..1 << (self.axes - 1)).flat_map(|i| [i, (1 << self.axes) - 1 - i]);
+        let mut known = corners.filter(|corner| corner & fixed == 0).filter_map(has);
         known.next().is_some_and(|first| known.any(|other| other != first))
     }
 
@@ -84,7 +86,8 @@ impl Prover {
             |i: usize| (bounds[1][i] - bounds[0][i]) / (bounds[0][i].abs() + bounds[1][i].abs()).max(f64::MIN_POSITIVE);
         // The relative width decides ties, and where no pull is known.
         let pull = |i: usize| if facts.pull[i].is_finite() { facts.pull[i] } else { 0.0 } + 1e-6 * width(i);
-        let axis = (0..self.axes).max_by(|i, j| pull(*i).total_cmp(&pull(*j)))?;
+        let sides = (0..self.axes).filter(|i| bounds[0][*i] < bounds[1][*i]);
+        let axis = sides.max_by(|i, j| pull(*i).total_cmp(&pull(*j)))?;
         let [low, high] = [bounds[0][axis], bounds[1][axis]];
         let middle = if self.log[axis] { low.sqrt() * high.sqrt() } else { 0.5 * low + 0.5 * high };
         (low < middle && middle < high).then_some(())?;

@@ -8,7 +8,7 @@ use crate::atlas::{About, Kind, Map, map_bytes, map_path};
 use crate::error::{Error, Result};
 use crate::family::{self, Family};
 use crate::files::write_file;
-use crate::grid::{Grid, Lookup};
+use crate::grid::{Axis, Grid, Lookup};
 use blake3::Hash;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -44,6 +44,23 @@ pub fn bytes(spec: &Spec, built: &Built) -> Result<Vec<u8>> {
     Ok([header.render().map_err(domain)?, body].concat())
 }
 
+/// Where the cells lie along an axis.
+#[derive(Debug)]
+enum Side {
+    Divided(Lookup),
+    /// At one value alone.
+    Single(f64),
+}
+
+impl Side {
+    fn new(axis: &Axis) -> Side {
+        match axis.values() {
+            [only] => Side::Single(*only),
+            _ => Side::Divided(Lookup::new(axis)),
+        }
+    }
+}
+
 /// A file of cells, mapped into memory and checked; what is said of [`crate::atlas::Atlas`] and changes of an open
 /// file holds here, too.
 ///
@@ -68,7 +85,7 @@ pub struct Cells {
     shape: Layout,
     family: &'static dyn Family,
     chart: usize,
-    lookups: Vec<Lookup>,
+    sides: Vec<Side>,
     spread: Box<[u32]>,
     roots: Range<usize>,
     trees: Range<usize>,
@@ -110,9 +127,9 @@ impl Cells {
         if top.len() != 2 * shape.top_cells() {
             return Err(invalid(format!("`{TOP}` has {} bytes; these axes need {}", top.len(), 2 * shape.top_cells())));
         }
-        let lookups = header.grid.axes().iter().map(Lookup::new).collect();
+        let sides = header.grid.axes().iter().map(Side::new).collect();
         let spread = shape.spread();
-        let cells = Cells { path, map, header, body, shape, family, chart, lookups, spread, roots, trees, top };
+        let cells = Cells { path, map, header, body, shape, family, chart, sides, spread, roots, trees, top };
         let checked = cells.words().check();
         checked.map_err(|what| Error::Atlas { path: cells.path.clone(), what })?;
         Ok(cells)
@@ -133,15 +150,20 @@ impl Cells {
 
     #[inline]
     fn find(&self, point: &[f64], wanted: u8) -> Option<Known> {
-        if point.len() != self.lookups.len() {
+        if point.len() != self.sides.len() {
             return None;
         }
         let mut place = [0u32; MOST_AXES];
-        for ((i, lookup), x) in place.iter_mut().zip(&self.lookups).zip(point) {
-            *i = lookup.cell(*x)? as u32;
+        let mut places = place.iter_mut();
+        for (side, x) in self.sides.iter().zip(point) {
+            match side {
+                Side::Divided(lookup) => *places.next()? = lookup.cell(*x)? as u32,
+                Side::Single(only) if only == x => {}
+                Side::Single(_) => return None,
+            }
         }
         let wanted = wanted & ((1u32 << self.shape.flags) - 1) as u8;
-        Some(self.words().find(&place[..point.len()], wanted))
+        Some(self.words().find(&place[..self.shape.axes], wanted))
     }
 
     /// The truth about the wanted flags at a point: from its cell where that says it, or else from the family itself.
@@ -158,8 +180,8 @@ impl Cells {
         if known.inside | known.outside == wanted {
             return Ok(known.inside);
         }
-        if point.len() != self.shape.axes {
-            return Err(family::wrong_count(point.len(), self.shape.axes));
+        if point.len() != self.sides.len() {
+            return Err(family::wrong_count(point.len(), self.sides.len()));
         }
         Ok(family::verdict(self.family, self.chart, point)?.flags() & wanted)
     }
@@ -200,7 +222,7 @@ impl Cells {
         &self.header.about
     }
 
-    /// Cells along each axis.
+    /// Cells along each axis of several values.
     pub fn resolution(&self) -> usize {
         1 << self.shape.depth
     }

@@ -42,7 +42,8 @@ pub struct Spec<'a> {
     pub name: &'a str,
     /// The family; one with a [`crate::family::Region`].
     pub family: &'static dyn Family,
-    /// The edges of the finest cells: one more than the resolution along each axis.
+    /// The edges of the finest cells: one more than the resolution along each axis, or a single value, at which all
+    /// cells lie.
     pub grid: &'a Grid,
     /// Most bytes of the file.
     pub budget: u64,

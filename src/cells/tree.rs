@@ -1,6 +1,7 @@
 //! The words of a file of cells, and how a place is looked up in them.
 //!
-//! There are `T` top cells along each of the `n` axes, first axis slowest; `T` is a power of two, at most the
+//! An axis of a single value is that of all cells, and not counted in what follows. There are `T` top cells along each
+//! of the `n` axes, first axis slowest; `T` is a power of two, at most the
 //! resolution. `top` has two bytes for each: the flags that hold all over it, and those that hold nowhere in it.
 //! `roots` has a word for each flag of each top cell: where in `trees` the flag's node is, or 0 where the flag is
 //! known or the top cell is not divided.
@@ -24,8 +25,8 @@ pub struct Known {
     pub outside: u8,
 }
 
-/// Most axes: a node has a bit for each child, in half a word.
-pub(super) const MOST_AXES: usize = crate::family::MOST_SIDES;
+/// Most axes that are divided: a node has a bit for each child, in half a word.
+pub(super) const MOST_AXES: usize = 4;
 
 /// How many top cells there are along each axis: at most 4,096 together.
 pub(super) fn top_count(axes: usize, resolution: usize) -> usize {
@@ -35,6 +36,7 @@ pub(super) fn top_count(axes: usize, resolution: usize) -> usize {
 /// The shape of a file: what its words mean depends on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Layout {
+    /// How many are divided: those of a single value are not.
     pub axes: usize,
     pub flags: usize,
     /// The resolution is 2 to this.

@@ -211,8 +211,9 @@ pub(super) fn info(cells: &Cells, json: bool) -> Result<()> {
     let (resolution, bytes) = (cells.resolution(), size(cells.bytes()));
     text += &format!("cells, up to {resolution} an axis, in {bytes}; chart `{}`\n", about.chart);
     for axis in axes {
-        let (first, last) = (axis.values()[0], axis.values()[resolution]);
-        text += &format!("  {:<12} {:<6} from {first:?} to {last:?}\n", axis.name(), spacing(axis));
+        let (first, last) = (axis.values()[0], axis.values()[axis.values().len() - 1]);
+        let range = if first == last { format!("at {first:?}") } else { format!("from {first:?} to {last:?}") };
+        text += &format!("  {:<12} {:<6} {range}\n", axis.name(), spacing(axis));
     }
     text += &format!("  {}\nflags\n{}", about.chart_doc, flags(about));
     output::print(&(text + &tail(about, cells.hashes())))

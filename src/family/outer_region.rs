@@ -84,34 +84,34 @@ pub(super) fn facts(low: &[f64], high: &[f64], none: u8, prove: impl FnOnce(&[[f
 }
 
 /// Whether the flag holds all over a box of the domain, or nowhere; and how much each coordinate moves f, about.
-pub(super) fn any(box_: &[[f64; 2]; 4]) -> (Verdict, [f64; 4]) {
+pub(super) fn any(box_: &[[f64; 2]; 4]) -> (Verdict, [f64; MOST_SIDES]) {
     let [phi0, phi1, kappa0, kappa1] = *box_;
     if phi0[0] >= phi1[1] {
-        return (Verdict::No, [0.0; 4]);
+        return (Verdict::No, [0.0; MOST_SIDES]);
     }
     let exact = |value| Ball { value, error: 0.0 };
     let below = phi0[1] < phi1[0];
     let corner = |p0: f64, p1: f64, k0: f64, k1: f64| compare(&sine(p0).plus(-k0), &exact(k1).sub(&sine(p1)), p1 - p0);
     if below && (kappa0[0] >= 0.0 || phi1[1] <= FRAC_PI_2) {
         if corner(phi0[0], phi1[1], kappa0[1], kappa1[0]).0 {
-            return (Verdict::Yes, [0.0; 4]);
+            return (Verdict::Yes, [0.0; MOST_SIDES]);
         }
         if corner(phi0[1], phi1[0], kappa0[0], kappa1[1]).1 {
-            return (Verdict::No, [0.0; 4]);
+            return (Verdict::No, [0.0; MOST_SIDES]);
         }
     }
     let ([s0, s0_most], [s1, s1_most]) = (sines([phi0[0], phi0[1].min(FRAC_PI_2.max(phi0[0]))]), sines(phi1));
     let (u, u_most) = (s0.plus(-kappa0[1]), s0_most.plus(-kappa0[0]));
     let (v, v_most) = (exact(kappa1[0]).sub(&s1_most), exact(kappa1[1]).sub(&s1));
     if below && compare(&u, &v, phi1[1] - phi0[0]).0 {
-        return (Verdict::Yes, [0.0; 4]);
+        return (Verdict::Yes, [0.0; MOST_SIDES]);
     }
     if compare(&u_most, &v_most, phi1[0] - phi0[1]).1 {
-        return (Verdict::No, [0.0; 4]);
+        return (Verdict::No, [0.0; MOST_SIDES]);
     }
     let (u, v) = (u_most.value.max(0.0), v_most.value.max(0.0));
     let width = |side: [f64; 2]| side[1] - side[0];
-    (Verdict::Undecided, [width(phi0) * v, width(phi1) * u, width(kappa0) * v, width(kappa1) * u])
+    (Verdict::Undecided, [width(phi0) * v, width(phi1) * u, width(kappa0) * v, width(kappa1) * u, 0.0])
 }
 
 /// Whether a spiral of rising curvature exists, wherever `φ0 < φ1`, for forms of φ0, φ1, κ0, κ1.

@@ -4,7 +4,7 @@ use crate::num::bernstein::{Quintic, halve, least};
 use crate::num::{Form, Number, Verdict, formula};
 
 /// Most coordinates of a box.
-pub const MOST_SIDES: usize = 4;
+pub const MOST_SIDES: usize = 5;
 
 /// What is proved of the flags over a closed box, bit by bit; see [`Region::facts`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

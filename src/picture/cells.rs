@@ -8,7 +8,8 @@ use crate::grid::{Axis, Grid, Spacing};
 use crate::plot::{self, AxisView, Drawing, Mark, Region, Slice};
 use crate::recipe::{PicturePlan, Recipe, SLICE_SIZE};
 
-/// The plans of a file of cells: those of the recipe in its metadata, or its last two axes at the middle of the others.
+/// The plans of a file of cells: those of the recipe in its metadata, or its last two axes of several values at the
+/// middle of the others.
 ///
 /// # Errors
 /// [`Error::Domain`] when it has a single axis.
@@ -76,8 +77,11 @@ pub(super) fn slice(name: &str, family: &dyn Family, grid: &Grid, plan: &Picture
     }
 }
 
-/// The middle of each finest cell of an axis.
+/// The middle of each finest cell of an axis, or its single value.
 fn middles(axis: &Axis) -> Vec<f64> {
+    if let [only] = axis.values() {
+        return vec![*only];
+    }
     let log = matches!(axis.spacing(), Spacing::Log { .. });
     let middle = |w: &[f64]| if log { w[0].sqrt() * w[1].sqrt() } else { 0.5 * w[0] + 0.5 * w[1] };
     axis.values().windows(2).map(middle).collect()

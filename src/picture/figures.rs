@@ -19,14 +19,18 @@ pub(super) fn sheet(look: &Look, usual: (u32, u32)) -> Sheet {
 /// The last two axes, at the middle of the others.
 pub(super) fn middle_slice(grid: &Grid) -> Result<PicturePlan> {
     let counts = grid.shape();
-    let Some(x) = counts.len().checked_sub(2) else {
+    // Axes of several values, if there are two.
+    let wide: Vec<usize> = (0..counts.len()).filter(|axis| counts[*axis] > 1).collect();
+    let all: Vec<usize> = (0..counts.len()).collect();
+    let [.., x, y] = if wide.len() > 1 { &wide } else { &all }[..] else {
         return Err(Error::invalid("an atlas of one axis has no slices; pictures need two axes"));
     };
-    let at = counts[..x].iter().enumerate().map(|(axis, count)| (axis, vec![count / 2])).collect();
+    let others = all.iter().filter(|axis| ![x, y].contains(axis));
+    let at = others.map(|axis| (*axis, vec![counts[*axis] / 2])).collect();
     Ok(PicturePlan {
         kind: PictureKind::Slice,
         x,
-        y: x + 1,
+        y,
         at,
         regions: Vec::new(),
         outlines: Vec::new(),

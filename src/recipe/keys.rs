@@ -163,7 +163,7 @@ fn axis() -> Table {
             "values",
             "a list of numbers such as `[0.5, 1]`",
             "another spacing",
-            "The values themselves, increasing. It goes without `count`.",
+            "The values themselves, increasing. It goes without `count`. Cells may all lie at a single one.",
         ),
         optional(
             "count",

@@ -182,9 +182,11 @@ fn spacing(name: &str, raw: &RawAxis, edges: Option<usize>) -> Result<Spacing, S
     let count = match (edges, raw.count, &raw.values) {
         (None, count, _) => count,
         (Some(edges), None, None) => Some(edges),
+        (Some(_), None, Some(values)) if values.len() == 1 => None,
         _ => {
             return Err(format!(
-                "axis `{name}` of cells takes `{{ linear = [first, last] }}` or `{{ log = [first, last] }}`"
+                "axis `{name}` of cells takes `{{ linear = [first, last] }}`, `{{ log = [first, last] }}` or \
+                 `{{ values = [one] }}`"
             ));
         }
     };

@@ -113,6 +113,35 @@ fn bytes_depend_on_no_threads() {
     assert!(made(32, u64::MAX, 1) == *FILE && made(32, u64::MAX, 5) == *FILE);
 }
 
+/// An axis of a single value is not divided: what a file says there, it says of that value alone.
+#[test]
+fn an_axis_may_have_a_single_value() {
+    let family = by_name("trig-quintic").unwrap();
+    let linear = |name: &str, lo, hi| Axis::new(name, Spacing::Linear { lo, hi, count: 33 }).unwrap();
+    let single = |name: &str, x: f64| Axis::new(name, Spacing::Values(vec![x])).unwrap();
+    let axes = vec![linear("ratio", 3.0, 7.0), single("theta", 0.75), linear("m", 0.5, 3.0), single("p", -0.5)];
+    let grid = Grid::new([axes, vec![linear("q", -0.5, 0.25)]].concat()).unwrap();
+    let spec = Spec { name: "made", family, grid: &grid, budget: 300_000, recipe: "# none" };
+    let built = build(&spec, 2, &NEVER, &|_| ()).unwrap();
+    let file = bytes(&spec, &built).unwrap();
+    assert!(file.len() as u64 <= spec.budget);
+    let cells = opened(&file);
+    assert_eq!((cells.resolution(), differences(&cells, &built)), (32, (0, None)));
+    let shapes = safetensors::SafeTensors::deserialize(&file).unwrap();
+    let shape = |name: &str| shapes.tensor(name).unwrap().shape().to_vec();
+    assert_eq!((shape("theta"), shape("q"), shape("top")), (vec![1], vec![33], vec![16, 16, 16, 2]));
+    let found = attack(&cells, 2_000, 3, &NEVER).unwrap();
+    assert!(found.wrong == 0 && found.points > 100_000 && found.verdicts > 300_000, "{found:?}");
+    let point = [6.5, 0.75, 1.0, -0.5, -0.2];
+    let known = cells.lookup(&point).unwrap();
+    assert_eq!(known.inside & 0b11, 0b11, "{known:?}");
+    for beside in [[6.5, 0.75_f64.next_up(), 1.0, -0.5, -0.2], [6.5, 0.75, 1.0, f64::NAN, -0.2]] {
+        assert_eq!(cells.lookup(&beside), None);
+    }
+    assert_eq!(cells.verdict(&[6.5, 0.8, 1.0, 0.5, -0.2], u8::MAX).unwrap() & 1, 1);
+    assert!(cells.verdict(&point[..4], 1).unwrap_err().to_string().contains("is 4; it must be 5"));
+}
+
 /// A budget is kept, used, and takes nothing but fineness: no cell says another thing.
 #[test]
 fn a_budget_makes_cells_coarser_and_no_more() {
@@ -250,7 +279,11 @@ fn what_cannot_be_made_is_refused() {
     let mut uneven = all(5);
     uneven[2] = linear(&"kappa0", 9);
     assert!(refusal("cubic", uneven).contains("[5, 5, 9, 5]"));
-    assert!(refusal("trig-quintic", all(5)).contains("no proofs over boxes"));
+    let five = || ["ratio", "theta", "m", "p", "q"].iter().map(|name| linear(name, 5)).collect::<Vec<_>>();
+    assert!(refusal("trig-quintic", five()).contains("at most 4 axes, given: 5; give an axis a single value"));
+    let single = five().into_iter().map(|axis| Axis::new(axis.unwrap().name(), Spacing::Values(vec![0.1])));
+    assert!(refusal("trig-quintic", single.collect()).contains("all axes of cells have a single value"));
+    assert!(refusal("trig-quintic", all(5)).contains("must be ratio, theta, m, p, q"));
     let mixed = ["phi0", "phi1", "a", "kappa1"].iter().map(|name| linear(name, 5)).collect();
     assert!(refusal("cubic", mixed).contains("phi0, phi1, kappa0, kappa1 or phi0, phi1, a, k"));
 }

@@ -74,12 +74,21 @@ fn cells_are_made_told_asked_and_verified() {
 }
 
 /// A recipe of a family with its axes, the two that are drawn, where the others are, and two points inside.
-const OTHERS: [(&str, &str, [&str; 3], &str); 1] = [(
-    "ph-equal-length",
-    "theta0 = { linear = [0.9, 1.1] }\ntheta1 = { linear = [-0.5, 0.1] }\nS = { log = [1.15, 1.5] }",
-    ["theta1", "S", "theta0 = 1"],
-    "theta0,theta1,S\n0.95,-0.31,1.3\n1.01,-0.2,1.4\n",
-)];
+const OTHERS: [(&str, &str, [&str; 3], &str); 2] = [
+    (
+        "ph-equal-length",
+        "theta0 = { linear = [0.9, 1.1] }\ntheta1 = { linear = [-0.5, 0.1] }\nS = { log = [1.15, 1.5] }",
+        ["theta1", "S", "theta0 = 1"],
+        "theta0,theta1,S\n0.95,-0.31,1.3\n1.01,-0.2,1.4\n",
+    ),
+    (
+        "trig-quintic",
+        "ratio = { linear = [3, 8] }\ntheta = { values = [\"42deg\"] }\nm = { linear = [0.3, 4] }\n\
+         p = { values = [0] }\nq = { linear = [-0.3, 0.2] }",
+        ["m", "ratio", "q = 0"],
+        "ratio,theta,m,p,q\n6.5,0.7330382858376184,1.1,0,-0.2\n3.1,0.7330382858376184,2,0,0.1\n",
+    ),
+];
 
 #[test]
 fn other_families_have_cells() {
@@ -124,6 +133,7 @@ fn mistakes_in_recipes_of_cells_are_named() {
         ("kind = \"cells\"", "kind = \"nodes\"", "`resolution` belongs to"),
         ("kind = \"cells\"", "kind = \"cell\"", "did you mean `cells`?"),
         ("[0.68, 0.7] }", "[0.68, 0.7], count = 3 }", "axis `phi0` of cells takes"),
+        ("{ linear = [0.68, 0.7] }", "{ values = [0.68, 0.7] }", "or `{ values = [one] }`"),
         ("kind = \"slice\"", "kind = \"multiples\"", "of the kind `slice`"),
     ];
     for (from, to, what) in cases {

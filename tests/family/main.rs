@@ -22,4 +22,5 @@ mod reach_region;
 mod reach_vectors;
 mod transition;
 mod trig_oracle;
+mod trig_region;
 mod trig_vectors;

@@ -58,8 +58,7 @@ unsafe fn asked<'a>(
 
 /// All intervals of the coordinate number `axis`, from `from` to `to`, in which a property holds; in `datum` that
 /// coordinate does not matter. `flag` is the property's name; null stands for the flag that says that a spiral exists.
-/// Families with proofs over boxes answer: all but trig-quintic. Close the ranges with
-/// spiral_ranges_close.
+/// All families answer. Close the ranges with spiral_ranges_close.
 ///
 /// # Safety
 /// `family`, `chart` and `flag` are null or texts that end with a zero byte (a null `chart` is the family's first);

@@ -7,6 +7,8 @@ import { css, paint, ramp } from "./paint.js";
 const MARGIN = { left: 70, right: 16, top: 12, bottom: 46 };
 /** Larger files do not fit into the memory of the worker. */
 const MOST = 1 << 30;
+/** Nodes or cells along an axis; cells may all lie at one value. */
+const count = (axis, kind) => Math.max(1, axis.values.length - (kind === "cells"));
 const ANGLES = ["phi0", "phi1", "theta", "alpha", "beta", "theta0", "theta1"];
 
 export class Files {
@@ -66,11 +68,12 @@ export class Files {
     byId("drop").hidden = true;
     byId("browser").hidden = false;
     byId("file-title").textContent = about.name;
-    const counts = about.axes.map((a) => a.values.length - (about.kind === "cells")).join(" × ");
+    const counts = about.axes.map((axis) => count(axis, about.kind)).join(" × ");
     byId("file-note").textContent =
       `${about.title ?? about.family}; ${about.kind}, ${counts}. All bytes are checked.`;
     const names = about.axes.map((axis) => axis.name);
-    const last = names.length - 1;
+    const wide = [...names.keys()].filter((i) => about.axes[i].values.length > 1);
+    const [across, up] = (wide.length > 1 ? wide : [...names.keys()]).slice(-2);
     const choice = (label, chosen, options) =>
       html(
         "label",
@@ -83,12 +86,12 @@ export class Files {
         ),
       );
     const sliders = about.axes.map((axis, i) => {
-      const count = axis.values.length - (about.kind === "cells");
+      const places = count(axis, about.kind);
       const input = html("input", {
         type: "range",
         min: 0,
-        max: count - 1,
-        value: count >> 1,
+        max: places - 1,
+        value: places >> 1,
         "data-at": i,
         "aria-label": axis.name,
         oninput: () => this.#ask(),
@@ -115,8 +118,8 @@ export class Files {
           ]
         : [];
     byId("file-axes").replaceChildren(
-      choice("across", last - 1, names),
-      choice("up", last, names),
+      choice("across", across, names),
+      choice("up", up, names),
       ...flags,
       ...sliders,
     );
@@ -153,7 +156,8 @@ export class Files {
   }
 
   #value(axis, i) {
-    const value = this.#about.kind === "cells" ? 0.5 * (axis.values[i] + axis.values[i + 1]) : axis.values[i];
+    const between = this.#about.kind === "cells" && axis.values.length > 1;
+    const value = between ? 0.5 * (axis.values[i] + axis.values[i + 1]) : axis.values[i];
     return ANGLES.includes(axis.name) ? showAngle(value, 5) : show(value, 5);
   }
 

@@ -89,7 +89,7 @@ impl File {
     pub(crate) fn plane(&self, plane: &Plane) -> Result<Value> {
         let axes = self.grid().axes();
         let cells = usize::from(matches!(self, File::Cells(_)));
-        let count = |axis: usize| axes.get(axis).map_or(0, |axis| axis.values().len() - cells);
+        let count = |axis: usize| axes.get(axis).map_or(0, |axis| (axis.values().len() - cells).max(1));
         let Plane { x, y, at } = plane;
         let fits = x != y && *x < axes.len() && *y < axes.len() && at.len() == axes.len();
         if !fits || at.iter().enumerate().any(|(axis, i)| axis != *x && axis != *y && *i >= count(axis)) {
@@ -114,7 +114,11 @@ impl File {
     }
 }
 
-/// A point inside a finest cell.
+/// A point inside a finest cell, or at an axis' single value.
 fn middle(axes: &[Axis], at: &[usize]) -> Vec<f64> {
-    axes.iter().zip(at).map(|(axis, i)| 0.5 * axis.values()[*i] + 0.5 * axis.values()[*i + 1]).collect()
+    let middle = |(axis, i): (&Axis, &usize)| match axis.values() {
+        [only] => *only,
+        edges => 0.5 * edges[*i] + 0.5 * edges[*i + 1],
+    };
+    axes.iter().zip(at).map(middle).collect()
 }

@@ -39,7 +39,7 @@ fn asked(
 /// `ranges("cubic", "kappa1", (0, 100), phi0=0.7, phi1=1.4, kappa0=0.4)`.
 ///
 /// Args:
-///     family: one with proofs over boxes, that is, any but "trig-quintic".
+///     family: its name.
 ///     axis: the name of the coordinate.
 ///     within: where to look, (from, to).
 ///     flag: the property; by default the one that says that a spiral exists.

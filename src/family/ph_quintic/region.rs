@@ -193,7 +193,7 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     // Where nothing better is known: what is widest for its size.
     let widths = sides.map(|[low, high]| (high - low) / (low.abs() + high.abs()).max(f64::MIN_POSITIVE));
     let Some(march) = curves(sides).filter(|_| kappa0[0] >= 0.0 && kappa1[0] >= 0.0).map(March::new) else {
-        facts.pull = widths;
+        facts.pull[..4].copy_from_slice(&widths);
         return facts;
     };
     let within = if open & SPIRAL == 0 { None } else { spirals_within(&march.curves) };
@@ -213,7 +213,7 @@ fn prove(sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
         facts.note(SPIRAL, any.and(spiral));
     }
     if facts.pull == [0.0; MOST_SIDES] {
-        facts.pull = widths;
+        facts.pull[..4].copy_from_slice(&widths);
     }
     facts
 }

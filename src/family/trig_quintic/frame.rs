@@ -49,16 +49,16 @@ impl Frame<f64> {
 impl Frame<Interval> {
     /// In intervals; `None` when the precision does not suffice.
     pub(super) fn exact(ratio: f64, theta: f64, bits: usize) -> Option<Frame<Interval>> {
-        Frame::of(ratio, Interval::sin_cos(theta, bits))
+        Frame::of(&Interval::new(ratio, bits), Interval::sin_cos(theta, bits))
     }
 }
 
 impl<N: Real> Frame<N> {
     /// From sine and cosine of the angle.
-    pub(super) fn of(ratio: f64, (sine, cosine): (N, N)) -> Option<Frame<N>> {
+    pub(super) fn of(ratio: &N, (sine, cosine): (N, N)) -> Option<Frame<N>> {
         let whole = cosine.plus(1.0);
         let tangent = sine.over(&whole)?;
-        let y = N::of(ratio, sine.bits()).over(&whole.times(2.0))?;
+        let y = ratio.over(&whole.times(2.0))?;
         Some(Frame { y, last: cosine.times(6.0).over(&whole)?, square: tangent.mul(&tangent) })
     }
 }

@@ -16,6 +16,7 @@ mod frame;
 mod guess;
 mod plain;
 mod poly;
+mod region;
 mod shader;
 mod table;
 mod threshold;
@@ -23,7 +24,7 @@ mod threshold;
 pub use curve::Scaling;
 pub use exact::Shape;
 
-use super::{About, Answer, Chart, Family, Flag, NO_VALUE, Scalar, Table, coordinates, verdict};
+use super::{About, Answer, Chart, Family, Flag, NO_VALUE, Region, Scalar, Table, coordinates, verdict};
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::num::{Angle, Interval, TWIN_BITS, Twin, climb, demand_ieee};
@@ -121,6 +122,9 @@ impl Family for TrigQuintic {
     }
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::TrigTable::new(grid)?))
+    }
+    fn region(&self) -> Option<&dyn Region> {
+        Some(self)
     }
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;

@@ -43,7 +43,7 @@ pub(super) fn least_ratio(shape: &Shape) -> Result<f32> {
 
 /// The same in sums of two doubles, where they prove it.
 pub(super) fn by_twins(shape: &Shape) -> Option<f32> {
-    let frame = Frame::of(1.0, Twin::sin_cos(shape.theta))?;
+    let frame = Frame::of(&Twin::of(1.0, TWIN_BITS), Twin::sin_cos(shape.theta))?;
     let c = in_ratio(&frame, [shape.m, shape.p, shape.q].map(|x| Twin::of(x, TWIN_BITS)), -1.0).map(bernstein);
     Sweep { c, size: [[0.0; K]; DEGREE + 1], error: 0.0, tie: None }.near(hint(shape))
 }

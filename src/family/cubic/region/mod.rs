@@ -135,7 +135,7 @@ fn prove(normalised: bool, sides: &[[f64; 2]; 4], wanted: u8) -> Facts {
     }
     let Some(angles) = angles_of(phi0, phi1) else {
         // Nothing is known of what matters: halve what is widest for its size.
-        facts.pull = sides.map(|[low, high]| (high - low) / (low.abs() + high.abs()));
+        facts.pull[..4].copy_from_slice(&sides.map(|[low, high]| (high - low) / (low.abs() + high.abs())));
         return facts;
     };
     let ends = [Four::centred(kappa0, 2), Four::centred(kappa1, 3)];
@@ -191,7 +191,7 @@ impl Data {
     }
 
     /// How much the coordinates move what is open of the case.
-    fn pull_edges(&self, pull: &mut [f64; 4]) {
+    fn pull_edges(&self, pull: &mut [f64; MOST_SIDES]) {
         let edges = [(self.wedge, &self.delta), (self.above[0], &self.a), (self.above[1], &self.k)];
         for (_, form) in edges.iter().filter(|(known, _)| known.is_open()) {
             add_pull(pull, form);
@@ -199,7 +199,7 @@ impl Data {
     }
 
     /// The left, middle and right root; for a lone root the first alone.
-    fn branches(&self, open: u8, any: Verdict, pull: &mut [f64; 4]) -> [Branch; 3] {
+    fn branches(&self, open: u8, any: Verdict, pull: &mut [f64; MOST_SIDES]) -> [Branch; 3] {
         let (a, k) = (&self.a, &self.k);
         let below = self.above.map(|above| !above);
         match self.wedge {
@@ -234,7 +234,13 @@ impl Data {
     }
 
     /// One root: `exists` is what is known of it from the case.
-    fn branch(&self, exists: Verdict, find: fn(&Four, &Four) -> Option<Root>, open: u8, pull: &mut [f64; 4]) -> Branch {
+    fn branch(
+        &self,
+        exists: Verdict,
+        find: fn(&Four, &Four) -> Option<Root>,
+        open: u8,
+        pull: &mut [f64; MOST_SIDES],
+    ) -> Branch {
         if exists.is_no() {
             return Branch::ABSENT;
         }
