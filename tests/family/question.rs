@@ -1,7 +1,8 @@
 //! Ranges, nearest data and outlines, against exact verdicts and the oracle at points.
 
+use crate::any_spiral;
 use crate::oracle::random::Random;
-use crate::oracle::{in_domain, judge};
+use crate::oracle::{in_domain, judge, ph};
 use spiral_atlas::family::{self, verdict};
 use spiral_atlas::question::{Property, boundary, nearest, ranges};
 use std::f64::consts::PI;
@@ -101,29 +102,147 @@ fn ranges_are_true_at_every_point() {
     assert!(found > 60 && wide * 10 < found && cuts > 0, "{found} {wide} {cuts}");
 }
 
-/// The oracle knows nothing of boxes: some 50 digits at the ends' neighbours.
-#[test]
-fn ends_of_ranges_agree_with_the_oracle() {
-    let mut r = Random(72);
-    let property = asked("cubic", 0, "SPIRAL").property;
-    let mut compared = 0;
-    for _ in 0..12 {
-        let point = datum(&mut r);
-        for range in ranges(&property, &point, 3, [0.0, 20.0]).unwrap().ranges {
-            for (side, outwards) in [(0, -1e-9), (1, 1e-9)] {
-                let end = range.ends[side];
-                let judged = |x: f64| {
-                    in_domain(point[0], point[1])
-                        && judge(point[0], point[1], point[2], x).flags & family::cubic::SPIRAL != 0
-                };
-                if end < 20.0 {
-                    assert!(judged(end - outwards * end) && !judged(end + outwards * end), "{point:?} {range:?}");
-                    compared += 1;
-                }
+/// What is asked of each family, in half chords and angles from the chord.
+const SUBJECTS: [(&str, &str); 3] = [("cubic", "SPIRAL"), ("any-spiral", "EXISTS"), ("ph-quintic", "SPIRAL")];
+
+/// The same property by code that knows nothing of boxes and shares no formula with the library, in as many digits as
+/// it takes: 50 at least.
+fn judged(family: &str, p: &[f64]) -> bool {
+    let [phi0, phi1, kappa0, kappa1] = [p[0], p[1], p[2], p[3]];
+    match family {
+        "any-spiral" => any_spiral::judge([-phi0, phi1, kappa0, kappa1]) & family::any_spiral::EXISTS != 0,
+        _ if !in_domain(phi0, phi1) => false,
+        "cubic" => judge(phi0, phi1, kappa0, kappa1).flags & family::cubic::SPIRAL != 0,
+        _ => ph::judge([phi0, phi1, kappa0, kappa1]).flags & family::ph_quintic::SPIRAL != 0,
+    }
+}
+
+/// Data beside a boundary of the property, and degenerate ones: a straight end, equal angles, both.
+fn special((family, flag): (&str, &str), r: &mut Random) -> Vec<f64> {
+    let mut point = datum(r);
+    match r.below(4) {
+        0 => point[2] = 0.0,
+        1 => point[0] = point[1].min(1.5),
+        2 => (point[0], point[2]) = (point[1].min(1.5), 0.0),
+        _ => {
+            let property = asked(family, usize::from(family == "any-spiral"), flag).property;
+            let axis = r.below(3) as usize;
+            let within = if axis < 2 { [0.0, 3.0] } else { [0.0, 20.0] };
+            if let Some(range) = ranges(&property, &point, axis, within).unwrap().ranges.first() {
+                point[axis] = range.inner[r.below(2) as usize];
             }
         }
     }
-    assert!(compared >= 8, "{compared}");
+    point
+}
+
+#[test]
+fn ends_of_ranges_agree_with_the_oracle() {
+    let mut r = Random(72);
+    for ((family, flag), count) in SUBJECTS.into_iter().zip([40, 60, 12]) {
+        let property = asked(family, usize::from(family == "any-spiral"), flag).property;
+        let mut compared = 0;
+        for i in 0..count {
+            let point = if i % 2 == 0 { datum(&mut r) } else { special((family, flag), &mut r) };
+            let axis = if i % 3 == 0 { 3 } else { r.below(4) as usize };
+            let within = if axis < 2 { [0.0, 3.0] } else { [0.0, 20.0] };
+            let answer = ranges(&property, &point, axis, within).unwrap();
+            let place = format!("{family} {point:?} {axis}: {answer:?}");
+            let left_out = |x: f64| {
+                let known = answer.ranges.iter().map(|s| s.outer).chain(answer.open.iter().copied());
+                x >= within[0] && x <= within[1] && !known.into_iter().any(|s| s[0] <= x && x <= s[1])
+            };
+            for range in &answer.ranges {
+                for (side, outwards) in [f64::next_down as fn(f64) -> f64, f64::next_up].into_iter().enumerate() {
+                    assert!(judged(family, &with(&point, axis, range.ends[side])), "{place}");
+                    assert!(judged(family, &with(&point, axis, range.inner[side])), "{place}");
+                    let beyond = outwards(range.outer[side]);
+                    if left_out(beyond) {
+                        assert!(!judged(family, &with(&point, axis, beyond)), "{place}");
+                        compared += 1;
+                    }
+                }
+            }
+            for _ in 0..4 {
+                let x = r.uniform(within[0], within[1]);
+                assert!(!left_out(x) || !judged(family, &with(&point, axis, x)), "{x:?} {place}");
+            }
+        }
+        assert!(compared >= 8, "{family}: {compared}");
+    }
+}
+
+/// What is returned is feasible and nothing nearer is, for the oracle, too.
+#[test]
+fn nearest_data_agree_with_the_oracle() {
+    let mut r = Random(75);
+    for ((family, flag), count) in SUBJECTS.into_iter().zip([6, 6, 2]) {
+        let property = asked(family, usize::from(family == "any-spiral"), flag).property;
+        let (mut found, mut there) = (0, 0);
+        for i in 0..count {
+            let mut point = special((family, flag), &mut r);
+            // From a boundary of the property, or from farther away.
+            point[3] *= if i % 2 == 0 { 1.0 } else { r.uniform(0.1, 0.6) };
+            let weights = [f64::INFINITY, f64::INFINITY, 1.0, 0.5];
+            let answer = nearest(&property, &point, &weights).unwrap();
+            let place = format!("{family} {point:?}: {answer:?}");
+            if let Some(nearest) = &answer.point {
+                assert!(judged(family, nearest), "{place}");
+                found += 1;
+            }
+            there += usize::from(answer.distance == Some(0.0));
+            assert_eq!(answer.distance == Some(0.0), judged(family, &point), "{place}");
+            for _ in 0..20 {
+                let (sin, cos) = r.uniform(0.0, 2.0 * PI).sin_cos();
+                let reach = answer.at_least.min(1e3) * r.uniform(0.5, 0.9999);
+                let moved = [point[0], point[1], point[2] + reach * cos, point[3] + 2.0 * reach * sin];
+                assert!(reach == 0.0 || !judged(family, &moved), "{moved:?} {place}");
+            }
+        }
+        println!("{family}: {found} of {count}, {there} of them there already");
+        assert!(found > 0, "{family}");
+    }
+}
+
+/// Of outlines of all families: on either side of one the oracle says otherwise, and away from all it says one thing.
+#[test]
+fn outlines_agree_with_the_oracle() {
+    let mut r = Random(76);
+    for (family, flag) in SUBJECTS {
+        let property = asked(family, usize::from(family == "any-spiral"), flag).property;
+        let mut compared = 0;
+        for [phi0, phi1] in [[0.7, 1.4], [1.0, 1.0], [0.01, 3.1]] {
+            let point = [phi0, phi1, 0.0, 0.0];
+            let within = [[0.0, phi0], [0.0, 12.0]];
+            let told = boundary(&property, &point, [2, 3], within, 64).unwrap();
+            let at = |[x, y]: [f64; 2]| judged(family, &[phi0, phi1, x, y]);
+            let points: Vec<[f64; 2]> = told.outlines.iter().flat_map(|outline| outline.points.clone()).collect();
+            for p in points.iter().step_by(16) {
+                let differs = |i: usize| {
+                    let (mut a, mut b) = (*p, *p);
+                    a[i] -= 2e-6 * told.cell[i];
+                    b[i] += 2e-6 * told.cell[i];
+                    at(a) != at(b)
+                };
+                assert!(differs(0) || differs(1), "{family} {point:?} {p:?}");
+                compared += 1;
+            }
+            let cell_of = |p: [f64; 2]| [0, 1].map(|i| ((p[i] - within[i][0]) / told.cell[i]).floor());
+            let open = told.open.iter().map(|[low, high]| [0, 1].map(|i| 0.5 * low[i] + 0.5 * high[i]));
+            let passed: Vec<[f64; 2]> = points.iter().copied().chain(open).map(cell_of).collect();
+            for _ in 0..20 {
+                let p = [0, 1].map(|i| r.uniform(within[i][0], within[i][1]));
+                let cell = cell_of(p);
+                // On an edge of the lattice an outline passes both cells beside it.
+                if passed.iter().all(|other| (0..2).any(|i| (other[i] - cell[i]).abs() > 1.0)) {
+                    let other = [0, 1].map(|i| within[i][0] + told.cell[i] * (cell[i] + r.uniform(0.0, 1.0)));
+                    assert_eq!(at(p), at(other), "{family} {p:?} {other:?}");
+                }
+            }
+        }
+        println!("{family}: {compared}");
+        assert!(compared > 4, "{family}: {compared}");
+    }
 }
 
 /// What is returned has the property, and nothing nearer than `at_least` has.

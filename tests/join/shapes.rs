@@ -32,7 +32,7 @@ fn found(request: &Request) -> Join {
 }
 
 impl Random {
-    fn shape(&mut self, size: f64) -> End {
+    pub(crate) fn shape(&mut self, size: f64) -> End {
         let [x, y] = [0, 1].map(|_| self.between(-size, size));
         if self.next() < 0.4 {
             return line(x, y, self.between(-PI, PI));

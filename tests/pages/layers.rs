@@ -26,7 +26,7 @@ const ROOMS: [(&str, &[&str]); 21] = [
     ("atlas", &["eval", "recipe", "family", "grid", "num", "files", "plain", "error"]),
     ("cells", &["atlas", "recipe", "family", "grid", "files", "error"]),
     ("question", &["family", "num", "queue", "error"]),
-    ("transition", &["family", "curve", "num", "plain", "error"]),
+    ("transition", &["family", "curve", "num", "steps", "plain", "error"]),
     ("path", &["transition", "family", "curve", "num", "queue", "steps", "plain", "error"]),
     ("tools", &["path", "transition", "curve", "num", "plain", "error"]),
     ("export", &["path", "transition", "curve", "error"]),

@@ -8,14 +8,13 @@
 use super::super::piece::principal;
 use super::ease::leg;
 use super::link::{Chain, Link, SHORTEST, root};
-use super::request::{Family, Objective};
+use super::request::Family;
 use super::spiral::{Pose, Spiral};
 use crate::curve::vector::{Vector, add, cross, scale, sub, unit};
 use std::f64::consts::FRAC_PI_2;
 
-/// Lengths of spirals in least radii, for the shortest join and for gentle ones.
-const SHORT: &[f64] = &[SHORTEST, 0.4];
-const GENTLE: &[f64] = &[0.4, 1.2, 4.8, 16.0];
+/// Lengths of spirals in least radii: short ones for the shortest join, long ones for gentle joins.
+const LENGTHS: [f64; 5] = [SHORTEST, 0.4, 1.2, 4.8, 16.0];
 /// A turn by less than this, radians, is a rounding.
 const ROUNDING: f64 = 1e-13;
 
@@ -32,12 +31,10 @@ pub(super) enum Size {
 
 impl Size {
     /// All that are tried.
-    pub(super) fn all(peaks: &[f64], objective: Objective, longest: f64) -> Vec<Size> {
-        let lengths = if objective == Objective::Length { SHORT } else { GENTLE };
+    pub(super) fn all(peaks: &[f64], longest: f64) -> impl Iterator<Item = Size> {
         // The longest spirals are the gentlest.
-        let room = (objective != Objective::Length && longest.is_finite()).then_some(Size::Room(longest));
-        let peaks = peaks.iter().map(|peak| Size::Peak(*peak));
-        peaks.chain(lengths.iter().map(|length| Size::Long(*length))).chain(room).collect()
+        let room = longest.is_finite().then_some(Size::Room(longest));
+        peaks.iter().map(|peak| Size::Peak(*peak)).chain(LENGTHS.map(Size::Long)).chain(room)
     }
 
     /// For turns by some angles.
@@ -59,8 +56,8 @@ fn turned(family: Family, angle: f64, length: f64) -> Option<[Spiral; 2]> {
         .then_some([Spiral { from: 0.0, to: k, length }, Spiral { from: k, to: 0.0, length }])
 }
 
-fn link(spiral: Spiral) -> Link {
-    Link::direct(spiral.from, spiral.to, spiral.length)
+fn link(family: Family, spiral: Spiral) -> Link {
+    Link::direct(family, spiral.from, spiral.to, spiral.length)
 }
 
 /// Around the corner of two lines.
@@ -70,7 +67,7 @@ pub(super) fn corner(family: Family, [a, b]: [Pose; 2], corner: Vector, size: Si
     let spirals = turned(family, angle, length)?;
     let leg = leg(family, angle, length);
     let start = Pose { at: sub(corner, scale(a.along(), leg)), ..a };
-    Some(Chain::alone(start, add(corner, scale(b.along(), leg)), spirals.map(link).to_vec()))
+    Some(Chain::alone(start, add(corner, scale(b.along(), leg)), spirals.map(|spiral| link(family, spiral)).to_vec()))
 }
 
 /// From a point of a line to another line beside it, in an S.
@@ -93,6 +90,6 @@ pub(super) fn beside(family: Family, [a, b]: [Pose; 2], size: Size) -> Option<Ch
     let [first, second] = angles.map(|angle| turned(family, angle, length));
     let ([one, two], [three, four]) = (first?, second?);
     let end = add(corner(angles, length), scale(b.along(), leg(family, angles[1], length)));
-    let middle = Link::over_line([two.from, three.to], [length; 2], 0.0);
-    Some(Chain::alone(a, end, vec![link(one), middle, link(four)]))
+    let middle = Link::over_line(family, [two.from, three.to], [length; 2]);
+    Some(Chain::alone(a, end, vec![link(family, one), middle, link(family, four)]))
 }

@@ -1,16 +1,24 @@
 //! The best of the joins that are tried.
 
 use super::super::piece::Piece;
+use super::costs::Costs;
 use super::measure::{Measures, bending_energy, greatest_curvature, greatest_rate};
 use super::request::{Join, Objective, Request};
+use crate::error::Result;
+
+/// How many of the best ways by each objective are built. Curvatures are known, rates to a fifth for most.
+const BUILT: [(Objective, usize); 4] = [
+    (Objective::Length, 1),
+    (Objective::GreatestCurvature, 2),
+    (Objective::GreatestRate, 6),
+    (Objective::BendingEnergy, 4),
+];
 
 /// Keeps the best join that is within the bounds.
 pub(super) struct Best<'r> {
     request: &'r Request,
     /// The best so far.
     found: Option<Found>,
-    /// How many were within the bounds.
-    pub kept: usize,
 }
 
 struct Found {
@@ -22,7 +30,7 @@ struct Found {
 
 impl<'r> Best<'r> {
     pub(super) fn new(request: &'r Request) -> Best<'r> {
-        Best { request, found: None, kept: 0 }
+        Best { request, found: None }
     }
 
     /// Of equal ones the first is kept. The length, if it is within the bounds.
@@ -32,7 +40,6 @@ impl<'r> Best<'r> {
         if pieces.len() > most_pieces || length.is_nan() || length > longest {
             return None;
         }
-        self.kept += 1;
         let value = match objective {
             Objective::Length => length,
             Objective::GreatestCurvature => greatest_curvature(&pieces, limit),
@@ -43,6 +50,47 @@ impl<'r> Best<'r> {
             self.found = Some(Found { pieces, length, value });
         }
         Some(length)
+    }
+
+    /// Builds and offers the best ways by each objective, or the shortest alone: the same ones whatever is asked for.
+    /// `build` has nothing for a way that is not to be had.
+    pub(super) fn build<W>(
+        &mut self,
+        ways: &[(Costs, W)],
+        shortest_alone: bool,
+        mut build: impl FnMut(&W) -> Result<Option<Vec<Piece>>>,
+    ) -> Result<()> {
+        let mut order: Vec<usize> = (0..ways.len()).collect();
+        // Lengths of those that were built, in least radii, should they be within the bounds.
+        let mut built: Vec<Option<Option<f64>>> = vec![None; ways.len()];
+        for (objective, enough) in BUILT.into_iter().take(if shortest_alone { 1 } else { BUILT.len() }) {
+            let by = |i: usize, objective| ways[i].0.by(objective);
+            // The shortest of equals come first.
+            order.sort_by(|&i, &j| {
+                let length = || by(i, Objective::Length).total_cmp(&by(j, Objective::Length));
+                by(i, objective).total_cmp(&by(j, objective)).then_with(length)
+            });
+            let (mut kept, mut shortest) = (0, f64::INFINITY);
+            for &i in &order {
+                let shorter = objective == Objective::Length && ways[i].0.length[0] < shortest;
+                if kept >= enough && !shorter {
+                    continue;
+                }
+                let length = match built[i] {
+                    Some(length) => length,
+                    None => {
+                        let pieces = build(&ways[i].1)?;
+                        let length = pieces.and_then(|pieces| self.offer(pieces));
+                        *built[i].insert(length.map(|length| length * self.request.greatest_curvature))
+                    }
+                };
+                if let Some(length) = length {
+                    kept += 1;
+                    shortest = shortest.min(length);
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Length of the best so far.

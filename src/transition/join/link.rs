@@ -5,8 +5,8 @@
 //! follow.
 
 use super::super::piece::{Arc, Line, Piece};
-use super::costs::wrapped;
-use super::request::{Family, Objective, Request};
+use super::costs::{Costs, Known, wrapped};
+use super::request::{Family, Request};
 use super::spiral::{Pose, Spiral, pinned};
 use crate::curve::vector::{Vector, add, angle_of, dot, length as norm, scale, sub, turn, unit};
 use crate::error::Result;
@@ -34,23 +34,27 @@ impl Node {
 /// What leads from one to the next: a spiral, or two with a line between, of any length from 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
-    pub first: Spiral,
-    pub second: Option<Spiral>,
+    pub first: Known,
+    pub second: Option<Known>,
     pub line: f64,
 }
 
 impl Link {
-    pub(super) fn direct(from: f64, to: f64, length: f64) -> Link {
-        Link { first: Spiral { from, to, length }, second: None, line: 0.0 }
+    pub(super) fn direct(family: Family, from: f64, to: f64, length: f64) -> Link {
+        Link { first: Known::of(family, from, to, length), second: None, line: 0.0 }
     }
 
-    pub(super) fn over_line([from, to]: [f64; 2], lengths: [f64; 2], line: f64) -> Link {
-        let first = Spiral { from, to: 0.0, length: lengths[0] };
-        Link { first, second: Some(Spiral { from: 0.0, to, length: lengths[1] }), line }
+    pub(super) fn over_line(family: Family, [from, to]: [f64; 2], lengths: [f64; 2]) -> Link {
+        let second = Some(Known::of(family, 0.0, to, lengths[1]));
+        Link { first: Known::of(family, from, 0.0, lengths[0]), second, line: 0.0 }
+    }
+
+    fn known(&self) -> impl Iterator<Item = Known> {
+        [Some(self.first), self.second].into_iter().flatten()
     }
 
     pub(super) fn spirals(&self) -> impl Iterator<Item = Spiral> {
-        [Some(self.first), self.second].into_iter().flatten()
+        self.known().map(|known| known.spiral)
     }
 
     /// How far it turns.
@@ -58,27 +62,33 @@ impl Link {
         self.spirals().map(|s| s.angle()).sum()
     }
 
+    /// Curvatures at both ends.
+    pub(super) fn curvatures(&self) -> [f64; 2] {
+        [self.first.spiral.from, self.second.unwrap_or(self.first).spiral.to]
+    }
+
     /// From the centre that it leaves to the centre that it reaches, for a start along (1, 0); where there is no
     /// centre, from or to the end of the line.
-    pub(super) fn hop(&self, family: Family) -> Vector {
-        let mut end = self.first.step(family);
+    pub(super) fn hop(&self) -> Vector {
+        let (mut end, mut along) = (self.first.step, self.first.along);
         if let Some(second) = self.second {
-            let along = unit(self.first.angle());
-            end = add(end, turn(along, add([self.line, 0.0], second.step(family))));
+            end = add(end, turn(along, add([self.line, 0.0], second.step)));
+            along = turn(along, second.along);
         }
-        let last = self.second.unwrap_or(self.first);
-        let centre = |curvature: f64, direction: f64| -> Vector {
-            if curvature == 0.0 { [0.0, 0.0] } else { turn(unit(direction), [0.0, 1.0 / curvature]) }
+        let centre = |curvature: f64, along: Vector| -> Vector {
+            if curvature == 0.0 { [0.0, 0.0] } else { turn(along, [0.0, 1.0 / curvature]) }
         };
-        sub(add(end, centre(last.to, self.angle())), centre(self.first.from, 0.0))
+        let [from, to] = self.curvatures();
+        sub(add(end, centre(to, along)), centre(from, [1.0, 0.0]))
     }
 
     /// With a line so long that centres are at a distance, if one is.
-    pub(super) fn reaching(&self, family: Family, distance: f64) -> Option<Link> {
+    pub(super) fn reaching(&self, distance: f64) -> Option<Link> {
         self.second?;
         let link = Link { line: 0.0, ..*self };
         // Seen along the line.
-        let [x, y] = turn(unit(-self.first.angle()), link.hop(family));
+        let [cos, sin] = self.first.along;
+        let [x, y] = turn([cos, -sin], link.hop());
         let line = (distance * distance - y * y).sqrt() - x;
         (line > LEAST_LINE).then_some(Link { line, ..link })
     }
@@ -105,12 +115,12 @@ pub(super) struct Chain {
 
 impl Chain {
     /// Lines only at the ends, with one circle at least.
-    pub(super) fn new(family: Family, nodes: &[Node], links: &[Link]) -> Chain {
+    pub(super) fn new(nodes: &[Node], links: &[Link]) -> Chain {
         let leaves = |i: usize| match (&nodes[i], &nodes[i + 1]) {
             (Node::Line(pose), _) => pose.direction,
             (_, Node::Line(pose)) => pose.direction - links[i].angle(),
             (Node::Arc { centre: a, .. }, Node::Arc { centre: b, .. }) => {
-                angle_of(sub(*b, *a)) - angle_of(links[i].hop(family))
+                angle_of(sub(*b, *a)) - angle_of(links[i].hop())
             }
         };
         let directions: Vec<f64> = (0..links.len()).map(leaves).collect();
@@ -124,16 +134,14 @@ impl Chain {
         let (from, to) = (directions[0], directions[links.len() - 1] + links[links.len() - 1].angle());
         let start = match (&nodes[0], &nodes[1]) {
             (Node::Arc { centre, curvature }, _) => beside(*centre, *curvature, from),
-            (Node::Line(pose), Node::Arc { centre, .. }) => {
-                foot(pose, sub(*centre, turn(unit(from), links[0].hop(family))))
-            }
+            (Node::Line(pose), Node::Arc { centre, .. }) => foot(pose, sub(*centre, turn(unit(from), links[0].hop()))),
             (Node::Line(pose), Node::Line(_)) => pose.at,
         };
         let last = links.len() - 1;
         let end = match (&nodes[last], &nodes[last + 1]) {
             (_, Node::Arc { centre, curvature }) => beside(*centre, *curvature, to),
             (Node::Arc { centre, .. }, Node::Line(pose)) => {
-                foot(pose, add(*centre, turn(unit(directions[last]), links[last].hop(family))))
+                foot(pose, add(*centre, turn(unit(directions[last]), links[last].hop())))
             }
             (Node::Line(_), Node::Line(pose)) => pose.at,
         };
@@ -142,7 +150,7 @@ impl Chain {
 
     /// Spirals without an arc between, where centres may be too far away to have digits.
     pub(super) fn alone(start: Pose, end: Vector, links: Vec<Link>) -> Chain {
-        let reached = |link: &Link| (link.second.unwrap_or(link.first).to, 0.0);
+        let reached = |link: &Link| (link.curvatures()[1], 0.0);
         let arcs = links[..links.len() - 1].iter().map(reached).collect();
         Chain { start, end, links, arcs }
     }
@@ -152,12 +160,6 @@ impl Chain {
         self.links.iter().flat_map(Link::spirals)
     }
 
-    /// Its length, nearly.
-    pub(super) fn length(&self, family: Family) -> f64 {
-        let links = self.links.iter().map(|link| link.spirals().map(|s| s.stretched(family)).sum::<f64>() + link.line);
-        links.sum::<f64>() + self.arcs.iter().map(|(k, round)| round / k.abs()).sum::<f64>()
-    }
-
     /// How many pieces it has.
     pub(super) fn pieces(&self) -> usize {
         let links = self.links.iter().map(|link| link.spirals().count() + usize::from(link.line > 0.0));
@@ -165,17 +167,11 @@ impl Chain {
     }
 
     /// What it costs, nearly.
-    pub(super) fn cost(&self, family: Family, objective: Objective) -> f64 {
-        let spirals = || self.spirals();
-        match objective {
-            Objective::Length => self.length(family),
-            Objective::GreatestCurvature => spirals().map(|s| s.from.abs().max(s.to.abs())).fold(0.0, f64::max),
-            Objective::GreatestRate => spirals().map(|s| s.rate()).fold(0.0, f64::max),
-            Objective::BendingEnergy => {
-                spirals().map(|s| s.bending_energy()).sum::<f64>()
-                    + self.arcs.iter().map(|(k, round)| round * k.abs()).sum::<f64>()
-            }
-        }
+    pub(super) fn costs(&self) -> Costs {
+        let spirals = self.links.iter().flat_map(Link::known).map(|known| known.costs);
+        let lines = self.links.iter().map(|link| Costs::line(link.line));
+        let arcs = self.arcs.iter().filter(|(_, round)| *round > 0.0).map(|(k, round)| Costs::arc(k.abs(), *round));
+        spirals.chain(lines).chain(arcs).fold(Costs::default(), Costs::and)
     }
 
     /// In pieces of the user's frame, in which `origin` is the origin here; or the spiral that is not to be had.

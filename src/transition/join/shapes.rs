@@ -3,9 +3,10 @@
 
 use super::alone::{self, Size};
 use super::best::Best;
+use super::costs::Costs;
 use super::link::{Chain, Link, Node, SHORTEST, root};
 use super::locus::{Locus, SAME, beside, meet};
-use super::request::{End, Family, Objective, Request};
+use super::request::{End, Family, Request};
 use super::spiral::{Pose, Spiral};
 use crate::curve::vector::{Vector, add, cross, dot, length, scale, sub, turn, unit};
 use crate::error::Result;
@@ -14,18 +15,14 @@ use crate::error::Result;
 const PEAKS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// How far spirals turn that may be long, radians.
 const ANGLES: [f64; 3] = [0.3, 0.6, 1.0];
+/// How long spirals are that are short, in least radii.
+const SHORT: [f64; 2] = [0.4, 0.8];
 /// How far a line goes beyond the least distance: nearly square to it, at 45° and at 30°.
 const SLANTS: [f64; 3] = [1.02, 1.4, 2.0];
 /// Directions that differ by less, radians, are parallel: well below what joins are exact to.
 const PARALLEL: f64 = 1e-13;
 /// Lines whose corner is farther away than this, in least radii, are joined nearer, too.
 const FAR: f64 = 100.0;
-/// So many chains of those within the bounds are compared: the model that orders them tells length to some hundredths.
-const COMPARED: usize = 6;
-/// So many are built at most; each takes the proofs of a few spirals.
-const BUILT: usize = 100;
-/// A chain is built where the model has it no longer than this times the greatest length.
-const LONGER: f64 = 1.1;
 
 /// Offers joins of two lines and circles, and says why there is none, should there be none.
 ///
@@ -41,29 +38,21 @@ pub(super) fn shapes(request: &Request, best: &mut Best) -> Result<String> {
     if same(&nodes) {
         return Ok(format!("the two {from}s are one, travelled the same way: there is nothing to join"));
     }
-    let Request { family, objective, greatest_curvature: most, .. } = *request;
-    let sought = Sought { family, objective, longest: request.longest * most };
-    let mut chains = sought.chains(nodes);
-    // Those that are much too long are not built.
-    let longest = (LONGER * request.longest * most).min(f64::MAX);
-    chains.retain(|chain| chain.length(family) <= longest && chain.pieces() <= request.most_pieces);
-    let key = |chain: &Chain| (chain.cost(request.family, request.objective), chain.length(request.family));
-    chains.sort_by(|a, b| key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1)));
-    let enough = best.kept + COMPARED;
-    let (mut built, mut missing): (usize, Vec<Spiral>) = (0, Vec::new());
-    for chain in &chains {
+    let Request { family, greatest_curvature: most, .. } = *request;
+    let sought = Sought { family, longest: request.longest * most };
+    let chains = sought.chains(nodes).into_iter().map(|chain| (chain.costs(), chain));
+    // What is too long is not built.
+    let fits = |(costs, chain): &(Costs, Chain)| {
+        costs.length[0] <= sought.longest.min(f64::MAX) && chain.pieces() <= request.most_pieces
+    };
+    let chains: Vec<(Costs, Chain)> = chains.filter(fits).collect();
+    let mut missing: Vec<Spiral> = Vec::new();
+    best.build(&chains, false, |chain| {
         if chain.spirals().any(|spiral| missing.contains(&spiral)) {
-            continue;
+            return Ok(None);
         }
-        match chain.build(request, origin)? {
-            Ok(pieces) => drop(best.offer(pieces)),
-            Err(spiral) => missing.push(spiral),
-        }
-        built += 1;
-        if best.kept >= enough || built >= BUILT {
-            break;
-        }
-    }
+        Ok(chain.build(request, origin)?.map_err(|spiral| missing.push(spiral)).ok())
+    })?;
     Ok(format!("nothing that was tried leads from the {from} to the {to}; a greater limit of curvature gives room"))
 }
 
@@ -117,15 +106,13 @@ fn parallel(turned: f64) -> bool {
 /// What chains are made for.
 struct Sought {
     family: Family,
-    objective: Objective,
     /// Greatest length, in least radii.
     longest: f64,
 }
 
 impl Sought {
     fn chains(&self, nodes: [Node; 2]) -> Vec<Chain> {
-        let mut all: Vec<Chain> =
-            self.direct(&nodes).iter().map(|link| Chain::new(self.family, &nodes, &[*link])).collect();
+        let mut all: Vec<Chain> = self.direct(&nodes).iter().map(|link| Chain::new(&nodes, &[*link])).collect();
         if let [Node::Line(a), Node::Line(b)] = nodes {
             let turned = b.direction - a.direction;
             let corner = meet([Locus::Line(a), Locus::Line(b)])[0].filter(|_| !parallel(turned));
@@ -136,7 +123,7 @@ impl Sought {
             if far > FAR {
                 self.by_two_arcs(a, b, &mut all);
             }
-            let sizes = Size::all(&PEAKS, self.objective, self.longest).into_iter();
+            let sizes = Size::all(&PEAKS, self.longest);
             let Some(corner) = corner.filter(|_| far <= super::FARTHEST) else {
                 if turned.cos() > 0.0 {
                     all.extend(sizes.filter_map(|size| alone::beside(self.family, [a, b], size)));
@@ -155,33 +142,21 @@ impl Sought {
         all
     }
 
-    /// Lengths of spirals between two curvatures.
-    fn lengths(&self, from: f64, to: f64) -> Vec<f64> {
-        let bend = 0.5 * (from.abs() + to.abs());
-        match self.objective {
-            Objective::Length => {
-                let most = Spiral::most(self.family, from, to);
-                [0.4, 0.8].into_iter().filter(|length| length * bend <= most).collect()
-            }
-            _ => ANGLES.into_iter().map(|angle| angle / bend).chain([0.4]).filter(|length| *length >= 0.4).collect(),
-        }
-    }
-
     /// What may lead from one curvature to another, not both 0.
     fn links(&self, from: f64, to: f64) -> Vec<Link> {
-        let direct = || self.lengths(from, to).into_iter().map(move |length| Link::direct(from, to, length));
+        let direct = || lengths(from, to).map(|length| Link::direct(self.family, from, to, length));
         if from == 0.0 || to == 0.0 {
             return direct().collect();
         }
-        let over = self.lengths(from, 0.0).into_iter().zip(self.lengths(0.0, to));
-        let over = over.map(|(a, b)| Link::over_line([from, to], [a, b], 0.0));
+        let over = lengths(from, 0.0).zip(lengths(0.0, to));
+        let over = over.map(|(a, b)| Link::over_line(self.family, [from, to], [a, b]));
         if Spiral::between_round(self.family, from, to) { direct().chain(over).collect() } else { over.collect() }
     }
 
     /// Links that lead from one node to the other: at most one of them is a line.
     fn direct(&self, nodes: &[Node; 2]) -> Vec<Link> {
         let [from, to] = [nodes[0].curvature(), nodes[1].curvature()];
-        let spiral = |angle: f64| Link::direct(from, to, 2.0 * angle / (from.abs() + to.abs()));
+        let spiral = |angle: f64| Link::direct(self.family, from, to, 2.0 * angle / (from.abs() + to.abs()));
         let single = |f: &dyn Fn(&Link) -> f64| {
             let least = 0.5 * SHORTEST * (from.abs() + to.abs());
             root(|angle| f(&spiral(angle)), least, Spiral::most(self.family, from, to)).map(spiral)
@@ -190,42 +165,22 @@ impl Sought {
             [Node::Line(_), Node::Line(_)] => Vec::new(),
             [Node::Line(line), Node::Arc { centre, .. }] => {
                 let beside = cross(line.along(), sub(*centre, line.at));
-                single(&|link| self.after(link) - beside).into_iter().collect()
+                single(&|link| after(link) - beside).into_iter().collect()
             }
             [Node::Arc { centre, .. }, Node::Line(line)] => {
                 let beside = cross(line.along(), sub(*centre, line.at));
-                single(&|link| self.before(link) - beside).into_iter().collect()
+                single(&|link| before(link) - beside).into_iter().collect()
             }
             [Node::Arc { centre: a, .. }, Node::Arc { centre: b, .. }] => {
                 let apart = length(sub(*b, *a));
-                let far = |link: &Link| length(link.hop(self.family)) - apart;
+                let far = |link: &Link| length(link.hop()) - apart;
                 let one = (from * to > 0.0 && from != to && apart > 0.0).then(|| single(&far)).flatten();
-                let pair = |angle: f64| Link::over_line([from, to], [from, to].map(|k| 2.0 * angle / k.abs()), 0.0);
+                let pair =
+                    |angle: f64| Link::over_line(self.family, [from, to], [from, to].map(|k| 2.0 * angle / k.abs()));
                 let least = 0.5 * SHORTEST * from.abs().max(to.abs());
                 let pair = root(|angle| far(&pair(angle)), least, Spiral::most(self.family, from, 0.0)).map(pair);
-                let lines = self.links(from, to).into_iter().filter_map(|link| link.reaching(self.family, apart));
+                let lines = self.links(from, to).into_iter().filter_map(|link| link.reaching(apart));
                 lines.chain(one).chain(pair).collect()
-            }
-        }
-    }
-
-    /// From a line to a circle: how far left of the line its centre is.
-    fn after(&self, link: &Link) -> f64 {
-        link.hop(self.family)[1]
-    }
-
-    /// From a circle to a line: the same.
-    fn before(&self, link: &Link) -> f64 {
-        -turn(unit(-link.angle()), link.hop(self.family))[1]
-    }
-
-    /// Where the centre of an arc is that a link joins with a node: before the arc, or after it.
-    fn locus(&self, node: &Node, link: &Link, after: bool) -> Locus {
-        match node {
-            Node::Arc { centre, .. } => Locus::Circle { centre: *centre, radius: length(link.hop(self.family)) },
-            Node::Line(line) => {
-                let beside = if after { self.after(link) } else { self.before(link) };
-                Locus::Line(Pose { at: add(line.at, turn(line.along(), [0.0, beside])), ..*line })
             }
         }
     }
@@ -233,10 +188,9 @@ impl Sought {
     /// Chains over an arc between.
     fn by_arc(&self, nodes: &[Node; 2], k: f64, [first, last]: [Link; 2], all: &mut Vec<Chain>) {
         let mut add_chains = |links: [Link; 2]| {
-            let loci = [self.locus(&nodes[0], &links[0], true), self.locus(&nodes[1], &links[1], false)];
+            let loci = [locus(&nodes[0], &links[0], true), locus(&nodes[1], &links[1], false)];
             let centres = meet(loci);
-            let chain =
-                |centre| Chain::new(self.family, &[nodes[0], Node::Arc { centre, curvature: k }, nodes[1]], &links);
+            let chain = |centre| Chain::new(&[nodes[0], Node::Arc { centre, curvature: k }, nodes[1]], &links);
             all.extend(centres.into_iter().flatten().map(chain));
             centres[0].is_some()
         };
@@ -246,32 +200,36 @@ impl Sought {
         match nodes {
             // Too far away: a line leads nearer.
             [Node::Line(_), Node::Arc { centre, .. }] => {
-                let far = beside(&self.locus(&nodes[0], &first, true), *centre);
+                let far = beside(&locus(&nodes[0], &first, true), *centre);
                 for slant in SLANTS {
-                    last.reaching(self.family, far * slant).map(|last| add_chains([first, last]));
+                    last.reaching(far * slant).map(|last| add_chains([first, last]));
                 }
             }
             [Node::Arc { centre, .. }, Node::Line(_)] => {
-                let far = beside(&self.locus(&nodes[1], &last, false), *centre);
+                let far = beside(&locus(&nodes[1], &last, false), *centre);
                 for slant in SLANTS {
-                    first.reaching(self.family, far * slant).map(|first| add_chains([first, last]));
+                    first.reaching(far * slant).map(|first| add_chains([first, last]));
                 }
             }
             // One about the other: the second link is made as long as the first.
             [Node::Arc { .. }, Node::Arc { curvature: to, .. }] => {
-                let far = length(first.hop(self.family));
-                let stretched = |factor: f64| match last.second {
-                    None => Link::direct(k, *to, factor * last.first.length),
-                    Some(second) => {
-                        Link::over_line([k, *to], [last.first.length, second.length].map(|x| factor * x), 0.0)
-                    }
+                let far = length(first.hop());
+                let lengths = [Some(last.first), last.second].map(|known| known.map(|known| known.spiral.length));
+                let stretched = |factor: f64| match lengths.map(|length| length.map(|x| factor * x)) {
+                    [Some(first), Some(second)] => Link::over_line(self.family, [k, *to], [first, second]),
+                    [first, _] => Link::direct(self.family, k, *to, first.unwrap_or_default()),
                 };
-                let bend = (k.abs() + if last.second.is_none() { to.abs() } else { 0.0 }).max(to.abs());
-                let long = last.second.map_or(last.first.length, |second| second.length.max(last.first.length));
-                let most =
-                    2.0 * Spiral::most(self.family, k, if last.second.is_none() { *to } else { 0.0 }) / (bend * long);
-                let short = last.second.map_or(last.first.length, |second| second.length.min(last.first.length));
-                let factor = root(|x| length(stretched(x).hop(self.family)) - far, SHORTEST / short, most);
+                let (long, short) = lengths
+                    .iter()
+                    .flatten()
+                    .fold((0.0f64, f64::INFINITY), |(long, short), length| (long.max(*length), short.min(*length)));
+                let (bend, most) = if last.second.is_none() {
+                    (k.abs() + to.abs(), Spiral::most(self.family, k, *to))
+                } else {
+                    (k.abs().max(to.abs()), Spiral::most(self.family, k, 0.0))
+                };
+                let most = 2.0 * most / (bend * long);
+                let factor = root(|x| length(stretched(x).hop()) - far, SHORTEST / short, most);
                 factor.map(|factor| add_chains([first, stretched(factor)]));
             }
             [Node::Line(_), Node::Line(_)] => {}
@@ -282,15 +240,15 @@ impl Sought {
     fn half_turns(&self, a: Pose, b: Pose, all: &mut Vec<Chain>) {
         let apart = cross(a.along(), sub(b.at, a.at));
         for angle in ANGLES {
-            let k = 2.0 * self.after(&Link::direct(0.0, 1.0, 2.0 * angle)) / apart;
+            let k = 2.0 * after(&Link::direct(self.family, 0.0, 1.0, 2.0 * angle)) / apart;
             if k.is_nan() || k.abs() > 1.0 || k == 0.0 {
                 continue;
             }
             let length = 2.0 * angle / k.abs();
-            let links = [Link::direct(0.0, k, length), Link::direct(k, 0.0, length)];
-            let centre = add(a.at, turn(a.along(), links[0].hop(self.family)));
+            let links = [Link::direct(self.family, 0.0, k, length), Link::direct(self.family, k, 0.0, length)];
+            let centre = add(a.at, turn(a.along(), links[0].hop()));
             let arc = Node::Arc { centre, curvature: k };
-            all.push(Chain::new(self.family, &[Node::Line(a), arc, Node::Line(b)], &links));
+            all.push(Chain::new(&[Node::Line(a), arc, Node::Line(b)], &links));
         }
     }
 
@@ -299,16 +257,16 @@ impl Sought {
         let (from, to) = (Node::Line(a), Node::Line(b));
         for k in PEAKS.into_iter().flat_map(|k| [k, -k]) {
             for ((first, last), (next, other)) in self.pairs(k) {
-                let centre = add(a.at, turn(a.along(), first.hop(self.family)));
+                let centre = add(a.at, turn(a.along(), first.hop()));
                 let arc = Node::Arc { centre, curvature: k };
-                let line = self.locus(&to, &last, false);
+                let line = locus(&to, &last, false);
                 let far = beside(&line, centre);
-                let longer = SLANTS.into_iter().filter_map(|slant| next.reaching(self.family, far * slant));
+                let longer = SLANTS.into_iter().filter_map(|slant| next.reaching(far * slant));
                 for next in longer.chain([next]) {
-                    let radius = length(next.hop(self.family));
+                    let radius = length(next.hop());
                     for centre in meet([line, Locus::Circle { centre, radius }]).into_iter().flatten() {
                         let nodes = [from, arc, Node::Arc { centre, curvature: other }, to];
-                        all.push(Chain::new(self.family, &nodes, &[first, next, last]));
+                        all.push(Chain::new(&nodes, &[first, next, last]));
                     }
                 }
             }
@@ -326,6 +284,33 @@ impl Sought {
             );
         }
         all
+    }
+}
+
+/// Lengths of spirals between two curvatures, one of them not 0.
+fn lengths(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let bend = 0.5 * (from.abs() + to.abs());
+    SHORT.into_iter().chain(ANGLES.into_iter().map(move |angle| angle / bend).filter(|length| *length >= SHORT[0]))
+}
+
+/// From a line to a circle: how far left of the line its centre is.
+fn after(link: &Link) -> f64 {
+    link.hop()[1]
+}
+
+/// From a circle to a line: the same.
+fn before(link: &Link) -> f64 {
+    -turn(unit(-link.angle()), link.hop())[1]
+}
+
+/// Where the centre of an arc is that a link joins with a node: before the arc, or after it.
+fn locus(node: &Node, link: &Link, follows: bool) -> Locus {
+    match node {
+        Node::Arc { centre, .. } => Locus::Circle { centre: *centre, radius: length(link.hop()) },
+        Node::Line(line) => {
+            let beside = if follows { after(link) } else { before(link) };
+            Locus::Line(Pose { at: add(line.at, turn(line.along(), [0.0, beside])), ..*line })
+        }
     }
 }
 

@@ -14,25 +14,14 @@ use crate::curve::vector::{add, cross, dot, length, scale, sub, turn, unit};
 use crate::error::Result;
 use std::f64::consts::PI;
 
-/// How many of the best ways by each objective are built. Curvatures are known, rates to a fifth for most.
-const BUILT: [(Objective, usize); 4] = [
-    (Objective::Length, 1),
-    (Objective::GreatestCurvature, 2),
-    (Objective::GreatestRate, 6),
-    (Objective::BendingEnergy, 4),
-];
-
 /// A way that is found but not built yet: turns by their places in the lists, and how far their arcs go round.
 #[derive(Debug, Clone, Copy)]
 struct Way {
-    costs: Costs,
     first: usize,
     last: usize,
     arcs: [f64; 2],
     /// The side of a middle turn, +1 left, and its arc; without it there is a line.
     middle: Option<(f64, f64)>,
-    /// The length of what was built, should it be within the bounds.
-    built: Option<Option<f64>>,
 }
 
 /// Offers joins of two states.
@@ -60,7 +49,7 @@ struct Ways<'r> {
     request: &'r Request,
     ends: [&'r State; 2],
     turns: [Vec<Turn>; 2],
-    all: Vec<Way>,
+    all: Vec<(Costs, Way)>,
     /// Only the shortest counts.
     shortest: bool,
     /// Longer ones need not be found.
@@ -100,7 +89,7 @@ impl<'r> Ways<'r> {
         }
         ways.turns = turns;
         let most = ways.most;
-        ways.all.retain(|way| way.costs.length[0] <= most);
+        ways.all.retain(|(costs, _)| costs.length[0] <= most);
         ways
     }
 
@@ -112,14 +101,14 @@ impl<'r> Ways<'r> {
     }
 
     /// Adds a way, if it is within the bounds.
-    fn add(&mut self, [a, b]: [&Turn; 2], [first, last]: [usize; 2], way: Way) -> bool {
+    fn add(&mut self, [a, b]: [&Turn; 2], [first, last]: [usize; 2], (costs, way): (Costs, Way)) -> bool {
         let between =
             if way.middle.is_some_and(|(_, arc)| arc > 0.0) { 3 } else { 1 + usize::from(way.middle.is_some()) };
         let pieces = a.pieces(way.arcs[0]) + b.pieces(way.arcs[1]) + between;
-        let fits = way.costs.length[0] <= self.most && pieces <= self.request.most_pieces;
+        let fits = costs.length[0] <= self.most && pieces <= self.request.most_pieces;
         if fits {
-            self.bound(way.costs.length[1]);
-            self.all.push(Way { first, last, ..way });
+            self.bound(costs.length[1]);
+            self.all.push((costs, Way { first, last, ..way }));
         }
         fits
     }
@@ -163,45 +152,21 @@ impl<'r> Ways<'r> {
     }
 
     /// Builds and offers the best. Whether all were to be had that were tried.
-    fn build(mut self, best: &mut Best) -> Result<bool> {
+    fn build(&self, best: &mut Best) -> Result<bool> {
         let mut shut = self.turns.each_ref().map(|turns| vec![false; turns.len()]);
-        for (objective, enough) in BUILT.into_iter().take(if self.shortest { 1 } else { BUILT.len() }) {
-            // The shortest of equals come first.
-            self.all.sort_by(|a, b| {
-                let by = |way: &Way| way.costs.by(objective);
-                by(a).total_cmp(&by(b)).then(a.costs.by(Objective::Length).total_cmp(&b.costs.by(Objective::Length)))
-            });
-            let (mut kept, mut shortest) = (0, f64::INFINITY);
-            for way in &mut self.all {
-                let shorter = objective == Objective::Length && way.costs.length[0] < shortest;
-                if kept >= enough && !shorter {
-                    continue;
-                }
-                if shut[0][way.first] || shut[1][way.last] {
-                    continue;
-                }
-                let length = match way.built {
-                    Some(length) => length,
-                    None => match build(
-                        self.request,
-                        self.ends,
-                        [&self.turns[0][way.first], &self.turns[1][way.last]],
-                        way,
-                    )? {
-                        Built::Join(pieces) => best.offer(pieces),
-                        Built::Shut(end) => {
-                            shut[end][if end == 0 { way.first } else { way.last }] = true;
-                            continue;
-                        }
-                    },
-                };
-                way.built = Some(length);
-                if let Some(length) = length {
-                    kept += 1;
-                    shortest = shortest.min(length * self.request.greatest_curvature);
-                }
+        best.build(&self.all, self.shortest, |way| {
+            if shut[0][way.first] || shut[1][way.last] {
+                return Ok(None);
             }
-        }
+            let turns = [&self.turns[0][way.first], &self.turns[1][way.last]];
+            Ok(match build(self.request, self.ends, turns, way)? {
+                Built::Join(pieces) => Some(pieces),
+                Built::Shut(end) => {
+                    shut[end][if end == 0 { way.first } else { way.last }] = true;
+                    None
+                }
+            })
+        })?;
         Ok(!shut.iter().flatten().any(|shut| *shut))
     }
 }
@@ -287,17 +252,17 @@ fn corner(request: &Request, [from, to]: [&State; 2]) -> Result<Option<Vec<Piece
 }
 
 /// Two turns with a line between.
-fn along([a, b]: [&Turn; 2], arcs: [f64; 2], line: f64) -> Way {
+fn along([a, b]: [&Turn; 2], arcs: [f64; 2], line: f64) -> (Costs, Way) {
     let costs = a.costs(arcs[0]).and(b.costs(arcs[1])).and(Costs::line(line));
-    Way { costs, first: 0, last: 0, arcs, middle: None, built: None }
+    (costs, Way { first: 0, last: 0, arcs, middle: None })
 }
 
 /// Two turns with a third between.
-fn by_turn([a, b]: [&Turn; 2], between: &Between) -> Way {
+fn by_turn([a, b]: [&Turn; 2], between: &Between) -> (Costs, Way) {
     let Between { side, arc, directions: [from, to], costs } = *between;
     let arcs = [a.arc(from), b.arc(to + PI)];
     let costs = a.costs(arcs[0]).and(costs).and(b.costs(arcs[1]));
-    Way { costs, first: 0, last: 0, arcs, middle: Some((side, arc)), built: None }
+    (costs, Way { first: 0, last: 0, arcs, middle: Some((side, arc)) })
 }
 
 /// A way in pieces, or the end, 0 or 1, whose turn is not to be had.

@@ -7,6 +7,7 @@ use crate::curve::{TrigBezier, gauss};
 use crate::error::Result;
 use crate::family::trig_quintic::{SPIRAL, Scaling, Shape, flags};
 use crate::num::roots::find;
+use crate::steps::step as count;
 use std::f64::consts::PI;
 
 /// The most that a spiral with a straight end turns that is no clothoid, radians.
@@ -34,7 +35,10 @@ impl TrigWay {
         // A ratio of 6 gives spirals for all angles to a straight end that are used here.
         let shape = Shape { ratio: 6.0, theta, m: 1.0, p: 0.0, q: 0.0 };
         let curve = shape.curve(1.0 / round, Scaling::Corrected);
-        let over = |t: f64| curve.jet(t).curvature() - flat;
+        let over = |t: f64| {
+            count();
+            curve.jet(t).curvature() - flat
+        };
         let begins = if flat == 0.0 { 0.0 } else { find(over, 0.0, 1.0, 1e-17) };
         TrigWay { shape, round, rising: from.abs() < to.abs(), curve, from: begins }
     }
@@ -94,5 +98,33 @@ impl TrigWay {
         let before = turn(along, sub(curve.jet(from).point, curve.start));
         let curve = curve.mapped(sub(at, before), |z| turn(along, z));
         Ok(Some(Piece::TrigQuintic(TrigPart { curve, from, to })))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steps::counted;
+
+    /// One root is sought inside the other, and halving would end each after some 60 steps: 3600. It takes fewer,
+    /// however near the angle is to nothing or to the most there is, and the curvatures to each other or to 0.
+    #[test]
+    fn the_part_that_turns_by_an_angle_takes_bounded_steps() {
+        let (mut worst, mut found) = (0, 0);
+        for flat in [1e-15, 1e-9, 1e-3, 0.1, 0.5, 0.9, 0.999, 1.0 - 1e-9, 1.0 - 1e-15] {
+            for [from, to] in [[flat, 1.0], [1.0, flat]] {
+                let most = TrigWay::whole(STRAIGHT, from, to).angle();
+                let shares = (1..20).map(|i| f64::from(i) / 20.0).chain((1..50).map(|i| 2f64.powi(-i)));
+                for share in shares.flat_map(|share| [share, 1.0 - share]).chain([1.0]) {
+                    let (steps, way) = counted(|| TrigWay::of(share * most, from, to));
+                    worst = worst.max(steps);
+                    let Some(way) = way else { continue };
+                    assert!((way.angle() - share * most).abs() < 1e-14, "{from} {to} {share}: {}", way.angle());
+                    found += 1;
+                }
+            }
+        }
+        println!("{found}: {worst}");
+        assert!(found > 1500 && worst <= 2500, "{found}: {worst}");
     }
 }

@@ -7,7 +7,7 @@ use spiral_atlas::family::any_spiral::{EXISTS, INFLECTION, RISING};
 use std::cmp::Ordering;
 
 /// The flags in exact arithmetic.
-pub(super) fn judge(datum: Datum) -> u8 {
+pub(crate) fn judge(datum: Datum) -> u8 {
     let mut bits = 320;
     loop {
         match attempt(datum, bits) {

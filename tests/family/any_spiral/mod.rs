@@ -10,6 +10,8 @@ mod verdicts;
 
 use crate::oracle::{iv, random};
 
+pub(crate) use judge::judge;
+
 pub(crate) use random::Random;
 use spiral_atlas::family::{Code, by_name};
 use spiral_atlas::grid::{Axis, Grid, Spacing};
