@@ -101,7 +101,7 @@ impl Obstacles {
     /// Sides that may be within a distance of a segment: all that are, and some more.
     pub(super) fn near(&self, segment: [Point; 2], within: f64) -> impl Iterator<Item = &Side> {
         self.tree
-            .locate_with_selection_function(Near { segment, within })
+            .locate_with_selection_function(Near::new(segment, within, self.size))
             .inspect(|_| self.looks.set(self.looks.get() + 1))
     }
 
@@ -269,21 +269,38 @@ pub(super) fn between(one: [Point; 2], two: [Point; 2]) -> f64 {
 
 /// Boxes that may be within a distance of a segment.
 struct Near {
-    segment: [Point; 2],
+    start: Point,
+    low: Point,
+    high: Point,
+    along: Point,
+    length: f64,
     within: f64,
+}
+
+impl Near {
+    /// Of boxes whose coordinates are no larger than `size`.
+    fn new([a, b]: [Point; 2], within: f64, size: f64) -> Near {
+        let along = sub(b, a);
+        let size = a.iter().chain(&b).fold(size, |most, x| most.max(x.abs()));
+        Near {
+            start: a,
+            low: [0, 1].map(|i| a[i].min(b[i])),
+            high: [0, 1].map(|i| a[i].max(b[i])),
+            along,
+            length: along[0].hypot(along[1]),
+            within: within + 1e-12 * size,
+        }
+    }
 }
 
 impl SelectionFunction<Side> for Near {
     /// Not when a line along an axis or along the segment keeps them further apart, by more than rounding.
     fn should_unpack_parent(&self, envelope: &AABB<Point>) -> bool {
-        let ([a, b], low, high) = (self.segment, envelope.lower(), envelope.upper());
-        let size = a.iter().chain(&b).chain(&low).chain(&high).fold(0.0f64, |most, x| most.max(x.abs()));
-        let within = self.within + 1e-12 * size;
-        if (0..2).any(|i| a[i].min(b[i]) - high[i] > within || low[i] - a[i].max(b[i]) > within) {
+        let Near { start: a, along: d, length, within, .. } = *self;
+        let (low, high) = (envelope.lower(), envelope.upper());
+        if (0..2).any(|i| self.low[i] - high[i] > within || low[i] - self.high[i] > within) {
             return false;
         }
-        let d = [b[0] - a[0], b[1] - a[1]];
-        let length = d[0].hypot(d[1]);
         // Distance of the box's middle from the line, and how far the box reaches across it.
         let middle = [0.5 * (low[0] + high[0]) - a[0], 0.5 * (low[1] + high[1]) - a[1]];
         let across = (d[0] * middle[1] - d[1] * middle[0]).abs();
