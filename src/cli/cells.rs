@@ -1,15 +1,15 @@
 //! What the commands do with an atlas of cells.
 
-use super::Outcome;
 use super::legend::{self, flags, head, spacing, tail};
 use super::output::{self, Object, Product, grouped};
+use super::{Outcome, draw};
 use spiral_atlas::atlas::{Atlas, Kind};
 use spiral_atlas::cells::{self, Attack, Built, Cells, Known, Spec, Verified};
 use spiral_atlas::files::{size, write_file};
 use spiral_atlas::plot::Format;
-use spiral_atlas::recipe::{AtlasPlan, PicturePlan, Recipe};
-use spiral_atlas::{Result, atlas, picture};
-use std::path::{Path, PathBuf};
+use spiral_atlas::recipe::{AtlasPlan, Recipe};
+use spiral_atlas::{Result, atlas};
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -52,11 +52,6 @@ pub(super) struct Made {
     files: Vec<Product>,
 }
 
-/// What a plan of cells specifies, with the budget that it has.
-pub(super) fn spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> Spec<'a> {
-    Spec { name: &plan.name, family: plan.family, grid: &plan.grid, budget, recipe: &recipe.text }
-}
-
 /// Makes cells, with a bar that shows how many have been divided.
 fn with_bar<T>(name: &str, most_bytes: u64, make: impl FnOnce(&(dyn Fn(u64) + Sync)) -> T) -> T {
     // How many will be divided is not known before: a cell takes some five bytes.
@@ -78,7 +73,7 @@ pub(super) fn in_memory(
     threads: usize,
     stop: &AtomicBool,
 ) -> Result<Cells> {
-    let spec = spec(recipe, plan, budget);
+    let spec = draw::cells_spec(recipe, plan, budget);
     Cells::from_bytes(&cells::bytes(&spec, &build(&spec, threads, stop)?)?)
 }
 
@@ -91,7 +86,7 @@ pub(super) fn make(
     threads: usize,
     stop: &AtomicBool,
 ) -> Result<Made> {
-    let spec = spec(recipe, plan, budget);
+    let spec = draw::cells_spec(recipe, plan, budget);
     let started = Instant::now();
     let built = build(&spec, threads, stop)?;
     let path = output::atlas_path(out, &plan.name);
@@ -110,7 +105,7 @@ pub(super) fn make(
     let beside = output::report_path(out, &plan.name);
     write_file(&beside, (output::to_json(&made)? + "\n").as_bytes())?;
     made.files = vec![Product::of(&path)?, Product::of(&beside)?];
-    made.files.extend(draw(&cells, &plan.pictures, out, Format::Png)?);
+    made.files.extend(draw::of_cells(&cells, &plan.pictures, out, Format::Png)?);
     Ok(made)
 }
 
@@ -122,16 +117,6 @@ impl Made {
         );
         text + &self.files.iter().map(Product::line).collect::<String>()
     }
-}
-
-/// Draws pictures of cells into a folder.
-pub(super) fn draw(cells: &Cells, plans: &[PicturePlan], folder: &Path, format: Format) -> Result<Vec<Product>> {
-    let files = picture::files(folder, &cells.about().name, plans.len(), format);
-    let draw = |(plan, file): (&PicturePlan, PathBuf)| {
-        write_file(&file, &picture::cells::draw(cells, plan)?.file(format)?)?;
-        Product::of(&file)
-    };
-    plans.iter().zip(files).map(draw).collect()
 }
 
 #[derive(serde::Serialize)]

@@ -2,20 +2,41 @@
 
 use super::output::Product;
 use spiral_atlas::atlas::Atlas;
+use spiral_atlas::cells::{self, Cells, Spec};
 use spiral_atlas::files::{check_place, write_file};
-use spiral_atlas::plot::Format;
+use spiral_atlas::plot::{Drawing, Format};
 use spiral_atlas::recipe::{AtlasPlan, Look, PictureKind, PicturePlan, Recipe};
 use spiral_atlas::{Error, Result, picture, plain};
 use std::path::{Path, PathBuf};
 
 /// Draws an atlas's pictures into a folder.
 pub(super) fn one(atlas: &Atlas, plans: &[PicturePlan], folder: &Path, format: Format) -> Result<Vec<Product>> {
-    let files = picture::files(folder, &atlas.about().name, plans.len(), format);
-    let draw = |(plan, file): (&PicturePlan, PathBuf)| {
-        write_file(&file, &picture::draw(atlas, plan)?.file(format)?)?;
+    each(&atlas.about().name, plans, folder, format, |plan| picture::draw(atlas, plan))
+}
+
+/// Draws pictures of cells into a folder.
+pub(super) fn of_cells(cells: &Cells, plans: &[PicturePlan], folder: &Path, format: Format) -> Result<Vec<Product>> {
+    each(&cells.about().name, plans, folder, format, |plan| picture::cells::draw(cells, plan))
+}
+
+fn each(
+    name: &str,
+    plans: &[PicturePlan],
+    folder: &Path,
+    format: Format,
+    draw: impl Fn(&PicturePlan) -> Result<Drawing>,
+) -> Result<Vec<Product>> {
+    let files = picture::files(folder, name, plans.len(), format);
+    let write = |(plan, file): (&PicturePlan, PathBuf)| {
+        write_file(&file, &draw(plan)?.file(format)?)?;
         Product::of(&file)
     };
-    plans.iter().zip(files).map(draw).collect()
+    plans.iter().zip(files).map(write).collect()
+}
+
+/// What a plan of cells specifies, with the budget that it has.
+pub(super) fn cells_spec<'a>(recipe: &'a Recipe, plan: &'a AtlasPlan, budget: u64) -> Spec<'a> {
+    Spec { name: &plan.name, family: plan.family, grid: &plan.grid, budget, recipe: &recipe.text }
 }
 
 fn first_slice(pictures: &[PicturePlan]) -> Option<&PicturePlan> {
@@ -54,7 +75,7 @@ pub(super) fn together(
 pub(super) fn check(source: &Path, recipe: &Recipe, folder: &Path, format: Format) -> Result<()> {
     for plan in &recipe.atlases {
         let checked = match plan.cells {
-            Some(budget) => spiral_atlas::cells::check(&super::cells::spec(recipe, plan, budget)),
+            Some(budget) => cells::check(&cells_spec(recipe, plan, budget)),
             None => plan.family.table(&plan.grid).map(drop),
         };
         checked.map_err(|e| match e {

@@ -6,6 +6,7 @@ use spiral_atlas::error::{Domain, Error};
 use spiral_atlas::recipe::{parse_curvature, parse_number};
 use spiral_atlas::transition::MOST_SAMPLES;
 use spiral_atlas::transition::join::Family;
+use std::str::FromStr;
 
 /// A curvature is hardly meant that is so many times one over the distance of the ends.
 const LARGE: f64 = 1e3;
@@ -23,6 +24,12 @@ fn advised(error: &Error, advice: &str) -> String {
         Error::Domain(Domain::NoNumber { instead: Some(_), .. }) => error.to_string(),
         _ => format!("{error}; {advice}"),
     }
+}
+
+/// Two of a kind, with a comma between.
+pub(super) fn two<T: FromStr>(text: &str) -> Option<[T; 2]> {
+    let (first, second) = text.split_once(',')?;
+    Some([first.trim().parse().ok()?, second.trim().parse().ok()?])
 }
 
 /// A curvature: a number, or `1/radius`.

@@ -46,7 +46,7 @@ pub(super) fn run(args: &Args) -> Result<Outcome> {
             Opened::Nodes(atlas) => {
                 draw::one(atlas, &picture::plans(atlas.about(), atlas.grid())?, &args.out, args.format)?
             }
-            Opened::Cells(found) => cells::draw(found, &picture::cells::plans(found)?, &args.out, args.format)?,
+            Opened::Cells(found) => draw::of_cells(found, &picture::cells::plans(found)?, &args.out, args.format)?,
         }
     };
     if args.json {
@@ -68,7 +68,7 @@ fn of_recipe(args: &Args) -> Result<Vec<Product>> {
     for plan in &recipe.atlases {
         if let Some(budget) = plan.cells {
             let found = cells::in_memory(&recipe, plan, budget, args.backend.threads(), &stop)?;
-            products.extend(cells::draw(&found, &picture::cells::plans(&found)?, &args.out, args.format)?);
+            products.extend(draw::of_cells(&found, &picture::cells::plans(&found)?, &args.out, args.format)?);
             continue;
         }
         // Beside the pictures: there is room for them, and the system's own folder may be memory.

@@ -9,6 +9,7 @@ mod blocks;
 pub mod cubic;
 mod hermite;
 mod kernel;
+mod last;
 mod outer;
 mod outer_region;
 pub mod ph_path;

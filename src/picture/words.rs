@@ -1,13 +1,6 @@
 //! Numbers and angles as readers of pictures and reports want them.
 
-pub use crate::plot::short;
-
-/// A number with its digits in groups of three.
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let breaks = |i: usize| i > 0 && (digits.len() - i).is_multiple_of(3);
-    digits.chars().enumerate().flat_map(|(i, c)| breaks(i).then_some(',').into_iter().chain([c])).collect()
-}
+pub use crate::plot::{grouped, short};
 
 /// An angle in degrees when it was written so, that is when these have at most three decimals; else in radians.
 pub fn angle(x: f64) -> String {
@@ -27,12 +20,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_readable() {
-        assert_eq!([0, 999, 1000, 1234567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
-    }
-
-    #[test]
-    fn angles_are_told_as_they_were_written() {
+    fn angles_are_shown_as_they_were_written() {
         assert_eq!([45f64, -15.5, 0.0, 89.001].map(|x| angle(x.to_radians())), ["45°", "−15.5°", "0°", "89.001°"]);
         assert_eq!(angles(&[0.0, 45f64.to_radians()]), ["0°", "45°"]);
         assert_eq!(angles(&[0.0, 45f64.to_radians(), 0.3332]), ["0", "0.7854", "0.3332"]);

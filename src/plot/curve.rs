@@ -69,10 +69,7 @@ pub struct CurveFigure {
 pub fn draw_curve(figure: &CurveFigure, size: (u32, u32)) -> Result<Drawing> {
     let mut canvas = Drawing::new(size)?;
     check(figure)?;
-    let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 64.0).max(10.0);
-    let style = Style { em, slack: em * 0.8 };
-    let sheet = canvas.rect().grown(-style.px(1.2));
-    let heading = Heading::new(&canvas, &figure.title, &figure.note, style, sheet.width());
+    let (style, sheet, heading) = Heading::of_figure(&canvas, &figure.title, &figure.note, size);
     let entries = entries(figure);
     let legend = Legend::new(&canvas, &entries, style, sheet.width());
     let body = Rect {

@@ -118,6 +118,19 @@ impl Heading<'_> {
         Heading { title, note: canvas.wrap(style.em * 0.95, note, width.into()) }
     }
 
+    /// That of a figure of a size in pixels, with the figure's style and the sheet within its margins.
+    pub(super) fn of_figure<'a>(
+        canvas: &Drawing,
+        title: &'a str,
+        note: &str,
+        size: (u32, u32),
+    ) -> (Style, Rect, Heading<'a>) {
+        let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 64.0).max(10.0);
+        let style = Style { em, slack: em * 0.8 };
+        let sheet = canvas.rect().grown(-style.px(1.2));
+        (style, sheet, Heading::new(canvas, title, note, style, sheet.width()))
+    }
+
     pub(super) fn height(&self, style: Style) -> i32 {
         let title = if self.title.is_empty() { 0.0 } else { 1.8 };
         style.px(title + 1.35 * self.note.len() as f64)

@@ -148,7 +148,7 @@ pub fn short(x: f64) -> String {
 }
 
 /// A number with its digits in groups of three.
-fn grouped(number: usize) -> String {
+pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let breaks = |i: usize| i > 0 && (digits.len() - i).is_multiple_of(3);
     digits.chars().enumerate().flat_map(|(i, c)| breaks(i).then_some(',').into_iter().chain([c])).collect()
@@ -156,6 +156,11 @@ fn grouped(number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn large_numbers_have_groups_of_digits() {
+        assert_eq!([0, 999, 1000, 1234567].map(super::grouped), ["0", "999", "1,000", "1,234,567"]);
+    }
+
     #[test]
     fn short_numbers_have_four_digits() {
         assert_eq!([0.0, 5e-324, -1e300, 1e-310].map(super::short), ["0", "4.941e−324", "−1e300", "1e−310"]);

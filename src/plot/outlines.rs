@@ -6,7 +6,6 @@ use super::legend::Heading;
 use super::palette::{GROWN, INK, LINES};
 use super::paths::{finish, narrowed};
 use super::scale::Scale;
-use super::style::Style;
 use crate::error::{Error, Result};
 
 /// What [`draw_outlines`] draws.
@@ -38,10 +37,7 @@ pub fn draw_outlines(figure: &OutlinesFigure, size: (u32, u32)) -> Result<Drawin
     if !points.flatten().all(|v| v.is_finite()) {
         return Err(Error::invalid("outlines figure: all points must be finite"));
     }
-    let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 64.0).max(10.0);
-    let style = Style { em, slack: em * 0.8 };
-    let sheet = canvas.rect().grown(-style.px(1.2));
-    let heading = Heading::new(&canvas, &figure.title, &figure.note, style, sheet.width());
+    let (style, sheet, heading) = Heading::of_figure(&canvas, &figure.title, &figure.note, size);
     heading.draw(&mut canvas, style, sheet);
     let top = sheet.top + heading.height(style) + style.px(0.3);
     let body = Rect { top, bottom: sheet.bottom - style.below() - style.px(1.6), ..sheet };

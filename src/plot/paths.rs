@@ -76,10 +76,7 @@ pub fn draw_paths(figure: &PathsFigure, size: (u32, u32)) -> Result<Drawing> {
             return Err(Error::invalid(format!("paths figure: the {name} must have points, all finite")));
         }
     }
-    let em = ((f64::from(size.0) * f64::from(size.1)).sqrt() / 64.0).max(10.0);
-    let style = Style { em, slack: em * 0.8 };
-    let sheet = canvas.rect().grown(-style.px(1.2));
-    let heading = Heading::new(&canvas, &figure.title, &figure.note, style, sheet.width());
+    let (style, sheet, heading) = Heading::of_figure(&canvas, &figure.title, &figure.note, size);
     let bottom = sheet.bottom - style.below() - style.px(1.6);
     let body = Rect { top: sheet.top + heading.height(style) + style.px(0.3), bottom, ..sheet };
     heading.draw(&mut canvas, style, sheet);

@@ -245,7 +245,7 @@ pub(super) fn entries(slices: &[&Slice], stars: bool) -> Vec<Entry> {
         let share = 100.0 * count as f64 / nodes as f64;
         let share = if count > 0 && share < 0.05 { "< 0.1".into() } else { format!("{share:.1}") };
         let s = if count == 1 { "" } else { "s" };
-        format!("{label}: {} {}{s} ({share} %)", grouped(count), first.counted)
+        format!("{label}: {} {}{s} ({share} %)", grouped(count as u64), first.counted)
     };
     let count = |region: &Region| region.mask.iter().filter(|inside| **inside).count();
     let colors = region_colors(first.regions.len());

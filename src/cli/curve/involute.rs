@@ -1,6 +1,7 @@
 //! `curve involute`: the spiral that exists whenever any does (Kurnosenko).
 
 use super::super::Outcome;
+use super::super::numbers::two;
 use super::options::Between;
 use super::{Reportable, end_circles};
 use serde::Serialize;
@@ -27,8 +28,7 @@ impl Args {
 
 /// Two whole numbers with a comma between.
 fn parse_turns(text: &str) -> std::result::Result<[u32; 2], String> {
-    let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
-    both.ok_or_else(|| format!("{text:?} is not two numbers of turns `n1,n2`"))
+    two(text).ok_or_else(|| format!("{text:?} is not two numbers of turns `n1,n2`"))
 }
 
 /// What is known of two ends, and the curve in the user's units.

@@ -161,8 +161,8 @@ impl Output {
 
 /// Two numbers with a comma between.
 pub(super) fn point(text: &str) -> std::result::Result<[f64; 2], String> {
-    let both = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
-    both.filter(|p: &[f64; 2]| p.iter().all(|v| v.is_finite()))
+    numbers::two(text)
+        .filter(|p: &[f64; 2]| p.iter().all(|v| v.is_finite()))
         .ok_or_else(|| format!("{text:?} is not two finite numbers `x,y`"))
 }
 

@@ -1,5 +1,6 @@
 //! What depends on the two tangent angles alone, enclosed.
 
+use crate::family::last::{Last, kept};
 use crate::family::outer::Sines;
 use crate::num::{Interval, formula};
 use std::cell::RefCell;
@@ -15,20 +16,10 @@ pub(super) struct Angles {
 }
 
 impl Angles {
-    /// [`Angles::new`], kept for the next call: neighbouring nodes share their angles, and the sines cost more than all
-    /// else.
+    /// [`Angles::new`], kept for the next call.
     pub(super) fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Angles>> {
-        type Last = Option<([u64; 2], usize, Rc<Angles>)>;
-        thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });
-        let key = [phi0.to_bits(), phi1.to_bits()];
-        LAST.with_borrow_mut(|last| match last {
-            Some((k, b, angles)) if *k == key && *b == bits => Some(angles.clone()),
-            _ => {
-                let angles = Rc::new(Angles::new(phi0, phi1, bits)?);
-                *last = Some((key, bits, angles.clone()));
-                Some(angles)
-            }
-        })
+        thread_local!(static LAST: Last<([u64; 2], usize), Angles> = const { RefCell::new(None) });
+        kept(&LAST, ([phi0, phi1].map(f64::to_bits), bits), || Angles::new(phi0, phi1, bits))
     }
 
     pub(super) fn new(phi0: f64, phi1: f64, bits: usize) -> Option<Angles> {

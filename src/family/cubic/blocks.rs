@@ -23,14 +23,14 @@
 //!
 //! **B0, B1, B2** at these forms are those of `surface.rs`.
 
-use super::filter::{Cases, Planes, bit, cases, count, starts};
+use super::filter::{Cases, Planes, bit, cases, starts};
 use super::pair::Pair;
 use super::poly::side;
 use super::precision::{Precision, Prepared};
 use super::root::{Data, settle};
 use super::surface::{Spread, Surface};
 use super::table::CubicTable;
-use super::{ANY_SPIRAL, Code, SOLVABLE, SPIRAL, THEOREM31, THEOREM31_ANY};
+use super::{ANY_SPIRAL, Code};
 use crate::family::blocks::Blocks;
 use crate::family::outer;
 use crate::family::rows::bits;
@@ -180,12 +180,7 @@ fn roots<S: Simd>(
         let root = enclose(simd, middle, forms, start, which, wanted);
         let (theorem, spirals, known) = judge(simd, plane, &root, wanted & root.proved);
         planes.undecided |= wanted & !known;
-        if slot == 0 {
-            planes.flags[bit(THEOREM31)] = theorem & planes.flags[bit(SOLVABLE)];
-        }
-        planes.flags[bit(THEOREM31_ANY)] |= theorem;
-        planes.flags[bit(SPIRAL)] |= spirals;
-        count(&mut planes.spirals, spirals);
+        planes.add(slot, theorem, spirals);
     }
 }
 

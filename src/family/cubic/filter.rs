@@ -26,6 +26,21 @@ pub(super) struct Planes {
     pub undecided: u64,
 }
 
+impl Planes {
+    /// Adds the root of a place, slot 0 being the one that Theorem 3.1 is about: lanes where the theorem accepts it,
+    /// and where it is a spiral.
+    #[inline(always)]
+    pub(super) fn add(&mut self, slot: usize, theorem: u64, spirals: u64) {
+        if slot == 0 {
+            self.flags[bit(THEOREM31)] = theorem & self.flags[bit(SOLVABLE)];
+        }
+        self.flags[bit(THEOREM31_ANY)] |= theorem;
+        self.flags[bit(SPIRAL)] |= spirals;
+        self.spirals[1] |= self.spirals[0] & spirals;
+        self.spirals[0] ^= spirals;
+    }
+}
+
 /// The place of a flag.
 pub(super) const fn bit(flag: u8) -> usize {
     flag.trailing_zeros() as usize
@@ -231,13 +246,6 @@ pub(super) fn starts<S: Simd>(simd: S, d: &Data<S>, case: &Cases) -> [(S::f64s, 
     [(first, case.one | two | case.lone | three), (second, two | three), (right, three)]
 }
 
-/// Adds one bit a lane to a two-bit counter.
-#[inline(always)]
-pub(super) fn count(counter: &mut [u64; 2], bit: u64) {
-    counter[1] |= counter[0] & bit;
-    counter[0] ^= bit;
-}
-
 /// What is known of one root in a vector, for callers that want more than codes.
 pub(super) struct RootLanes<'r, S: Simd> {
     pub root: &'r Root<S>,
@@ -311,12 +319,7 @@ pub(super) fn visit<S: Simd, const ALL: bool>(
         }
         // Theorem 3.1 is sufficient: no spiral, no theorem.
         planes.undecided |= wanted & !((theorem | known.theorem.1 | not_spirals) & (spirals | not_spirals));
-        if slot == 0 {
-            planes.flags[bit(THEOREM31)] = theorem & planes.flags[bit(SOLVABLE)];
-        }
-        planes.flags[bit(THEOREM31_ANY)] |= theorem;
-        planes.flags[bit(SPIRAL)] |= spirals;
-        count(&mut planes.spirals, spirals);
+        planes.add(slot, theorem, spirals);
         seen(RootLanes { root: &root, start: &start, end: &end, wanted, theorem, spirals });
     }
     planes

@@ -1,5 +1,6 @@
 //! What depends on the two tangent angles alone.
 
+use crate::family::last::{Last, kept};
 use crate::family::outer::Sines;
 use crate::num::sines::{SIN_ERROR, sin, sin_of_sum};
 use crate::num::{Ball, Interval, Number, Real, Twin, formula};
@@ -54,19 +55,10 @@ impl Pair<Ball> {
 }
 
 impl Pair<Interval> {
-    /// [`Pair::exact`], kept for the next call: neighbouring nodes share their angles.
+    /// [`Pair::exact`], kept for the next call.
     pub(super) fn cached(phi0: f64, phi1: f64, bits: usize) -> Option<Rc<Pair<Interval>>> {
-        type Last = Option<([u64; 2], usize, Rc<Pair<Interval>>)>;
-        thread_local!(static LAST: RefCell<Last> = const { RefCell::new(None) });
-        let key = [phi0.to_bits(), phi1.to_bits()];
-        LAST.with_borrow_mut(|last| match last {
-            Some((k, b, pair)) if *k == key && *b == bits => Some(pair.clone()),
-            _ => {
-                let pair = Rc::new(Pair::exact(phi0, phi1, bits)?);
-                *last = Some((key, bits, pair.clone()));
-                Some(pair)
-            }
-        })
+        thread_local!(static LAST: Last<([u64; 2], usize), Pair<Interval>> = const { RefCell::new(None) });
+        kept(&LAST, ([phi0, phi1].map(f64::to_bits), bits), || Pair::exact(phi0, phi1, bits))
     }
 
     /// The pair in intervals; `None` when the precision does not prove that cos Φ is positive.

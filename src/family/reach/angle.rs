@@ -2,6 +2,7 @@
 
 use super::Kind;
 use crate::error::{Error, Result};
+use crate::family::last::{Last, kept};
 use crate::num::sines::{cos, sin};
 use crate::num::{Interval, Real, Twin, formula};
 use std::cell::RefCell;
@@ -70,19 +71,10 @@ pub(super) struct ExactAngle<N> {
 }
 
 impl ExactAngle<Interval> {
-    /// Kept for the next call: neighbouring nodes share their angle.
+    /// Kept for the next call.
     pub(super) fn cached(kind: Kind, theta: f64, bits: usize) -> Option<Rc<ExactAngle<Interval>>> {
-        type Key = (Kind, u64, usize);
-        thread_local!(static LAST: RefCell<Option<(Key, Rc<ExactAngle<Interval>>)>> = const { RefCell::new(None) });
-        let key = (kind, theta.to_bits(), bits);
-        LAST.with_borrow_mut(|last| match last {
-            Some((k, angle)) if *k == key => Some(angle.clone()),
-            _ => {
-                let angle = Rc::new(ExactAngle::new(kind, theta, bits)?);
-                *last = Some((key, angle.clone()));
-                Some(angle)
-            }
-        })
+        thread_local!(static LAST: Last<(Kind, u64, usize), ExactAngle<Interval>> = const { RefCell::new(None) });
+        kept(&LAST, (kind, theta.to_bits(), bits), || ExactAngle::new(kind, theta, bits))
     }
 
     fn new(kind: Kind, theta: f64, bits: usize) -> Option<ExactAngle<Interval>> {
