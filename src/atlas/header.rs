@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Longest header, in bytes; the recipe's text is most of it.
-pub const MAX_HEADER: usize = crate::files::LONGEST_RECIPE as usize;
+pub(crate) const MAX_HEADER: usize = crate::files::LONGEST_RECIPE as usize;
 /// The tensor of flags.
 pub(super) const FLAGS: &str = "flags";
 /// The tensor of packed counts.

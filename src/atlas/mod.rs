@@ -35,7 +35,6 @@ pub mod verify;
 mod write;
 
 pub use about::{About, FORMAT_VERSION, Kind, Named, Packed, Spec};
-pub use header::MAX_HEADER;
 use map::{MEMORY, map_file};
 pub(crate) use map::{Map, map_bytes, map_path};
 pub use outline::Outline;

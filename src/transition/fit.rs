@@ -30,7 +30,7 @@ pub const FITTED: [Kind; 3] = [Kind::Cubic, Kind::PhQuintic, Kind::Involute];
 /// - `what`: what the caller's users know the name as, such as "kind".
 ///
 /// # Errors
-/// [`Error::Domain`], with the names that there are.
+/// [`crate::Error::Domain`], with the names that there are.
 pub fn fitted(what: &str, name: &str) -> Result<Kind> {
     by_name(what, name, &FITTED, Kind::name)
 }
@@ -44,8 +44,8 @@ pub fn fitted(what: &str, name: &str) -> Result<Kind> {
 /// - `longest`: a spiral longer than this counts as none; infinity for no limit.
 ///
 /// # Errors
-/// [`Error::Domain`] for another kind, a limit that is not above 0, and what [`spiral`], [`ph_spiral`] and
-/// [`involute_between`] refuse; [`Error::Undecided`] at the precision cap. That there is no spiral is no error.
+/// [`crate::Error::Domain`] for another kind, a limit that is not above 0, and what [`spiral`], [`ph_spiral`] and
+/// [`involute_between`] refuse; [`crate::Error::Undecided`] at the precision cap. That there is no spiral is no error.
 pub fn fit(ends: &Ends, kind: Kind, longest: f64) -> Result<Fit> {
     above_zero("the greatest length", longest)?;
     match fitted("kind", kind.name())? {
