@@ -211,7 +211,12 @@ static void questions(void) {
     CHECK(spiral_ranges("cubic", NULL, NULL, datum, 4, 0, 100, &ranges) == SPIRAL_DOMAIN && says("number 4"));
     CHECK(spiral_ranges("cubic", NULL, NULL, datum, 3, 0, NAN, &ranges) == SPIRAL_DOMAIN && says("NaN"));
     CHECK(spiral_ranges("cubic", NULL, "SPIRALS", datum, 3, 0, 100, &ranges) == SPIRAL_DOMAIN && says("`SPIRALS`"));
-    CHECK(spiral_ranges("trig-quintic", NULL, "SPIRAL", datum, 3, 0, 100, &ranges) == SPIRAL_DOMAIN && says("boxes"));
+    /* A family of five coordinates. */
+    const double shape[5] = {1, 0.7, 1, 0, 0};
+    CHECK(spiral_ranges("trig-quintic", NULL, "SPIRAL", shape, 0, 1, 10, &ranges) == SPIRAL_OK);
+    CHECK(spiral_ranges_data(ranges, &all, &count, NULL, NULL) == SPIRAL_OK && count == 1 && all[0].ends[1] == 10);
+    spiral_ranges_close(ranges);
+    ranges = NULL;
     CHECK(spiral_ranges("cubic", NULL, NULL, NULL, 3, 0, 100, &ranges) == SPIRAL_ARGUMENT && says("`datum`"));
     CHECK(spiral_ranges("cubic", NULL, NULL, datum, 3, 0, 100, NULL) == SPIRAL_ARGUMENT && ranges == NULL);
 
