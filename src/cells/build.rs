@@ -53,7 +53,7 @@ struct Tree {
 /// - `progress`: is told how many cells have been divided, whenever some more have.
 ///
 /// # Errors
-/// [`Error::Domain`] for a family without proofs over boxes, axes of unlike or impossible counts, more than four
+/// [`Error::Domain`] for a chart without proofs over boxes, axes of unlike or impossible counts, more than four
 /// axes of several values, or a budget that is too small even for the top cells.
 pub fn build(spec: &Spec, threads: usize, stop: &AtomicBool, progress: &(dyn Fn(u64) + Sync)) -> Result<Built> {
     let (region, chart) = region(spec.family, spec.grid)?;

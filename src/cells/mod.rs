@@ -40,7 +40,7 @@ use crate::grid::Grid;
 pub struct Spec<'a> {
     /// The atlas's name: letters, digits, `_` and `-`.
     pub name: &'a str,
-    /// The family; one with a [`crate::family::Region`].
+    /// The family.
     pub family: &'static dyn Family,
     /// The edges of the finest cells: one more than the resolution along each axis, or a single value, at which all
     /// cells lie.
@@ -79,7 +79,7 @@ fn by_weight(family: &dyn Family) -> Vec<usize> {
 /// The proofs of a family over boxes, and the chart of a grid's axes.
 ///
 /// # Errors
-/// [`crate::Error::Domain`] where the family has none, or the axes are no chart of it.
+/// [`crate::Error::Domain`] where the family has none in a chart of these axes.
 fn region(family: &'static dyn Family, grid: &Grid) -> crate::Result<(&'static dyn family::Region, usize)> {
     let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
     family::proofs(family, &names)

@@ -201,10 +201,8 @@ pub trait Family: Sync {
     fn shortcut(&self, _chart: usize, _point: &[f64]) -> Option<Code> {
         None
     }
-    /// Proofs over whole boxes of data, where the family has them.
-    fn region(&self) -> Option<&dyn Region> {
-        None
-    }
+    /// Proofs over whole boxes of data.
+    fn region(&self) -> &dyn Region;
     /// Whether what the family looks for exists, by the flags of a datum.
     fn holds(&self, code: Code) -> bool {
         let set = |(bit, flag): (usize, &Flag)| code.flags() >> bit & 1 == 1 && self.about().yes.contains(&flag.name);
@@ -321,32 +319,26 @@ pub fn all() -> &'static [&'static dyn Family] {
     ]
 }
 
-/// The names of the families that are so.
-fn names(able: impl Fn(&dyn Family) -> bool) -> String {
-    let all: Vec<&str> = all().iter().filter(|f| able(**f)).map(|f| f.about().name).collect();
-    all.join(", ")
-}
-
 /// The family of a name, in letters of either size.
 ///
 /// # Errors
 /// [`Error::Domain`], with the names that there are.
 pub fn by_name(name: &str) -> Result<&'static dyn Family> {
     let found = all().iter().copied().find(|f| f.about().name.eq_ignore_ascii_case(name));
-    found.ok_or_else(|| Error::invalid(format!("no family is named `{name}`; there are: {}", names(|_| true))))
+    found.ok_or_else(|| {
+        let names: Vec<&str> = all().iter().map(|f| f.about().name).collect();
+        Error::invalid(format!("no family is named `{name}`; there are: {}", names.join(", ")))
+    })
 }
 
 /// The proofs of a family over boxes, and its chart with these axes.
 ///
 /// # Errors
-/// [`Error::Domain`] where the family has no such proofs, or none in a chart of these axes.
+/// [`Error::Domain`] where it has none in a chart of these axes.
 pub(crate) fn proofs(family: &'static dyn Family, axes: &[&str]) -> Result<(&'static dyn Region, usize)> {
     demand_ieee()?;
     let About { name, charts, .. } = family.about();
-    let region = family.region().ok_or_else(|| {
-        let able = names(|f| f.region().is_some());
-        Error::invalid(format!("`{name}` has no proofs over boxes; families that have: {able}"))
-    })?;
+    let region = family.region();
     let chart = charts.iter().position(|c| c.axes == axes && region.covers(c.name)).ok_or_else(|| {
         let all: Vec<String> = charts.iter().filter(|c| region.covers(c.name)).map(|c| c.axes.join(", ")).collect();
         let all = all.join(" or ");

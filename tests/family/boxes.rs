@@ -24,7 +24,7 @@ fn places(r: &mut Random, [low, high]: [f64; 2], between: usize) -> Vec<f64> {
 }
 
 /// A point of a box: each coordinate is an end or anywhere.
-pub(crate) fn place<const N: usize>(r: &mut Random, sides: &[[f64; 2]; N]) -> [f64; N] {
+fn place<const N: usize>(r: &mut Random, sides: &[[f64; 2]; N]) -> [f64; N] {
     sides.map(|side| match r.below(4) {
         0 => side[0],
         1 => side[1],
@@ -35,7 +35,7 @@ pub(crate) fn place<const N: usize>(r: &mut Random, sides: &[[f64; 2]; N]) -> [f
 impl<const N: usize> Subject<N> {
     pub(crate) fn facts(&self, sides: &[[f64; 2]; N]) -> Facts {
         let [low, high] = [0, 1].map(|end| sides.map(|side| side[end]));
-        self.family.region().unwrap().facts(self.chart, &low, &high, u8::MAX)
+        self.family.region().facts(self.chart, &low, &high, u8::MAX)
     }
 
     /// Of a box some flags are known; beyond the domain, and where a number is none, nothing is said.
@@ -77,7 +77,45 @@ impl<const N: usize> Subject<N> {
         assert!(points >= least && inside.iter().chain(&outside).all(|n| *n > each), "{points} {inside:?} {outside:?}");
     }
 
-    /// The same, for whoever judges the numbers: points, and of each flag how often it was INSIDE and OUTSIDE.
+    /// Draws boxes, and compares what is said of each that is `wanted` with a judge of the tests' own, at so many
+    /// points. `wanted` looks at what is said, and at how many boxes were judged before. The judge gives all flags that
+    /// a point may have, and none where it is no datum; a box without a datum does not count.
+    ///
+    /// # Returns
+    /// What is said of the boxes.
+    pub(crate) fn confirm(
+        &self,
+        seed: u64,
+        [boxes, points]: [usize; 2],
+        mut wanted: impl FnMut(&Facts, usize) -> bool,
+        judge: impl Fn([f64; N]) -> Vec<u8>,
+    ) -> Vec<Facts> {
+        let (mut r, mut judged, mut round) = (Random(seed), Vec::new(), 0);
+        while judged.len() < boxes {
+            round += 1;
+            let sides = (self.draw)(&mut r, round);
+            let facts = self.facts(&sides);
+            let known = facts.inside | facts.outside;
+            if !wanted(&facts, judged.len()) {
+                continue;
+            }
+            let mut met = false;
+            for _ in 0..points {
+                let point = place(&mut r, &sides);
+                let may = judge(point);
+                let agree = may.iter().any(|flags| flags & known == facts.inside);
+                assert!(may.is_empty() || agree, "{sides:?} at {point:?}: {may:?}, but {facts:?}");
+                met |= agree;
+            }
+            if met {
+                judged.push(facts);
+            }
+        }
+        judged
+    }
+
+    /// The same as [`Subject::attack`], for whoever judges the numbers: points, and of each flag how often it was
+    /// INSIDE and OUTSIDE.
     pub(crate) fn attacked(&self, seed: u64, boxes: u64, between: usize) -> (usize, Vec<u64>, Vec<u64>) {
         let mut r = Random(seed);
         let count = self.family.about().flags.len();

@@ -1,9 +1,10 @@
 //! Verdicts over boxes: no point of a box, and no corner, face or neighbour of one inside it, has another verdict
 //! than its box.
 
-use crate::boxes::{Subject, place};
+use crate::boxes::Subject;
 use crate::oracle::random::Random;
 use crate::oracle::{in_domain, judge};
+use spiral_atlas::family::Facts;
 use spiral_atlas::family::cubic::{self, Cubic};
 
 const SUBJECT: Subject<4> = Subject { family: &Cubic, chart: 0, draw };
@@ -64,28 +65,13 @@ fn no_point_of_a_box_contradicts_it() {
 /// The judge of the tests' own, at random points of a thousand boxes.
 #[test]
 fn the_oracle_confirms_boxes() {
-    let (mut r, mut judged, mut round) = (Random(2), 0, 0);
-    while judged < 1000 {
-        round += 1;
-        let sides = draw(&mut r, round);
-        let facts = SUBJECT.facts(&sides);
-        let known = facts.inside | facts.outside;
-        if known & cubic::SPIRAL == 0 || facts.outside & cubic::ANY_SPIRAL != 0 && judged % 4 != 0 {
-            continue;
-        }
-        for _ in 0..2 {
-            let [phi0, phi1, kappa0, kappa1] = place(&mut r, &sides);
-            if !in_domain(phi0, phi1) {
-                continue;
-            }
-            let verdict = judge(phi0, phi1, kappa0, kappa1);
-            assert!(
-                verdict.flags & known == facts.inside,
-                "{sides:?} at {phi0:?}, {phi1:?}, {kappa0:?}, {kappa1:?}: {verdict:?}"
-            );
-        }
-        judged += 1;
-    }
+    let wanted = |facts: &Facts, judged: usize| {
+        (facts.inside | facts.outside) & cubic::SPIRAL != 0
+            && (facts.outside & cubic::ANY_SPIRAL == 0 || judged.is_multiple_of(4))
+    };
+    SUBJECT.confirm(2, [1000, 2], wanted, |[phi0, phi1, kappa0, kappa1]| {
+        if in_domain(phi0, phi1) { vec![judge(phi0, phi1, kappa0, kappa1).flags] } else { vec![] }
+    });
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! Verdicts over boxes for PH quintics with G² Hermite ends: no point contradicts its box, and the oracle agrees.
 
-use crate::boxes::{Subject, place};
+use crate::boxes::Subject;
 use crate::cubic_region::{self, OUTSIDE};
 use crate::oracle::in_domain;
 use crate::oracle::ph::judge;
 use crate::oracle::random::Random;
+use spiral_atlas::family::Facts;
 use spiral_atlas::family::ph_quintic::{ANY_SPIRAL, Datum, PhQuintic, SOLVABLE, SPIRAL, solve};
 
 const SUBJECT: Subject<4> = Subject { family: &PhQuintic, chart: 0, draw };
@@ -35,24 +36,14 @@ fn no_point_of_a_box_contradicts_it() {
 
 #[test]
 fn the_oracle_confirms_boxes() {
-    let (mut r, mut judged, mut round, mut spirals) = (Random(2), 0, 0, 0);
-    while judged < 1000 {
-        round += 1;
-        let sides = draw(&mut r, round);
-        let facts = SUBJECT.facts(&sides);
-        let known = facts.inside | facts.outside;
-        // Mostly where some spiral exists, so that the curves themselves decide.
-        if known & SPIRAL == 0 || facts.outside & ANY_SPIRAL != 0 && judged % 4 != 0 {
-            continue;
-        }
-        let point = place(&mut r, &sides);
-        if !in_domain(point[0], point[1]) {
-            continue;
-        }
-        assert_eq!(judge(point).flags & known, facts.inside, "{sides:?} at {point:?}");
-        judged += 1;
-        spirals += u32::from(facts.inside & SPIRAL != 0);
-    }
+    // Mostly where some spiral exists, so that the curves themselves decide.
+    let wanted = |facts: &Facts, judged: usize| {
+        (facts.inside | facts.outside) & SPIRAL != 0 && (facts.outside & ANY_SPIRAL == 0 || judged.is_multiple_of(4))
+    };
+    let judged = SUBJECT.confirm(2, [1000, 1], wanted, |point| {
+        if in_domain(point[0], point[1]) { vec![judge(point).flags] } else { vec![] }
+    });
+    let spirals = judged.iter().filter(|facts| facts.inside & SPIRAL != 0).count();
     assert!(spirals > 100, "{spirals}");
 }
 
@@ -70,9 +61,7 @@ fn small_boxes_are_decided() {
             continue;
         }
         counted += 1;
-        let left = |facts: spiral_atlas::family::Facts| {
-            (facts.inside | facts.outside) & (SPIRAL | SOLVABLE) != SPIRAL | SOLVABLE
-        };
+        let left = |facts: Facts| (facts.inside | facts.outside) & (SPIRAL | SOLVABLE) != SPIRAL | SOLVABLE;
         open += u32::from(left(facts));
         coarse += u32::from(left(SUBJECT.facts(&side(1.0))));
     }

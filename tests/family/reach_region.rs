@@ -1,9 +1,10 @@
 //! Verdicts over boxes for the reachable end points of both curves: no point contradicts its box, and the oracle
 //! agrees.
 
-use crate::boxes::{Subject, place};
+use crate::boxes::Subject;
 use crate::oracle::random::Random;
 use crate::oracle::reach::judge;
+use spiral_atlas::family::Facts;
 use spiral_atlas::family::reach::{Kind, Reach};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -65,21 +66,11 @@ fn no_point_of_a_box_contradicts_it() {
 #[test]
 fn the_oracle_confirms_boxes() {
     for (subject, kind) in [(CUBIC, Kind::Cubic), (PH, Kind::Ph)] {
-        let (mut r, mut judged, mut round) = (Random(3), 0, 0);
-        while judged < 1000 {
-            round += 1;
-            let sides = draw(kind, &mut r, round);
-            let facts = subject.facts(&sides);
-            let known = facts.inside | facts.outside;
-            if known & 0x22 == 0 || facts.inside == 0 {
-                continue;
-            }
-            let point = place(&mut r, &sides);
+        let wanted = |facts: &Facts, _| (facts.inside | facts.outside) & 0x22 != 0 && facts.inside != 0;
+        subject.confirm(3, [1000, 1], wanted, |point| {
             let verdict = judge(kind, point[0], point[1], point[2]);
-            let flags = verdict[0].map_or(0, |s| s.flags) | verdict[1].map_or(0, |s| s.flags) << 4;
-            assert_eq!(flags & known, facts.inside, "{kind:?} {sides:?} at {point:?}");
-            judged += 1;
-        }
+            vec![verdict[0].map_or(0, |s| s.flags) | verdict[1].map_or(0, |s| s.flags) << 4]
+        });
     }
 }
 

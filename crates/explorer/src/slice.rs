@@ -226,8 +226,10 @@ impl Slice {
         let low = [phi0, phi1, self.edges[0][x], self.edges[1][y]];
         let high = [phi0, phi1, self.edges[0][right], self.edges[1][top]];
         let all = self.family.about().all_flags();
-        let facts = self.family.region().map(|region| region.facts(self.chart, &low, &high, all));
-        let Some(facts) = facts.filter(|facts| facts.inside | facts.outside == all) else { return false };
+        let facts = self.family.region().facts(self.chart, &low, &high, all);
+        if facts.inside | facts.outside != all {
+            return false;
+        }
         self.fill([x, right, y, top], facts.inside);
         self.proved += (right - x) * (top - y);
         true

@@ -139,8 +139,8 @@ impl Family for PhQuintic {
         let inside = coordinates(point).ok().filter(|point| holds_box(&point.map(|x| [x; 2])));
         Some(inside.map_or(Code::UNDECIDED, table::code))
     }
-    fn region(&self) -> Option<&dyn Region> {
-        Some(self)
+    fn region(&self) -> &dyn Region {
+        self
     }
     fn compute(&self, _chart: usize, point: &[f64]) -> Result<Answer> {
         solve::answer(coordinates(point)?)

@@ -171,8 +171,8 @@ impl Family for Reach {
     fn table<'g>(&self, grid: &'g Grid) -> Result<Box<dyn Table + 'g>> {
         Ok(Box::new(table::ReachTable::new(self.0, grid)?))
     }
-    fn region(&self) -> Option<&dyn Region> {
-        Some(self)
+    fn region(&self) -> &dyn Region {
+        self
     }
     fn compute(&self, chart: usize, point: &[f64]) -> Result<Answer> {
         let code = verdict(self, chart, point)?;
