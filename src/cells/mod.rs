@@ -79,8 +79,17 @@ fn by_weight(family: &dyn Family) -> Vec<usize> {
 /// The proofs of a family over boxes, and the chart of a grid's axes.
 ///
 /// # Errors
-/// [`crate::Error::Domain`] where the family has none in a chart of these axes.
+/// [`crate::Error::Domain`] where the family has none in a chart of these axes, or the box lies outside its domain.
 fn region(family: &'static dyn Family, grid: &Grid) -> crate::Result<(&'static dyn family::Region, usize)> {
     let names: Vec<&str> = grid.axes().iter().map(|a| a.name()).collect();
-    family::proofs(family, &names)
+    let (region, chart) = family::proofs(family, &names)?;
+    let sides = || grid.axes().iter().filter_map(|axis| Some((*axis.values().first()?, *axis.values().last()?)));
+    let (mut low, mut high): (Vec<f64>, Vec<f64>) = sides().unzip();
+    if !region.clip(chart, &mut low, &mut high) {
+        // No datum of the box is in the domain, so the family refuses this one, too. Each coordinate is one that the
+        // domain has, where it can be: so what is named is the coordinate that shuts the box out.
+        let point = low.iter().zip(sides()).map(|(clipped, (low, high))| if *clipped <= high { *clipped } else { low });
+        family::verdict(family, chart, &point.collect::<Vec<f64>>())?;
+    }
+    Ok((region, chart))
 }

@@ -143,3 +143,97 @@ fn mistakes_in_recipes_of_cells_are_named() {
         assert!(!folder.at("out").join("few.atlas.safetensors").exists());
     }
 }
+
+#[test]
+fn cells_outside_a_domain_are_refused_before_any_work() {
+    const TURNS: [(&str, &str); 2] = [("phi0", "linear = [0.1, 0.5]"), ("phi1", "linear = [0.6, 1]")];
+    const BENDS: [(&str, &str); 2] = [("kappa0", "linear = [0.1, 1]"), ("kappa1", "log = [1, 5]")];
+    const PLACE: [(&str, &str); 2] = [("xi", "linear = [0.6, 1]"), ("eta", "linear = [0.1, 1]")];
+    const THETAS: [(&str, &str); 2] = [("theta0", "linear = [0.1, 0.5]"), ("theta1", "linear = [0.6, 1]")];
+    const SPEEDS: [(&str, &str); 2] = [("l0", "linear = [0.6, 1]"), ("l1", "log = [1, 5]")];
+    const LENGTH: [(&str, &str); 1] = [("S", "linear = [1.1, 2]")];
+    const REACH: [(&str, &str); 1] = [("theta", "linear = [0.1, 0.5]")];
+    const TRIG: [(&str, &str); 5] = [
+        ("ratio", "linear = [3, 5]"),
+        ("theta", "values = [0.7]"),
+        ("m", "linear = [0.3, 1]"),
+        ("p", "values = [0]"),
+        ("q", "linear = [-0.3, 0.2]"),
+    ];
+    let cases: [(&str, Vec<_>, &[[&str; 3]]); 8] = [
+        (
+            "cubic",
+            [TURNS, BENDS].concat(),
+            &[
+                ["phi0", "linear = [-2, -1]", "phi0 is -2 (-114.591559 degrees); it must be above 0 and below pi"],
+                ["phi0", "values = [3]", "phi0 + phi1 reaches 3 + 0.6 = 3.6; it must stay below pi"],
+            ],
+        ),
+        (
+            "ph-quintic",
+            [TURNS, BENDS].concat(),
+            &[["phi1", "values = [0]", "phi1 is 0 (0 degrees); it must be above 0"]],
+        ),
+        (
+            "any-spiral",
+            [TURNS, BENDS].concat(),
+            &[["phi1", "linear = [3.2, 4]", "phi1 is 3.2 (183.346494 degrees); it"]],
+        ),
+        (
+            "reach-cubic",
+            [&REACH[..], &PLACE].concat(),
+            &[["theta", "values = [1.6]", "above 0 and below pi/2 for `reach"]],
+        ),
+        (
+            "reach-ph",
+            [&REACH[..], &PLACE].concat(),
+            &[["theta", "linear = [-1, 0]", "theta is -1 (-57.29578 degrees)"]],
+        ),
+        (
+            "ph-equal-length",
+            [&THETAS[..], &LENGTH].concat(),
+            &[
+                ["theta0", "values = [4]", "theta0 is 4; it must be 0, or 1e-9 to pi in size"],
+                ["S", "values = [0.5]", "S is 0.5; it must be above 1"],
+                ["S", "linear = [0.5, 0.9]", "S is 0.5; it must be above 1"],
+            ],
+        ),
+        (
+            "ph-hermite",
+            [THETAS, SPEEDS].concat(),
+            &[["l0", "values = [-1]", "l0 is -1; it must be 1e-6 to 1e6, in chords"]],
+        ),
+        (
+            "trig-quintic",
+            TRIG.to_vec(),
+            &[
+                ["m", "values = [-1]", "m is -1; it must be finite and above 0"],
+                ["p", "values = [1.5]", "p is 1.5; it must be above -4 and at most 1"],
+                ["theta", "values = [1.6]", "theta is 1.6 (91.673247 degrees); it must be above 0 and below pi/2"],
+            ],
+        ),
+    ];
+    let made = |family: &str, axes: &[(&str, &str)]| {
+        let axes: String = axes.iter().map(|(name, values)| format!("{name} = {{ {values} }}\n")).collect();
+        let folder = Folder::new(&format!(
+            "family = \"{family}\"\n[[atlas]]\nname = \"few\"\nkind = \"cells\"\nresolution = 2\nbudget = \"1 MiB\"\n\
+             [atlas.axes]\n{axes}"
+        ));
+        let said = run(["generate", &folder.text("recipe.toml"), "--out", &folder.text("out")]);
+        let written = folder.at("out").join("few.atlas.safetensors").exists();
+        (said, written)
+    };
+    for (family, axes, mistakes) in cases {
+        for [name, values, what] in mistakes {
+            let axes: Vec<_> = axes.iter().map(|axis| if axis.0 == *name { (*name, *values) } else { *axis }).collect();
+            let (said, written) = made(family, &axes);
+            assert!(said.code == Some(2) && said.err.contains(what), "{family} {name}: {}", said.err);
+            assert!(!written, "{family} {name}");
+        }
+    }
+    // What is outside in part is a box like any other; of two limits the one that shuts the box out is named.
+    let wide = ("phi0", "linear = [-1, 4]");
+    assert!(made("cubic", &[wide, TURNS[1], BENDS[0], BENDS[1]]).1);
+    let (said, _) = made("cubic", &[wide, ("phi1", "values = [3.2]"), BENDS[0], BENDS[1]]);
+    assert!(said.err.contains("phi1 is 3.2"), "{}", said.err);
+}
