@@ -84,7 +84,7 @@ fn no_point_of_a_box_contradicts_it() {
 /// The oracle samples all solutions; where two of them tie, flags may be those of either.
 fn confirm<const N: usize>(subject: &Subject<N>, given: fn(&[f64; N]) -> Given, seed: u64) {
     let wanted = |facts: &Facts, _| (facts.inside | facts.outside) & !REGULAR != 0;
-    subject.confirm(seed, [60, 1], wanted, |point| {
+    subject.confirm(seed, [500, 1], wanted, |point| {
         // The oracle's samples are even ones, too sparse for what is nearly a line.
         if point[..2].iter().any(|theta| theta.abs() <= 1e-3) || point[2..].iter().any(|l| *l >= 100.0) {
             return vec![];
@@ -100,8 +100,12 @@ fn confirm<const N: usize>(subject: &Subject<N>, given: fn(&[f64; N]) -> Given, 
 }
 
 #[test]
-fn sampled_curves_agree() {
+fn sampled_curves_of_given_lengths_agree() {
     confirm(&LENGTH, |point| Given::Length(point[2]), 3);
+}
+
+#[test]
+fn sampled_curves_of_given_speeds_agree() {
     confirm(&SPEEDS, |point| Given::Speeds(point[2], point[3]), 4);
 }
 

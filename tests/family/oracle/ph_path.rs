@@ -68,28 +68,34 @@ fn equation(w: &[Complex; 3]) -> (Complex, Complex) {
     ([sum[0].plus(-15.0), sum[1].clone()], slope)
 }
 
-/// Both pre-images with these outer coefficients, by deflation: Newton's method for the first root, Vieta for a guess
-/// at the second.
-fn preimages(w0: &Complex, w2: &Complex) -> Vec<[Complex; 3]> {
-    let newton = |mut w1: Complex| {
-        for _ in 0..200 {
-            let w = [w0.clone(), w1.clone(), w2.clone()];
-            let (value, slope) = equation(&w);
-            let Some(step) = over(&value, &slope) else { break };
-            let small = |x: &Iv| x.approx().abs();
-            let (size, tiny) = (small(&w1[0]) + small(&w1[1]), small(&step[0]) + small(&step[1]));
-            w1 = middle(&add(&w1, &times(&step, -1.0)));
-            if tiny < 1e-50 * size {
-                break;
-            }
+/// A pre-image with these outer coefficients, by Newton's method from a guess at w1.
+fn preimage(w0: &Complex, mut w1: Complex, w2: &Complex) -> [Complex; 3] {
+    for _ in 0..200 {
+        let w = [w0.clone(), w1.clone(), w2.clone()];
+        let (value, slope) = equation(&w);
+        let Some(step) = over(&value, &slope) else { break };
+        let small = |x: &Iv| x.approx().abs();
+        let (size, tiny) = (small(&w1[0]) + small(&w1[1]), small(&step[0]) + small(&step[1]));
+        w1 = middle(&add(&w1, &times(&step, -1.0)));
+        if tiny < 1e-50 * size {
+            break;
         }
-        [w0.clone(), w1, w2.clone()]
-    };
-    let first = newton([number(1.234), number(5.678)]);
+    }
+    [w0.clone(), w1, w2.clone()]
+}
+
+/// One of both.
+fn first_preimage(w0: &Complex, w2: &Complex) -> [Complex; 3] {
+    preimage(w0, [number(1.234), number(5.678)], w2)
+}
+
+/// Both of them, by deflation: Vieta for a guess at the second.
+fn preimages(w0: &Complex, w2: &Complex) -> [[Complex; 3]; 2] {
+    let first = first_preimage(w0, w2);
     // The roots add up to -3/2 (w0 + w2).
     let other = add(&times(&add(w0, w2), -1.5), &times(&first[1], -1.0));
-    let second = newton(middle(&other));
-    vec![first, second]
+    let second = preimage(w0, middle(&other), w2);
+    [first, second]
 }
 
 fn unit(theta: f64) -> Complex {
@@ -111,7 +117,7 @@ fn speed_of(first: &Complex, last: &Complex, wanted: f64) -> Option<Iv> {
     let off = |z: &Iv| {
         let size = z.sqrt().middle();
         let scaled = |unit: &Complex| middle(&[&unit[0] * &size, &unit[1] * &size]);
-        length(&preimages(&scaled(first), &scaled(last))[0]).plus(-wanted)
+        length(&first_preimage(&scaled(first), &scaled(last))).plus(-wanted)
     };
     let (mut low, mut high) = (number(1e-18), number(1e12));
     for i in 0..600 {
@@ -145,10 +151,10 @@ fn curvature(legs: &[Complex; 5], t: &Iv) -> Iv {
 }
 
 /// Parameters at which a peak shows: even ones, and ever closer ones around the slowest points.
-fn samples(legs: &[Complex; 5]) -> Vec<f64> {
+fn samples(w: &[Complex; 3]) -> Vec<f64> {
     let speed = |t: f64| {
         let (t, back) = (number(t), number(1.0 - t));
-        let mut row = legs.to_vec();
+        let mut row = w.to_vec();
         while row.len() > 1 {
             row = row.windows(2).map(|p| middle(&[0, 1].map(|i| &(&p[0][i] * &back) + &(&p[1][i] * &t)))).collect();
         }
@@ -176,7 +182,7 @@ fn samples(legs: &[Complex; 5]) -> Vec<f64> {
 
 fn peak(w: &[Complex; 3], paper: bool) -> Peak {
     let legs = derivative(w);
-    let at = samples(&legs);
+    let at = samples(w);
     let values: Vec<f64> = at.iter().map(|t| curvature(&legs, &number(*t)).approx()).collect();
     let largest = values.iter().fold(0.0f64, |m, k| m.max(k.abs()));
     let one_way = values.iter().all(|k| *k >= -1e-30 * largest) || values.iter().all(|k| *k <= 1e-30 * largest);
