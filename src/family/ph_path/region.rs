@@ -28,8 +28,23 @@
 //!
 //! **Straight lines.** With both angles 0 inside the box one of the curves may be a straight line, with h = 0. No sign
 //! of it is certain. So where it could bend least it is left, and neither ONE_WAY nor PEAK_INSIDE is known; PAPER is,
-//! only if all others that are left are the paper's, like every line that is regular. Where all curves are lines that
-//! stand still, nothing is proved to be regular.
+//! only if all others that are left are the paper's, like every line that is regular.
+//!
+//! **REGULAR is never OUTSIDE.** Nobody proves that all solutions stand still, because that is hardly ever so in a box.
+//! Let w vanish at t. With the angles, the ratio of the end speeds and t given, w is known up to a factor s > 0: from
+//! `w(x) = (x - t)(u0 (1 - x) + u1 x)` with `u0 = -w0/t` and `u1 = w2/(1 - t)`. So `∫ w² = s² C`, where C is rational
+//! in t, and `∫ w² = 1` asks that C be positive, which leaves one s. If `Im C` is not 0 for all t, it is 0 at finitely
+//! many t only, so a curve stands still for finitely many s. `C = A w0² + B w0 w2 + D w2²` with `A = ∫ (1 - x)² (x -
+//! t)²/t²`, `D = ∫ x² (x - t)²/(1 - t)²` and `B = -2 ∫ x (1 - x) (x - t)²/(t (1 - t)) < 0`. As t goes to 0, `t² C`
+//! goes to `w0²/30`, and as t goes to 1, `(1 - t)² C` goes to `w2²/30`. So where Im C is always 0, w0², w2² and then
+//! `w0 w2` are real: both angles are 0, or both are half turns. For half turns w0 and w2 are imaginary, and -C is a
+//! quadratic form with `B² <= 4AD` (Cauchy and Schwarz), so `C <= 0`, and there is no such curve. Hence a box in which
+//! both speeds vary has data all of whose solutions are regular, unless both angles are fixed at 0. Of a given length
+//! the ratio of the speeds is 1. So at given angles, finitely many curves stand still, with finitely many lengths; with
+//! both angles 0 they are lines of length 1, which is no datum. Hence a box in which S varies has such data, too.
+//!
+//! With both angles fixed at 0 all solutions may be lines that stand still, as with `l0 = 6.76` and `l1 = 0.01` and
+//! around. Such boxes are left open.
 //!
 //! A box is first cut to the family's domain. Angles next to 0, which are refused, may be inside: they are like any
 //! others here.
