@@ -103,6 +103,9 @@ impl Words<'_> {
         let Some([inside, outside]) = self.top.get(at) else { return Known::default() };
         let mut known = Known { inside: inside & wanted, outside: outside & wanted };
         let mut open = wanted & !(inside | outside);
+        if open == 0 {
+            return known;
+        }
         // The way down: the number of the child at each level, the finest in the lowest bits.
         let within = self.spread.len().wrapping_sub(1);
         let way = place

@@ -72,18 +72,18 @@ impl Lookup {
     /// Index of the cell between two neighbouring values that holds `x`; of two the upper one. `None` outside the axis.
     #[inline]
     pub(crate) fn cell(&self, x: f64) -> Option<usize> {
-        let values = &self.padded[1..=self.count()];
-        let last = values.len().checked_sub(2)?;
-        // NaN fails.
-        if !((values[0] <= x) & (x <= values[last + 1])) {
-            return None;
-        }
-        // Between two values the guess lies between their indices; the comparisons find a wrong one.
+        let last = self.count().checked_sub(2)?;
+        // Between two values the guess lies between their indices; the comparisons find a wrong one. NaN fails both.
         let index = (nearest_integer(self.guess(x) - 0.5) as usize).min(last);
-        if (values[index] <= x) & (x <= values[index + 1]) {
+        if let [low, high] = self.padded[index + 1..index + 3]
+            && (low <= x) & (x <= high)
+        {
             return Some(index);
         }
-        Some(values.partition_point(|v| *v <= x).saturating_sub(1).min(last))
+        let values = &self.padded[1..=self.count()];
+        // NaN fails.
+        let inside = (values[0] <= x) & (x <= values[last + 1]);
+        inside.then(|| values.partition_point(|v| *v <= x).saturating_sub(1).min(last))
     }
 
     /// [`Axis::nearest`], except that points further outside than half the step at that end give `None`.
