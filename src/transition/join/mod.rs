@@ -42,6 +42,7 @@ mod alone;
 mod best;
 mod costs;
 mod ease;
+mod lengths;
 mod link;
 mod locus;
 mod measure;

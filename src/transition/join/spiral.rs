@@ -15,6 +15,7 @@ use super::super::piece::{Arc, Cubic, InvoluteBetween, Line, Piece, TrigPart};
 use super::super::placement::Ends;
 use super::super::segment::{Base, Request, Target, add_segment};
 use super::super::turn::Turn;
+use super::lengths::{cubic_length, near};
 use super::request::Family;
 use super::trig::{STRAIGHT, TrigWay};
 use crate::curve::vector::{Vector, add, length, scale, sub, turn, unit};
@@ -25,19 +26,8 @@ use std::f64::consts::PI;
 
 /// A spiral leads at least this factor from one curvature to the other.
 const APART: f64 = 0.55;
-/// Gauss's rule of five points on [0, 1]: places and weights.
-const FIVE: [(f64, f64); 5] = [
-    (0.046_910_077_030_668_004, 0.118_463_442_528_094_54),
-    (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
-    (0.5, 0.284_444_444_444_444_44),
-    (0.769_234_655_052_841_5, 0.239_314_335_249_683_23),
-    (0.953_089_922_969_332, 0.118_463_442_528_094_54),
-];
-
-/// What a length that is known to 1e-5 is at least and at most.
-fn near(length: f64) -> [f64; 2] {
-    [length * (1.0 - 1e-5), length * (1.0 + 1e-5)]
-}
+/// By what share the same curve's length may differ by roundings: it is computed to 1e-13 or better, here and there.
+const SAME: f64 = 1e-12;
 
 /// Point and direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,28 +128,28 @@ impl Spiral {
     /// From its start to its end, for a start along (1, 0), and what its length is at least and at most.
     ///
     /// The length of an involute's image is not asked for: its chord and its legs to the corner of its tangents bound
-    /// it, as those of any convex arc. Lengths of the others are known to 1e-5, relative.
+    /// it, as those of any convex arc. [`cubic_length`] bounds a cubic's. Lengths of the others are known to
+    /// roundings: the coefficients of a PH quintic's speed are positive, so no sum cancels. But between two round ends
+    /// curves are solved for, and another that nearly coincides may be found: of 40,000 PH quintics lengths differed
+    /// by up to 7e-6.
     pub(super) fn measured(&self, family: Family) -> (Vector, [f64; 2]) {
         let (angle, side) = (self.angle().abs(), self.angle().signum());
         let ([x, y], lengths) = match family {
             Family::Cubic => {
-                let [a, b, c] = self.legs(family);
-                let speed = |t: f64| {
-                    let s = 1.0 - t;
-                    let [x, y] = [0, 1].map(|i| s * s * a[i] + 2.0 * s * t * b[i] + t * t * c[i]);
-                    (x * x + y * y).sqrt()
-                };
-                (add(a, add(b, c)), near(3.0 * FIVE.iter().map(|(t, weight)| weight * speed(*t)).sum::<f64>()))
+                let legs @ [a, b, c] = self.legs(family);
+                (add(a, add(b, c)), cubic_length(legs))
             }
             Family::PhQuintic => {
                 let curve = self.ph();
-                (curve.end, near(curve.length()))
+                // Of two that nearly coincide the other may be built between round ends.
+                let share = if self.from == 0.0 || self.to == 0.0 { SAME } else { 1e-5 };
+                (curve.end, near(curve.length(), share))
             }
             Family::TrigQuintic => {
                 let way = TrigWay::of(angle, self.from.abs(), self.to.abs());
-                way.map_or(([f64::NAN; 2], [f64::NAN; 2]), |way| (way.step(), near(way.length())))
+                way.map_or(([f64::NAN; 2], [f64::NAN; 2]), |way| (way.step(), near(way.length(), SAME)))
             }
-            Family::Clothoid => (self.step_left(family), near(self.length)),
+            Family::Clothoid => (self.step_left(family), near(self.length, SAME)),
             Family::Involute => {
                 let [x, y] = self.step_left(family);
                 ([x, y], [length([x, y]), x + y * (0.5 * angle).tan()])
@@ -357,12 +347,17 @@ mod tests {
     #[test]
     fn lengths_are_known_before_anything_is_built() {
         for family in Family::ALL {
+            let wide = match family {
+                Family::Involute => 0.2,
+                Family::Cubic | Family::PhQuintic => 2.1e-5,
+                _ => 1e-11,
+            };
             let mut built = 0;
-            for i in 0..400 {
-                let share = |n: u32| f64::from((i * n) % 401) / 401.0;
+            for i in 0..2000 {
+                let share = |n: u32| f64::from((i * n) % 2003) / 2003.0;
                 let (round, flat) = (0.1 + 0.9 * share(37), if i % 2 == 0 { 0.0 } else { 0.54 * share(101) });
-                let most = 0.95 * Spiral::most(family, round * flat, round).min(1.0);
-                let length = 2.0 * most * (0.1 + 0.9 * share(211)) / (round + round * flat);
+                let most = Spiral::most(family, round * flat, round).min(STRAIGHT);
+                let length = 2.0 * most * (0.05 + 0.94 * share(211)) / (round + round * flat);
                 let (from, to) = if i % 3 == 0 { (round, round * flat) } else { (round * flat, round) };
                 let spiral = Spiral { from, to, length };
                 let ([x, y], [least, most]) = spiral.measured(family);
@@ -371,7 +366,7 @@ mod tests {
                 built += 1;
                 let long = piece.length();
                 assert!(least <= long && long <= most, "{family:?}, {spiral:?}: {long} beyond {least} to {most}");
-                assert!(most - least < 0.2 * long && super::length(sub(end.at, [x, y])) < 1e-12 * long);
+                assert!(most - least < wide * long && super::length(sub(end.at, [x, y])) < 1e-12 * long);
             }
             println!("{family:?}: {built}");
             assert!(built > 100, "{family:?}: {built}");

@@ -3,7 +3,7 @@
 
 use super::super::piece::{Piece, TrigPart};
 use crate::curve::vector::{Vector, sub, turn, unit};
-use crate::curve::{TrigBezier, gauss};
+use crate::curve::{TrigBezier, arc_length};
 use crate::error::Result;
 use crate::family::trig_quintic::{SPIRAL, Scaling, Shape, flags};
 use crate::num::roots::find;
@@ -67,9 +67,9 @@ impl TrigWay {
         self.shape.theta - self.begins()
     }
 
-    /// How long the part is.
+    /// How long the part is, as [`Piece::length`] has it.
     pub(super) fn length(&self) -> f64 {
-        gauss(|t| [self.curve.jet(t).speed()], self.from, 1.0)[0]
+        arc_length(|t| self.curve.speed(t), self.from, 1.0)
     }
 
     /// From where the part begins to where it ends, for a start along (1, 0), turning left.
