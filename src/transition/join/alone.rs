@@ -57,7 +57,7 @@ fn turned(family: Family, angle: f64, length: f64) -> Option<[Spiral; 2]> {
 }
 
 fn link(family: Family, spiral: Spiral) -> Link {
-    Link::direct(family, spiral.from, spiral.to, spiral.length)
+    Link::direct(family, spiral.from, spiral.to, spiral.length).rated(family)
 }
 
 /// Around the corner of two lines.
@@ -90,6 +90,6 @@ pub(super) fn beside(family: Family, [a, b]: [Pose; 2], size: Size) -> Option<Ch
     let [first, second] = angles.map(|angle| turned(family, angle, length));
     let ([one, two], [three, four]) = (first?, second?);
     let end = add(corner(angles, length), scale(b.along(), leg(family, angles[1], length)));
-    let middle = Link::over_line(family, [two.from, three.to], [length; 2]);
+    let middle = Link::over_line(family, [two.from, three.to], [length; 2]).rated(family);
     Some(Chain::alone(a, end, vec![link(family, one), middle, link(family, four)]))
 }

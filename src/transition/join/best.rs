@@ -6,12 +6,13 @@ use super::measure::{Measures, bending_energy, greatest_curvature, greatest_rate
 use super::request::{Join, Objective, Request};
 use crate::error::Result;
 
-/// How many of the best ways by each objective are built. Curvatures are known, rates to a fifth for most.
+/// How many of the best ways by each objective are built. Curvatures are known, rates of cubics and PH quintics to a
+/// tenth, energies to a fifth for most.
 const BUILT: [(Objective, usize); 4] = [
     (Objective::Length, 1),
     (Objective::GreatestCurvature, 2),
     (Objective::GreatestRate, 6),
-    (Objective::BendingEnergy, 4),
+    (Objective::BendingEnergy, 8),
 ];
 
 /// Keeps the best join that is within the bounds.

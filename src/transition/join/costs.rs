@@ -8,7 +8,9 @@ use std::f64::consts::TAU;
 /// An arc of less than this, radians, is a rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// What a path costs, nearly: all but the length as if its spirals were clothoids.
+/// What a path costs, nearly: all but the length as if its spirals were clothoids, and the rate unless it is [`rated`].
+///
+/// [`rated`]: Known::rated
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Costs {
     /// At least and at most.
@@ -23,7 +25,7 @@ pub(super) struct Costs {
 
 impl Costs {
     pub(super) fn of(spiral: &Spiral, length: [f64; 2]) -> Costs {
-        let (curvature, rate) = (spiral.from.abs().max(spiral.to.abs()), spiral.rate());
+        let (curvature, rate) = (spiral.from.abs().max(spiral.to.abs()), spiral.mean_rate());
         Costs { length, curvature, rate, energy: spiral.bending_energy() }
     }
 
@@ -73,6 +75,11 @@ impl Known {
         let spiral = Spiral { from, to, length };
         let (step, lengths) = spiral.measured(family);
         Known { spiral, along: unit(spiral.angle()), step, costs: Costs::of(&spiral, lengths) }
+    }
+
+    /// With the greatest rate of the family's own curve, which takes as long as all the rest.
+    pub(super) fn rated(self, family: Family) -> Known {
+        Known { costs: Costs { rate: self.spiral.rate(family), ..self.costs }, ..self }
     }
 
     /// The same way back, and mirrored: it turns as it did.

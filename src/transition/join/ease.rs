@@ -50,7 +50,7 @@ impl Easing {
         let usual = USUAL.iter().copied().filter(|length| *length <= room);
         let lengths = usual.chain([room, 0.5 * room, LEAST].into_iter().filter(|length| *length >= SHORTEST));
         let easing = |length: f64| {
-            let before = (curvature != 0.0).then(|| Known::of(family, curvature, 0.0, length));
+            let before = (curvature != 0.0).then(|| Known::of(family, curvature, 0.0, length).rated(family));
             let at = before.map_or(at, |known| Pose {
                 at: add(at.at, turn(at.along(), known.step)),
                 direction: at.direction + known.spiral.angle(),
@@ -82,7 +82,7 @@ impl Easing {
     /// The turn that leads to a curvature and back.
     fn turn(&self, family: Family, k: f64, round: Round) -> Turn {
         let Easing { before, at, length, .. } = *self;
-        let known = (k != 0.0).then(|| Known::of(family, 0.0, k, length));
+        let known = (k != 0.0).then(|| Known::of(family, 0.0, k, length).rated(family));
         let spirals = known.map(|known| known.spiral);
         let all = [before, known, known].into_iter().flatten().map(|known| known.costs);
         Turn {

@@ -49,6 +49,11 @@ impl Link {
         Link { first: Known::of(family, from, 0.0, lengths[0]), second, line: 0.0 }
     }
 
+    /// With the rates of [`Known::rated`].
+    pub(super) fn rated(self, family: Family) -> Link {
+        Link { first: self.first.rated(family), second: self.second.map(|known| known.rated(family)), ..self }
+    }
+
     fn known(&self) -> impl Iterator<Item = Known> {
         [Some(self.first), self.second].into_iter().flatten()
     }

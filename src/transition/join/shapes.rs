@@ -112,7 +112,8 @@ struct Sought {
 
 impl Sought {
     fn chains(&self, nodes: [Node; 2]) -> Vec<Chain> {
-        let mut all: Vec<Chain> = self.direct(&nodes).iter().map(|link| Chain::new(&nodes, &[*link])).collect();
+        let mut all: Vec<Chain> =
+            self.direct(&nodes).iter().map(|link| Chain::new(&nodes, &[link.rated(self.family)])).collect();
         if let [Node::Line(a), Node::Line(b)] = nodes {
             let turned = b.direction - a.direction;
             let corner = meet([Locus::Line(a), Locus::Line(b)])[0].filter(|_| !parallel(turned));
@@ -144,12 +145,13 @@ impl Sought {
 
     /// What may lead from one curvature to another, not both 0.
     fn links(&self, from: f64, to: f64) -> Vec<Link> {
-        let direct = || lengths(from, to).map(|length| Link::direct(self.family, from, to, length));
+        let rated = |link: Link| link.rated(self.family);
+        let direct = || lengths(from, to).map(|length| rated(Link::direct(self.family, from, to, length)));
         if from == 0.0 || to == 0.0 {
             return direct().collect();
         }
         let over = lengths(from, 0.0).zip(lengths(0.0, to));
-        let over = over.map(|(a, b)| Link::over_line(self.family, [from, to], [a, b]));
+        let over = over.map(|(a, b)| rated(Link::over_line(self.family, [from, to], [a, b])));
         if Spiral::between_round(self.family, from, to) { direct().chain(over).collect() } else { over.collect() }
     }
 
@@ -230,7 +232,7 @@ impl Sought {
                 };
                 let most = 2.0 * most / (bend * long);
                 let factor = root(|x| length(stretched(x).hop()) - far, SHORTEST / short, most);
-                factor.map(|factor| add_chains([first, stretched(factor)]));
+                factor.map(|factor| add_chains([first, stretched(factor).rated(self.family)]));
             }
             [Node::Line(_), Node::Line(_)] => {}
         }

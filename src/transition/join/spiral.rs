@@ -11,7 +11,7 @@ use super::super::clothoid::{Clothoid, clothoid_step};
 use super::super::cubic::chosen_spiral;
 use super::super::involute::involute_between;
 use super::super::ph_quintic;
-use super::super::piece::{Arc, Cubic, InvoluteBetween, Line, Piece, TrigPart};
+use super::super::piece::{Arc, Cubic, InvoluteBetween, Line, Piece, TrigPart, of_legs};
 use super::super::placement::Ends;
 use super::super::segment::{Base, Request, Target, add_segment};
 use super::super::turn::Turn;
@@ -19,7 +19,7 @@ use super::lengths::{cubic_length, near};
 use super::request::Family;
 use super::trig::{STRAIGHT, TrigWay};
 use crate::curve::vector::{Vector, add, length, scale, sub, turn, unit};
-use crate::curve::{CubicBezier, PhQuintic};
+use crate::curve::{CubicBezier, Jet, PhQuintic};
 use crate::error::Result;
 use crate::family::reach::{Kind, Level};
 use std::f64::consts::PI;
@@ -58,8 +58,30 @@ impl Spiral {
     }
 
     /// |dκ/ds|, were it a clothoid.
-    pub(super) fn rate(&self) -> f64 {
+    pub(super) fn mean_rate(&self) -> f64 {
         (self.to - self.from).abs() / self.length
+    }
+
+    /// The greatest |dκ/ds|, nearly: of cubics and PH quintics at six points, closer together where they are round,
+    /// since one that turns far hurries there; of the others as if they were clothoids.
+    pub(super) fn rate(&self, family: Family) -> f64 {
+        let greatest = |jet: &dyn Fn(f64) -> Jet| {
+            let places = [0.0, 0.5, 0.75, 0.875, 0.9375, 1.0];
+            let rounder = self.to.abs() > self.from.abs();
+            let rates = places.map(|t| jet(if rounder { t } else { 1.0 - t }).curvature_ds().abs());
+            rates.into_iter().fold(0.0, f64::max)
+        };
+        match family {
+            Family::Cubic => {
+                let legs = self.legs(family);
+                greatest(&|t| of_legs(&legs, t))
+            }
+            Family::PhQuintic => {
+                let curve = self.ph();
+                greatest(&|t| curve.jet(t))
+            }
+            Family::Involute | Family::TrigQuintic | Family::Clothoid => self.mean_rate(),
+        }
     }
 
     /// ∫ κ² ds, were it a clothoid.
@@ -341,6 +363,7 @@ pub(super) fn pinned(piece: Piece, to: Vector) -> Result<Piece> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::measure::greatest_rate;
     use super::*;
 
     /// What is built is as long as was said before.
@@ -370,6 +393,28 @@ mod tests {
             }
             println!("{family:?}: {built}");
             assert!(built > 100, "{family:?}: {built}");
+        }
+    }
+
+    /// Up to the greatest angles: the greatest rates are known to a tenth, so that the least of them is built.
+    #[test]
+    fn rates_are_known_before_anything_is_built() {
+        for family in [Family::Cubic, Family::PhQuintic] {
+            let mut built = 0;
+            for i in 0..400 {
+                let share = |n: u32| f64::from((i * n) % 401) / 401.0;
+                let (round, flat) = (0.1 + 0.9 * share(37), if i % 2 == 0 { 0.0 } else { 0.54 * share(101) });
+                let angle = Spiral::most(family, round * flat, round) * (0.1 + 0.9 * share(211));
+                let length = 2.0 * angle / (round + round * flat);
+                let (from, to) = if i % 3 == 0 { (round, round * flat) } else { (round * flat, round) };
+                let spiral = Spiral { from, to, length };
+                let start = Pose { at: [0.0, 0.0], direction: 0.0 };
+                let Some((piece, _)) = spiral.piece(family, start, 1.0).unwrap() else { continue };
+                built += 1;
+                let known = spiral.rate(family) / greatest_rate(&[piece]);
+                assert!((0.9..1.0 + 1e-9).contains(&known), "{family:?}, {spiral:?}: {known}");
+            }
+            assert!(built > 300, "{family:?}: {built}");
         }
     }
 }

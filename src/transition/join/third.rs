@@ -41,7 +41,7 @@ pub(super) struct Between {
 
 impl Third {
     pub(super) fn new(family: Family) -> Third {
-        let exit = Known::of(family, 1.0, 0.0, LENGTH);
+        let exit = Known::of(family, 1.0, 0.0, LENGTH).rated(family);
         let reach = SIDES.map(|side| exit.to(side).reach());
         Third { angle: exit.spiral.angle(), spirals: exit.costs.and(exit.costs), reach }
     }

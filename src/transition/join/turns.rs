@@ -127,7 +127,7 @@ impl Shapes {
         ALL[family as usize].get_or_init(|| {
             let third = Third::new(family);
             let rung = |(peak, length): (f64, f64)| {
-                let entries = SIDES.map(|side| Known::of(family, 0.0, peak, length).to(side));
+                let entries = SIDES.map(|side| Known::of(family, 0.0, peak, length).rated(family).to(side));
                 let exits = entries.map(|entry| {
                     let known = entry.back();
                     let reach = known.reach();
@@ -164,7 +164,7 @@ pub(super) fn turns(family: Family, at: Pose, curvature: f64, rungs: &[Rung]) ->
         let round = Round { spirals: spirals.length[0], centre, reach, along: left, bend: exit.from };
         all.push(Turn { before, curvature: exit.from, heading, exit: Some(exit), spirals, round, hops });
     };
-    let known = |from: f64, to: f64, length: f64| Known::of(family, from, to, length);
+    let known = |from: f64, to: f64, length: f64| Known::of(family, from, to, length).rated(family);
     let mut to_line: Option<Known> = None;
     for Rung { entries, exits } in rungs {
         let Spiral { to: peak, length, .. } = entries[0].spiral;
