@@ -143,6 +143,11 @@ impl InvoluteBetween {
         self.curve.at_length(share).f
     }
 
+    /// dκ/ds where a share, from 0 to 1, of its length is behind.
+    pub fn rate_at_length(&self, share: f64) -> f64 {
+        self.curve.rate_at_length(share) / self.unit().powi(2)
+    }
+
     /// Half the chord, the unit of the curve's own frame.
     fn unit(&self) -> f64 {
         length(self.frame.half_chord)

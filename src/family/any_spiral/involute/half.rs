@@ -128,6 +128,16 @@ impl Half {
         [speed, speed * 16.0 * f64::EPSILON * terms / size]
     }
 
+    /// Size of dκ/ds. Möbius maps keep `κ' ds²`, and for the involute that is `dt²/t`: its curvature is -1/t, and its
+    /// speed t. So it is `(dt/ds)²/t`, with `dt = s(1 + w) dy` and `t = (s + T)` times what is seen. It has twice the
+    /// roundings of the speed.
+    pub(super) fn rate(&self, u: f64) -> f64 {
+        let Seen { w, t, .. } = self.seen(u);
+        let [speed, _] = self.speed(u, 0.0);
+        let unit = self.theta / self.reach;
+        unit * (self.far / t) * ((1.0 + w) / speed).powi(2)
+    }
+
     /// Direction at u, followed from the end.
     #[cfg(test)]
     pub(super) fn direction(&self, u: f64) -> f64 {

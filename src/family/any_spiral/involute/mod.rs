@@ -16,6 +16,8 @@
 
 mod half;
 mod numbers;
+#[cfg(test)]
+mod rates;
 mod solve;
 #[cfg(test)]
 mod steps;
