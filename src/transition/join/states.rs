@@ -65,7 +65,7 @@ impl<'r> Ways<'r> {
         let given = [(here, from.curvature / most), (there, -to.curvature / most)];
         let apart = length(across);
         let rungs = Shapes::of(family).rungs(apart);
-        let turns = given.map(|(at, k)| turns(family, at, k, rungs));
+        let turns = given.map(|(at, k)| turns(family, at, k, rungs, !shortest));
         // What is too long is not built: each takes the proofs of a few spirals.
         let longest = request.longest * most;
         let mut ways = Ways { request, ends: [from, to], turns, all: Vec::new(), shortest, most: longest };

@@ -146,8 +146,9 @@ impl Shapes {
     }
 }
 
-/// All turns from a pose with a curvature, both in units of the least radius; the shortest spirals come first.
-pub(super) fn turns(family: Family, at: Pose, curvature: f64, rungs: &[Rung]) -> Vec<Turn> {
+/// All turns from a pose with a curvature, both in units of the least radius; the shortest spirals come first. The
+/// rates are [`Known::rated`] where they are asked for.
+pub(super) fn turns(family: Family, at: Pose, curvature: f64, rungs: &[Rung], rated: bool) -> Vec<Turn> {
     let mut all = Vec::with_capacity(5 * rungs.len());
     let mut add_turn = |before: [Option<Known>; 2], exit: Exit| {
         let Exit { known: Known { spiral: exit, costs, along: end, .. }, reach, hops } = exit;
@@ -164,7 +165,10 @@ pub(super) fn turns(family: Family, at: Pose, curvature: f64, rungs: &[Rung]) ->
         let round = Round { spirals: spirals.length[0], centre, reach, along: left, bend: exit.from };
         all.push(Turn { before, curvature: exit.from, heading, exit: Some(exit), spirals, round, hops });
     };
-    let known = |from: f64, to: f64, length: f64| Known::of(family, from, to, length).rated(family);
+    let known = |from: f64, to: f64, length: f64| {
+        let known = Known::of(family, from, to, length);
+        if rated { known.rated(family) } else { known }
+    };
     let mut to_line: Option<Known> = None;
     for Rung { entries, exits } in rungs {
         let Spiral { to: peak, length, .. } = entries[0].spiral;
