@@ -7,7 +7,7 @@ use super::request::{Join, Objective, Request};
 use crate::error::Result;
 
 /// How many of the best ways by each objective are built. Curvatures are known, rates of cubics and PH quintics to a
-/// tenth, energies to a fifth for most.
+/// tenth; the rest is what clothoids would have.
 const BUILT: [(Objective, usize); 4] = [
     (Objective::Length, 1),
     (Objective::GreatestCurvature, 2),

@@ -222,6 +222,15 @@ impl<N: Rounded> End<'_, N> {
     }
 }
 
+/// The datum, or its mirror image, where the rules ask for a curve: Q < 0 and ω > 0.
+#[cfg(test)]
+pub(super) fn asking(datum: Datum, half_turns: u32) -> Option<Datum> {
+    let datum = if datum.k1 < datum.k2 { datum } else { datum.mirrored() };
+    let omega = datum.omega(128).approx() + std::f64::consts::PI * f64::from(half_turns);
+    let asks = datum.k1 != datum.k2 && omega > 1e-320 && datum.q(640).sign() == Some(Less);
+    asks.then_some(datum)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -239,12 +248,7 @@ mod tests {
 
     impl Compared {
         fn case(&mut self, datum: Datum, half_turns: u32) {
-            // Where the rules ask for a curve: Q < 0 and ω > 0.
-            let datum = if datum.k1 < datum.k2 { datum } else { datum.mirrored() };
-            let omega = datum.omega(128).approx() + PI * f64::from(half_turns);
-            if datum.k1 == datum.k2 || omega <= 1e-320 || datum.q(640).sign() != Some(Less) {
-                return;
-            }
+            let Some(datum) = asking(datum, half_turns) else { return };
             self.all += 1;
             let Some((twins, evaluations)) = Numbers::by_twins(&datum, half_turns) else { return };
             let ((intervals, _), _) = Numbers::by_intervals(&datum, half_turns).expect("enough bits");

@@ -4,7 +4,7 @@
 #[cfg(test)]
 mod tests {
     use super::super::super::Datum;
-    use super::super::numbers::{Map, Numbers, polar};
+    use super::super::numbers::{Map, Numbers, asking, polar};
     use crate::curve::vector::length;
     use crate::noise::Noise;
     use crate::num::{Interval, climb};
@@ -89,11 +89,7 @@ mod tests {
 
     impl Compared {
         fn case(&mut self, datum: Datum, half_turns: u32) {
-            let datum = if datum.k1 < datum.k2 { datum } else { datum.mirrored() };
-            let omega = datum.omega(128).approx() + PI * f64::from(half_turns);
-            if datum.k1 == datum.k2 || omega <= 1e-320 || datum.q(640).sign() != Some(Less) {
-                return;
-            }
+            let Some(datum) = asking(datum, half_turns) else { return };
             let numbers = Numbers::by_intervals(&datum, half_turns).unwrap().0.0;
             for (which, half) in numbers.halves.iter().enumerate() {
                 for u in [0.0, 1e-9, 0.01, 0.3, 0.77, 1.0] {
